@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+# How every target of the project is made: one library a room, one test program a room.
+
+add_library(lamina_options INTERFACE)
+target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
+# -ffp-contract=off: the same expression must round in the same way wherever it is compiled.
+target_compile_definitions(lamina_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
+if(LAMINA_WARNINGS_AS_ERRORS)
+    target_compile_options(lamina_options INTERFACE -Werror)
+endif()
+if(LAMINA_SANITIZE)
+    target_compile_options(lamina_options INTERFACE -fsanitize=${LAMINA_SANITIZE}
+        -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(lamina_options INTERFACE -fsanitize=${LAMINA_SANITIZE})
+endif()
+
+# lamina_room(NAME SOURCES ... LINK rooms and libraries ...)
+function(lamina_room name)
+    cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
+    add_library(lamina_${name} STATIC ${ROOM_SOURCES})
+    target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(lamina_${name} PUBLIC lamina_options ${ROOM_LINK})
+endfunction()
+
+# lamina_test(ROOM SOURCES ... LINK ...): the program test_ROOM, registered test by test with CTest.
+function(lamina_test name)
+    cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})
+    add_executable(test_${name} ${TEST_SOURCES})
+    target_link_libraries(test_${name} PRIVATE ${TEST_LINK} GTest::gtest_main)
+    target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_compile_definitions(test_${name} PRIVATE
+        LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAMINA_BINARY="$<TARGET_FILE:lamina>")
+    add_dependencies(test_${name} lamina)
+    gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+        PROPERTIES TIMEOUT 300)
+endfunction()

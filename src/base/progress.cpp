@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace lamina {
+namespace {
+
+constexpr double redraw_seconds = 0.5;
+bool quiet_process = false;
+
+}  // namespace
+
+Progress::Progress(std::string label, std::int64_t total)
+    : label_(std::move(label)), total_(std::max<std::int64_t>(total, 1)),
+      visible_(!quiet_process && isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+    if (drawn_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::set_quiet(bool quiet) { quiet_process = quiet; }
+
+void Progress::advance(std::int64_t steps) {
+    const std::int64_t done = done_ += steps;
+    if (!visible_) return;
+    const std::unique_lock lock(drawing_, std::try_to_lock);
+    if (!lock || watch_.seconds() - last_drawn_ < redraw_seconds) return;
+    last_drawn_ = watch_.seconds();
+    draw(done);
+}
+
+void Progress::draw(std::int64_t done) {
+    drawn_ = true;
+    const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
+    const double left = share > 0 ? last_drawn_ * (1 - share) / share : 0;
+    fmt::print(stderr, "\r\033[K{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left);
+    std::fflush(stderr);
+}
+
+}  // namespace lamina

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opacity, extinction and optical depth (NUMERICS section 1; LaMar 2004, equations 1 and 2).
+#pragma once
+
+#include <cmath>
+
+namespace lamina {
+
+// Extinction per world unit that stands for "opaque" (opacity 1 has no finite extinction): this over unit_length.
+inline constexpr double opaque_optical_depth = 1e7;
+
+inline double opacity_from_depth(double optical_depth) { return -std::expm1(-optical_depth); }
+
+// `opacity` in [0, 1] over `unit_length` > 0 world units, as extinction per world unit.
+inline double extinction_from_opacity(double opacity, double unit_length) {
+    return (opacity < 1 ? -std::log1p(-opacity) : opaque_optical_depth) / unit_length;
+}
+
+}  // namespace lamina

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/camera.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+// Unit vector of v, scaled first so that tiny and huge cameras neither underflow nor overflow; zero for zero.
+glm::dvec3 direction_of(const glm::dvec3& v) {
+    const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    return scale > 0 ? glm::normalize(v / scale) : glm::dvec3(0);
+}
+
+}  // namespace
+
+View::View(const Camera& camera, int width_pixels, int height_pixels)
+    : projection(camera.projection), width(width_pixels), height(height_pixels), eye(camera.eye) {
+    forward = direction_of(camera.center - camera.eye);
+    if (forward == glm::dvec3(0)) fail("camera: eye and center are the same point");
+    const glm::dvec3 side = glm::cross(forward, direction_of(camera.up));
+    // Below 1e-9 the rounding of eye, center and up would decide which way is up.
+    if (glm::length(side) < 1e-9) fail("camera.up: is zero or parallel to the view direction");
+    right = glm::normalize(side);
+    up = glm::cross(right, forward);
+    pixel = projection == Projection::perspective
+                ? 2 * std::tan(0.5 * camera.fov_y * radians_per_degree) / height
+                : camera.height / height;
+}
+
+View::Ray View::ray(double column, double row) const {
+    const glm::dvec3 offset = x(column) * right + y(row) * up;
+    if (projection == Projection::perspective) return {eye, forward + offset};
+    return {eye + offset, forward};
+}
+
+Camera turned(const Camera& camera, double degrees) {
+    const glm::dvec3 axis = direction_of(camera.up);
+    const glm::dvec3 arm = camera.eye - camera.center;
+    const double angle = degrees * radians_per_degree;
+    Camera result = camera;  // Rodrigues' rotation
+    result.eye = camera.center + std::cos(angle) * arm + std::sin(angle) * glm::cross(axis, arm) +
+                 (1 - std::cos(angle)) * glm::dot(axis, arm) * axis;
+    return result;
+}
+
+}  // namespace lamina

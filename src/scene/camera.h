@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace lamina {
+
+enum class Projection { perspective, orthographic };
+
+struct Camera {
+    Projection projection = Projection::perspective;
+    glm::dvec3 eye{0, 0, 1};
+    glm::dvec3 center{0};
+    glm::dvec3 up{0, 1, 0};
+    double fov_y = 40;   // degrees, perspective
+    double height = 1;   // world units, orthographic
+};
+
+// The viewing rays of an image: pixel (i, j), row 0 at the top, has its centre at image-plane coordinates x(i), y(j).
+// Along a ray the parameter is eye-space depth z (distance from the eye's plane), so the direction's forward component
+// is 1 and a ray's point is origin + z * direction. No near plane: z starts at 0.
+struct View {
+    View(const Camera& camera, int width_pixels, int height_pixels);  // throws Error when the camera is singular
+
+    struct Ray {
+        glm::dvec3 origin, direction;  // |direction| >= 1: world length per unit of z
+    };
+    Ray ray(double column, double row) const;  // pixel (i, j): ray(i, j); fractions allowed
+
+    double x(double column) const { return (column + 0.5 - 0.5 * width) * pixel; }
+    double y(double row) const { return (0.5 * height - (row + 0.5)) * pixel; }
+
+    Projection projection;
+    int width, height;
+    double pixel;  // edge of a pixel: at z = 1 (perspective), in world units (orthographic)
+    glm::dvec3 eye, right, up, forward;  // orthonormal
+};
+
+// The camera with its eye turned by `degrees` about the axis `up` through `center` (lamina render --frames).
+Camera turned(const Camera& camera, double degrees);
+
+}  // namespace lamina

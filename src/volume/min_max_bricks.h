@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "volume/volume.h"
+
+namespace lamina {
+
+// Range of the finite scalars in a part of a volume; lo > hi where there are none.
+struct ValueRange {
+    double lo = 1;
+    double hi = 0;
+    bool empty() const { return lo > hi; }
+};
+
+// The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation inside the brick can
+// touch (its own samples and the next one along each axis), so neighbours share their border samples.
+struct MinMaxBricks {
+    static constexpr std::int64_t edge = 16;
+
+    std::array<std::int64_t, 3> count{0, 0, 0};  // bricks along each axis
+    std::vector<ValueRange> ranges;              // x fastest
+    ValueRange whole;
+    std::int64_t non_finite = 0;  // NaN and infinite samples in the volume
+
+    const ValueRange& at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return ranges[static_cast<std::size_t>((z * count[1] + y) * count[0] + x)];
+    }
+};
+
+MinMaxBricks measure_bricks(const Volume& volume);  // parallel
+
+}  // namespace lamina
