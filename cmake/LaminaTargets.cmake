@@ -29,9 +29,7 @@ function(lamina_test name)
     add_executable(test_${name} ${TEST_SOURCES})
     target_link_libraries(test_${name} PRIVATE ${TEST_LINK} GTest::gtest_main)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-    target_compile_definitions(test_${name} PRIVATE
-        LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAMINA_BINARY="$<TARGET_FILE:lamina>")
-    add_dependencies(test_${name} lamina)
+    target_compile_definitions(test_${name} PRIVATE LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
         PROPERTIES TIMEOUT 300)
 endfunction()

@@ -10,14 +10,15 @@ namespace lamina {
 
 enum class Centering { node, cell };
 
-// Where the samples of a regular grid lie in the world. "Index space" has sample (i, j, k) at (i, j, k); the box that
-// is rendered spans the samples (`node`) or whole voxels (`cell`: half a voxel more at each end, where the border
-// value repeats), axis by axis.
+// Where the samples of a regular grid lie in the world. "Index space" has sample (i, j, k) at (i,
+// j, k); the box that is rendered spans the samples (`node`) or whole voxels (`cell`: half a voxel
+// more at each end, where the border value repeats), axis by axis.
 struct Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
     std::array<Centering, 3> centering{Centering::cell, Centering::cell, Centering::cell};
-    glm::dvec3 origin{0};                                               // world position of sample (0, 0, 0)
-    std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0}, glm::dvec3{0, 0, 1}};  // orthogonal
+    glm::dvec3 origin{0};  // world position of sample (0, 0, 0)
+    std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
+                                   glm::dvec3{0, 0, 1}};  // orthogonal
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // of the box, index space

@@ -16,8 +16,9 @@ struct ValueRange {
     bool empty() const { return lo > hi; }
 };
 
-// The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation inside the brick can
-// touch (its own samples and the next one along each axis), so neighbours share their border samples.
+// The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation
+// inside the brick can touch (its own samples and the next one along each axis), so neighbours
+// share their border samples.
 struct MinMaxBricks {
     static constexpr std::int64_t edge = 16;
 

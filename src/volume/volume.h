@@ -15,7 +15,8 @@ enum class SampleType { uint8, int16, uint16, float32 };
 std::size_t bytes_of(SampleType type);
 const char* name_of(SampleType type);  // "uint8", "int16", "uint16", "float"
 
-// Scalars on a regular grid, in the file's own type, x fastest. Immutable once made; copies share the samples.
+// Scalars on a regular grid, in the file's own type, x fastest. Immutable once made; copies share
+// the samples.
 class Volume {
   public:
     // `samples`: grid.sample_count() values of `type` in native byte order.
@@ -29,14 +30,19 @@ class Volume {
         return static_cast<std::size_t>(grid_.sample_count()) * bytes_of(type_);
     }
 
-    // Calls visitor(pointer to the first sample), typed: std::uint8_t, std::int16_t, std::uint16_t or float.
+    // Calls visitor(pointer to the first sample), typed: std::uint8_t, std::int16_t, std::uint16_t
+    // or float.
     template <typename Visitor>
     decltype(auto) visit(Visitor&& visitor) const {
         switch (type_) {
-            case SampleType::uint8: return visitor(static_cast<const std::uint8_t*>(data()));
-            case SampleType::int16: return visitor(static_cast<const std::int16_t*>(data()));
-            case SampleType::uint16: return visitor(static_cast<const std::uint16_t*>(data()));
-            default: return visitor(static_cast<const float*>(data()));
+            case SampleType::uint8:
+                return visitor(static_cast<const std::uint8_t*>(data()));
+            case SampleType::int16:
+                return visitor(static_cast<const std::int16_t*>(data()));
+            case SampleType::uint16:
+                return visitor(static_cast<const std::uint16_t*>(data()));
+            default:
+                return visitor(static_cast<const float*>(data()));
         }
     }
 

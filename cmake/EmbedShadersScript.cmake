@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# Run by embed_shaders: writes OUTPUT from the shaders that LIST names, relative to DIRECTORY.
+include(${LIST})
+set(text "// Generated from shaders/ by cmake/EmbedShaders.cmake.\n")
+string(APPEND text "#include \"gl/shader_files.h\"\n\nnamespace lamina::gl {\nnamespace {\n\n")
+string(APPEND text "constexpr EmbeddedShader shaders[] = {\n")
+foreach(shader IN LISTS shaders)
+    file(READ ${DIRECTORY}/${shader} content)
+    string(FIND "${content}" ")glsl\"" end_mark)
+    if(NOT end_mark EQUAL -1)
+        message(FATAL_ERROR "${DIRECTORY}/${shader}: contains )glsl\", which ends a C++ raw string")
+    endif()
+    string(APPEND text "    {\"${shader}\", R\"glsl(${content})glsl\"},\n")
+endforeach()
+string(APPEND text "};\n\n}  // namespace\n\n")
+string(APPEND text "std::span<const EmbeddedShader> embedded_shaders() { return shaders; }\n\n")
+string(APPEND text "}  // namespace lamina::gl\n")
+file(WRITE ${OUTPUT} "${text}")

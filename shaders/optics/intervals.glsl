@@ -1,0 +1,21 @@
+// The linear intervals of the transfer function over scalars normalised to [0, 1]; layout: slicing/shader_intervals.h.
+uniform sampler2D intervals;
+uniform sampler2D interval_starts;
+
+// The interval that holds `scalar`; at a step's very value the upper one (optics/transfer_function.h).
+int find_interval(float scalar) {
+#if INTERVALS == 1
+    return 0;
+#else
+    int cell = min(int(scalar * 1024.0), 1023);
+    int i = int(texelFetch(interval_starts, ivec2(cell, 0), 0).r);
+    while (i + 1 < INTERVALS && scalar >= texelFetch(intervals, ivec2(i + 1, 0), 0).x) ++i;
+    return i;
+#endif
+}
+
+// Where `scalar` lies in its interval: (share of the interval, place.zw = table nodes).
+vec3 place_in_interval(int interval, float scalar) {
+    vec4 place = texelFetch(intervals, ivec2(interval, 0), 0);
+    return vec3(clamp((scalar - place.x) * place.y, 0.0, 1.0), place.zw);
+}

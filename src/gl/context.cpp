@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/context.h"
+
+#include <fmt/ranges.h>
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/check.h"
+#include "gl/context_backends.h"
+#include "gl/filter_probe.h"
+
+namespace lamina::gl {
+namespace {
+
+int contexts_alive = 0;
+
+int integer(unsigned name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+int largest_render_target() {
+    GLint viewport[2] = {0, 0};
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    return std::min({integer(GL_MAX_TEXTURE_SIZE), integer(GL_MAX_FRAMEBUFFER_WIDTH),
+                     integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
+}
+
+// Tells software that comes through a device that claims to be hardware (kernel drivers without a
+// GPU).
+bool is_software_renderer(const std::string& renderer) {
+    return renderer.find("llvmpipe") != std::string::npos ||
+           renderer.find("softpipe") != std::string::npos;
+}
+
+const char* advice(ContextKind kind) {
+    switch (kind) {
+        case ContextKind::osmesa:
+            return "install libosmesa6, or pass --context egl";
+        case ContextKind::egl:
+            return "install libegl1 and libegl-mesa0 or the GPU's own driver, or pass --context "
+                   "osmesa";
+        default:
+            return "install libosmesa6, or libegl1 with libegl-mesa0 or the GPU's own driver";
+    }
+}
+
+}  // namespace
+
+std::unique_ptr<Context> Context::create(ContextKind kind) {
+    using Attempt = std::function<std::unique_ptr<Context>()>;
+    const Attempt hardware = [] { return create_egl_context(EglDevices::hardware); };
+    const Attempt egl = [] { return create_egl_context(EglDevices::any); };
+    const Attempt osmesa = create_osmesa_context;
+
+    std::vector<Attempt> attempts{hardware, osmesa, egl};
+    if (kind == ContextKind::osmesa) attempts = {osmesa};
+    if (kind == ContextKind::egl) attempts = {egl};
+
+    std::vector<std::string> reasons;
+    for (const Attempt& attempt : attempts) {
+        try {
+            return attempt();
+        } catch (const Error& error) {
+            const std::string reason = error.what();
+            if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end()) {
+                reasons.push_back(reason);
+            }
+        }
+    }
+    fail("no OpenGL 4.5 core context ({}): {}", fmt::join(reasons, "; "), advice(kind));
+}
+
+Context::Context() {
+    assert(contexts_alive == 0);
+    ++contexts_alive;
+}
+
+Context::~Context() {
+    --contexts_alive;
+}
+
+void Context::initialise(LoadFunction load, const char* interface_name, bool software) {
+    const int version = gladLoadGL(load);
+    const int major = GLAD_VERSION_MAJOR(version);
+    const int minor = GLAD_VERSION_MINOR(version);
+    if (major < 4 || (major == 4 && minor < 5)) {
+        fail("{}: the context has OpenGL {}.{}, 4.5 is needed", interface_name, major, minor);
+    }
+    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    capabilities_.renderer = std::string(interface_name) + ": " + renderer;
+    capabilities_.software = software || is_software_renderer(renderer);
+    capabilities_.max_texture_size = largest_render_target();
+    capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
+
+    // Only errors are logged, for check(); a dither of the driver's own would spoil every
+    // fixed-point target.
+    glEnable(GL_DEBUG_OUTPUT);
+    glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    glDisable(GL_DITHER);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    check("setting up the context");
+
+    capabilities_.exact_float_filter = measure_float_filter_error() <= 1e-6;
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "scene/capabilities.h"
+
+namespace lamina::gl {
+
+// automatic: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
+// egl: a GPU where there is one, else a software renderer.
+enum class ContextKind { automatic, osmesa, egl };
+
+// An OpenGL 4.5 core context without a window or a display server, current in the thread that made
+// it. Only one is alive at a time. Every object of this room belongs to it and must be gone before
+// it.
+class Context {
+  public:
+    // An Error that says what was tried, why each attempt failed, and what to install or to pass.
+    static std::unique_ptr<Context> create(ContextKind kind);
+
+    virtual ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    const Capabilities& capabilities() const { return capabilities_; }
+
+  protected:
+    using LoadFunction = void (*(*)(const char* name))();
+
+    Context();
+
+    // To be called once the context is current: loads OpenGL's functions, fills the capabilities
+    // and sets the state that the whole project relies on. `interface_name` goes in front of
+    // GL_RENDERER.
+    void initialise(LoadFunction load, const char* interface_name, bool software);
+
+  private:
+    Capabilities capabilities_;
+};
+
+}  // namespace lamina::gl

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// EGL by dlopen: the declarations of its headers are used for their types only, nothing is linked.
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/context_backends.h"
+#include "gl/shared_library.h"
+
+namespace lamina::gl {
+namespace {
+
+struct Egl {
+    SharedLibrary library{"libEGL.so.1"};
+    decltype(&eglGetProcAddress) get_proc_address =
+        library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+    decltype(&eglGetError) get_error = library.function<decltype(&eglGetError)>("eglGetError");
+    decltype(&eglQueryString) query_string =
+        library.function<decltype(&eglQueryString)>("eglQueryString");
+    decltype(&eglInitialize) initialise =
+        library.function<decltype(&eglInitialize)>("eglInitialize");
+    decltype(&eglTerminate) terminate = library.function<decltype(&eglTerminate)>("eglTerminate");
+    decltype(&eglBindAPI) bind_api = library.function<decltype(&eglBindAPI)>("eglBindAPI");
+    decltype(&eglCreateContext) create_context =
+        library.function<decltype(&eglCreateContext)>("eglCreateContext");
+    decltype(&eglDestroyContext) destroy_context =
+        library.function<decltype(&eglDestroyContext)>("eglDestroyContext");
+    decltype(&eglMakeCurrent) make_current =
+        library.function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
+    // Extensions: null where EGL lacks them.
+    PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
+        extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    PFNEGLQUERYDEVICESEXTPROC query_devices =
+        extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+    PFNEGLQUERYDEVICESTRINGEXTPROC query_device_string =
+        extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+
+    template <typename Function>
+    Function extension(const char* name) const {
+        return reinterpret_cast<Function>(get_proc_address(name));
+    }
+};
+
+const Egl& egl() {
+    // Mesa's loader reports every driver that it tries in vain on stderr; failures reach the user
+    // through Error.
+    setenv("EGL_LOG_LEVEL", "fatal", 0);
+    static const Egl loaded;
+    return loaded;
+}
+
+bool has_word(const char* words, std::string_view word) {
+    std::string_view rest = words ? words : "";
+    while (!rest.empty()) {
+        const std::size_t end = rest.find(' ');
+        if (rest.substr(0, end) == word) return true;
+        rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+    }
+    return false;
+}
+
+std::string last_error() {
+    static constexpr const char* names[] = {
+        "EGL_SUCCESS",       "EGL_NOT_INITIALIZED",     "EGL_BAD_ACCESS",
+        "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",       "EGL_BAD_CONFIG",
+        "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
+        "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP",   "EGL_BAD_NATIVE_WINDOW",
+        "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",         "EGL_CONTEXT_LOST"};
+    const EGLint code = egl().get_error();
+    const std::size_t index = static_cast<std::size_t>(code - EGL_SUCCESS);
+    return index < std::size(names) ? names[index] : fmt::format("error {:#x}", code);
+}
+
+// A way to a display: a device or, with no device, whatever Mesa finds without a display server.
+struct Route {
+    std::string name;
+    EGLenum platform;
+    void* native;
+    bool software;
+};
+
+std::vector<Route> device_routes() {
+    std::vector<EGLDeviceEXT> devices(64);
+    EGLint count = 0;
+    if (!egl().query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count))
+        count = 0;
+
+    std::vector<Route> hardware, software;
+    for (EGLint i = 0; i < count; ++i) {
+        const char* extensions = egl().query_device_string(devices[i], EGL_EXTENSIONS);
+        const bool is_software = has_word(extensions, "EGL_MESA_device_software");
+        std::vector<Route>& routes = is_software ? software : hardware;
+        routes.push_back(
+            {fmt::format("device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], is_software});
+    }
+    hardware.insert(hardware.end(), software.begin(), software.end());
+    return hardware;
+}
+
+// Hardware first.
+std::vector<Route> all_routes() {
+    std::vector<Route> routes;
+    const char* extensions = egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (!egl().get_platform_display) fail("EGL_EXT_platform_base is missing");
+    if (has_word(extensions, "EGL_EXT_platform_device") && egl().query_devices &&
+        egl().query_device_string) {
+        routes = device_routes();
+    }
+    if (has_word(extensions, "EGL_MESA_platform_surfaceless")) {
+        routes.push_back({"surfaceless", EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, true});
+    }
+    return routes;
+}
+
+class EglContext : public Context {
+  public:
+    ~EglContext() override {
+        if (display_ == EGL_NO_DISPLAY) return;
+        egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT) egl().destroy_context(display_, context_);
+        egl().terminate(display_);
+    }
+
+    void open(const Route& route) {
+        display_ = egl().get_platform_display(route.platform, route.native, nullptr);
+        if (display_ == EGL_NO_DISPLAY) fail("no display: {}", last_error());
+        if (!egl().initialise(display_, nullptr, nullptr)) fail("eglInitialize: {}", last_error());
+        const char* extensions = egl().query_string(display_, EGL_EXTENSIONS);
+        for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"}) {
+            if (!has_word(extensions, needed)) fail("{} is missing", needed);
+        }
+        if (!egl().bind_api(EGL_OPENGL_API)) fail("no desktop OpenGL: {}", last_error());
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_NONE};
+        context_ = egl().create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        if (context_ == EGL_NO_CONTEXT) fail("it refused OpenGL 4.5 core: {}", last_error());
+        if (!egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+            fail("eglMakeCurrent: {}", last_error());
+        }
+        initialise(egl().get_proc_address, "EGL", false);
+    }
+
+  private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+std::unique_ptr<Context> first_that_opens(EglDevices devices) {
+    std::vector<std::string> reasons;
+    for (const Route& route : all_routes()) {
+        if (devices == EglDevices::hardware && route.software) continue;
+        try {
+            auto context = std::make_unique<EglContext>();
+            context->open(route);
+            if (devices == EglDevices::hardware && context->capabilities().software) {
+                fail("is a software renderer ({})", context->capabilities().renderer);
+            }
+            return context;
+        } catch (const Error& error) {
+            reasons.push_back(route.name + ": " + error.what());
+        }
+    }
+    if (reasons.empty()) fail("no {}device", devices == EglDevices::hardware ? "hardware " : "");
+    fail("{}", fmt::join(reasons, "; "));
+}
+
+}  // namespace
+
+std::unique_ptr<Context> create_egl_context(EglDevices devices) {
+    try {
+        egl();
+        return first_that_opens(devices);
+    } catch (const Error& error) {
+        fail("EGL: {}", error.what());
+    }
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/framebuffer.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "base/error.h"
+#include "gl/check.h"
+
+namespace lamina::gl {
+namespace {
+
+unsigned new_framebuffer() {
+    GLuint id = 0;
+    glCreateFramebuffers(1, &id);
+    return id;
+}
+
+std::vector<Texture> as_list(Texture color) {
+    std::vector<Texture> colors;
+    colors.push_back(std::move(color));
+    return colors;
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(Texture color) : Framebuffer(as_list(std::move(color))) {}
+
+Framebuffer::Framebuffer(std::vector<Texture> colors)
+    : colors_(std::move(colors)), handle_(new_framebuffer()) {
+    assert(!colors_.empty());
+    std::vector<GLenum> outputs;
+    for (const Texture& color : colors_) {
+        assert(color.width() == width() && color.height() == height() && color.depth() == 1);
+        outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
+        glNamedFramebufferTexture(id(), outputs.back(), color.id(), 0);
+    }
+    glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(outputs.size()), outputs.data());
+    const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE) {
+        fail("OpenGL cannot draw into {} {} textures of {} x {} (framebuffer status {:#x})",
+             colors_.size(), info_of(color().format()).name, width(), height(), status);
+    }
+    check("making a framebuffer");
+}
+
+void Framebuffer::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, id());
+    glViewport(0, 0, width(), height());
+}
+
+void Framebuffer::clear(const glm::vec4& rgba, std::size_t target) {
+    glClearNamedFramebufferfv(id(), GL_COLOR, static_cast<GLint>(target), &rgba.x);
+}
+
+Image Framebuffer::read_back(std::size_t target) const {
+    Image image(width(), height());
+    color(target).read_rgba(image.rgba);
+    const std::size_t row = 4 * static_cast<std::size_t>(width());
+    for (int top = 0; top < height() / 2; ++top) {
+        float* const upper = image.pixel(0, top);
+        std::swap_ranges(upper, upper + row, image.pixel(0, height() - 1 - top));
+    }
+    return image;
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <vector>
+
+#include "gl/handle.h"
+#include "gl/texture.h"
+#include "image/image.h"
+
+namespace lamina::gl {
+
+// Render targets: 2D textures of one size, which it owns. Texture i receives the shader's output
+// `location = i`.
+class Framebuffer {
+  public:
+    // An Error where the driver cannot draw into these formats.
+    explicit Framebuffer(std::vector<Texture> colors);
+    explicit Framebuffer(Texture color);
+
+    void bind() const;  // for drawing, with the viewport over all of it
+    void clear(const glm::vec4& rgba, std::size_t target = 0);
+
+    // Target `target` as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
+    Image read_back(std::size_t target = 0) const;
+
+    const Texture& color(std::size_t target = 0) const { return colors_[target]; }
+    int width() const { return colors_.front().width(); }
+    int height() const { return colors_.front().height(); }
+    unsigned id() const { return handle_.id(); }
+
+  private:
+    std::vector<Texture> colors_;
+    Handle<ObjectKind::framebuffer> handle_;
+};
+
+}  // namespace lamina::gl

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/full_screen.h"
+
+#include <glad/gl.h>
+
+#include "gl/check.h"
+#include "gl/vertex_array.h"
+
+namespace lamina::gl {
+
+void draw_full_screen(const Program& program) {
+    const VertexArray no_attributes;
+    no_attributes.bind();
+    program.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    check("drawing over the whole target");
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdint>
+
+#include "base/error.h"
+#include "gl/context_backends.h"
+#include "gl/shared_library.h"
+
+namespace lamina::gl {
+namespace {
+
+// From GL/osmesa.h, which Mesa 25.1 and later no longer have.
+constexpr int osmesa_rgba = 0x1908;
+constexpr int osmesa_format = 0x22;
+constexpr int osmesa_profile = 0x33;
+constexpr int osmesa_core_profile = 0x34;
+constexpr int osmesa_context_major_version = 0x36;
+constexpr int osmesa_context_minor_version = 0x37;
+constexpr unsigned gl_unsigned_byte = 0x1401;
+
+using OsmesaHandle = struct OsmesaHandleType*;
+
+struct Osmesa {
+    SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+    OsmesaHandle (*create)(const int* attributes, OsmesaHandle share) =
+        library.function<decltype(create)>("OSMesaCreateContextAttribs");
+    void (*destroy)(OsmesaHandle context) =
+        library.function<decltype(destroy)>("OSMesaDestroyContext");
+    unsigned char (*make_current)(OsmesaHandle context, void* buffer, unsigned type, int width,
+                                  int height) =
+        library.function<decltype(make_current)>("OSMesaMakeCurrent");
+    void (*(*get_proc_address)(const char* name))() =
+        library.function<decltype(get_proc_address)>("OSMesaGetProcAddress");
+};
+
+const Osmesa& osmesa() {
+    static const Osmesa loaded;
+    return loaded;
+}
+
+class OsmesaContext : public Context {
+  public:
+    ~OsmesaContext() override {
+        if (!context_) return;
+        osmesa().make_current(nullptr, nullptr, 0, 0, 0);
+        osmesa().destroy(context_);
+    }
+
+    void open() {
+        const int attributes[] = {osmesa_format,
+                                  osmesa_rgba,
+                                  osmesa_profile,
+                                  osmesa_core_profile,
+                                  osmesa_context_major_version,
+                                  4,
+                                  osmesa_context_minor_version,
+                                  5,
+                                  0};
+        context_ = osmesa().create(attributes, nullptr);
+        if (!context_) fail("it refused OpenGL 4.5 core (Mesa 17.3 or later with llvmpipe has it)");
+        if (!osmesa().make_current(context_, pixel_.data(), gl_unsigned_byte, 1, 1)) {
+            fail("OSMesaMakeCurrent failed");
+        }
+        initialise(osmesa().get_proc_address, "OSMesa", true);
+    }
+
+  private:
+    OsmesaHandle context_ = nullptr;
+    std::array<std::uint8_t, 4> pixel_{};  // the default framebuffer, which nobody draws into
+};
+
+}  // namespace
+
+std::unique_ptr<Context> create_osmesa_context() {
+    try {
+        osmesa();
+        auto context = std::make_unique<OsmesaContext>();
+        context->open();
+        return context;
+    } catch (const Error& error) {
+        fail("OSMesa: {}", error.what());
+    }
+}
+
+}  // namespace lamina::gl

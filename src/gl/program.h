@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "gl/handle.h"
+#include "gl/shader_source.h"
+
+namespace lamina::gl {
+
+// A linked vertex and fragment shader. Compile and link errors are Errors with the shader's name,
+// the file and line, and the defines.
+class Program {
+  public:
+    // Names of files in shaders/; both are specialised by the same defines.
+    Program(const std::string& vertex_name, const std::string& fragment_name,
+            const Defines& defines = {});
+    Program(const ShaderSource& vertex, const ShaderSource& fragment);
+
+    void use() const;
+
+    // Set a uniform; the program need not be in use. A uniform that the source names but this
+    // specialisation does not use (optimised out, or under another #if) is ignored; a name that is
+    // nowhere in the source is an Error.
+    void set(std::string_view name, float value);
+    void set(std::string_view name, int value);  // also a sampler's texture unit
+    void set(std::string_view name, const glm::vec2& value);
+    void set(std::string_view name, const glm::vec3& value);
+    void set(std::string_view name, const glm::vec4& value);
+    void set(std::string_view name, const glm::ivec2& value);
+    void set(std::string_view name, const glm::ivec3& value);
+    void set(std::string_view name, const glm::mat4& value);
+
+    unsigned id() const { return handle_.id(); }
+
+  private:
+    int location(std::string_view name);
+
+    Handle<ObjectKind::program> handle_;
+    std::string names_;   // of both shaders, for messages
+    std::string source_;  // of both shaders, to tell an unused uniform from a misspelt one
+    std::map<std::string, int, std::less<>> locations_;
+};
+
+}  // namespace lamina::gl

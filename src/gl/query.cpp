@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/query.h"
+
+#include <glad/gl.h>
+
+#include "gl/check.h"
+
+namespace lamina::gl {
+namespace {
+
+GLenum target_of(Query::Kind kind) {
+    return kind == Query::Kind::samples_passed ? GL_SAMPLES_PASSED : GL_TIME_ELAPSED;
+}
+
+unsigned new_query(Query::Kind kind) {
+    GLuint id = 0;
+    glCreateQueries(target_of(kind), 1, &id);
+    return id;
+}
+
+}  // namespace
+
+Query::Query(Kind kind) : kind_(kind), handle_(new_query(kind)) {
+    check("making a query");
+}
+
+void Query::begin() {
+    glBeginQuery(target_of(kind_), handle_.id());
+}
+
+void Query::end() {
+    glEndQuery(target_of(kind_));
+}
+
+std::uint64_t Query::result() const {
+    GLuint64 value = 0;
+    glGetQueryObjectui64v(handle_.id(), GL_QUERY_RESULT, &value);
+    check("reading a query");
+    return value;
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/shader_source.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "base/error.h"
+#include "gl/shader_files.h"
+
+namespace lamina::gl {
+namespace {
+
+// The word after the line's '#': "include", "version"; empty where it is no directive.
+std::string directive_of(const std::string& line) {
+    static const std::regex pattern("^\\s*#\\s*(\\w+)");
+    std::smatch match;
+    return std::regex_search(line, match, pattern) ? match[1].str() : std::string();
+}
+
+class Composer {
+  public:
+    Composer(const ShaderFinder& find, ShaderSource& source) : find_(find), source_(source) {}
+
+    void append_main() {
+        append_file(source_.name, "shader");
+        if (!has_version_) fail_without_version();
+    }
+
+  private:
+    // `wanted_by` begins the message where the file is missing.
+    void append_file(const std::string& name, const std::string& wanted_by) {
+        const std::optional<std::string> text = find_(name);
+        if (!text) fail("{}: no such shader file: {}", wanted_by, name);
+        files_.push_back(name);
+        open_.push_back(name);
+        std::istringstream lines(*text);
+        std::string line;
+        for (int number = 1; std::getline(lines, line); ++number) append_line(line, {name, number});
+        open_.pop_back();
+    }
+
+    void append_line(const std::string& line, const ShaderLine& place) {
+        const std::string directive = directive_of(line);
+        if (!has_version_ && !directive.empty()) {
+            append_version(line, place);
+        } else if (directive == "include") {
+            append_include(line, place);
+        } else {
+            append_text(line, place);
+        }
+    }
+
+    void append_text(const std::string& line, const ShaderLine& place) {
+        source_.text += line + '\n';
+        source_.lines.push_back(place);
+    }
+
+    void append_version(const std::string& line, const ShaderLine& place) {
+        static const std::regex pattern("^\\s*#\\s*version\\s+450\\s+core\\s*(//.*)?$");
+        if (!std::regex_match(line, pattern)) fail_without_version();
+        has_version_ = true;
+        append_text("#version 450 core", place);
+        for (const auto& [name, value] : source_.defines.list) {
+            append_text("#define " + name + ' ' + value, place);
+        }
+    }
+
+    [[noreturn]] void fail_without_version() const {
+        fail("shader {}: expected '#version 450 core' as the first directive", source_.name);
+    }
+
+    void append_include(const std::string& line, const ShaderLine& place) {
+        static const std::regex pattern("^\\s*#\\s*include\\s*\"([^\"]+)\"\\s*(//.*)?$");
+        const std::string where = fmt::format("shader {}:{}", place.file, place.number);
+        std::smatch match;
+        if (!std::regex_match(line, match, pattern)) {
+            fail("{}: expected #include \"FILE\", found '{}'", where, one_line(line));
+        }
+        const std::string name = match[1];
+        if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
+            fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open_, " -> "), name);
+        }
+        if (std::find(files_.begin(), files_.end(), name) == files_.end()) append_file(name, where);
+    }
+
+    const ShaderFinder& find_;
+    ShaderSource& source_;
+    std::vector<std::string> files_;  // that the text has already
+    std::vector<std::string> open_;   // the chain of includes, the main file first
+    bool has_version_ = false;
+};
+
+}  // namespace
+
+Defines& Defines::set(std::string name, std::string value) {
+    list.emplace_back(std::move(name), std::move(value));
+    return *this;
+}
+
+Defines& Defines::set(std::string name, int value) {
+    return set(std::move(name), std::to_string(value));
+}
+
+ShaderSource compose_shader(const std::string& name, const Defines& defines) {
+    return compose_shader(name, defines, find_shader);
+}
+
+ShaderSource compose_shader(const std::string& name, const Defines& defines,
+                            const ShaderFinder& find) {
+    ShaderSource source{name, {}, defines, {}};
+    Composer(find, source).append_main();
+    return source;
+}
+
+std::string readable_log(const std::string& log, const ShaderSource& source) {
+    // Mesa "0:12(3): error: ...", NVIDIA "0(12) : error ...", glslang "ERROR: 0:12: ...".
+    static const std::regex place(
+        "^(?:ERROR: |WARNING: )?\\d+[:(](\\d{1,8})(?:\\(\\d+\\)|\\))?\\s*:\\s*");
+    std::string text;
+    std::istringstream lines(log);
+    std::string line;
+    while (std::getline(lines, line)) {
+        std::smatch match;
+        if (std::regex_search(line, match, place)) {
+            const std::size_t number = std::stoul(match[1]);
+            if (number >= 1 && number <= source.lines.size()) {
+                const ShaderLine& origin = source.lines[number - 1];
+                line = fmt::format("{}:{}: {}", origin.file, origin.number, match.suffix().str());
+            }
+        }
+        text += line + ' ';
+    }
+    return one_line(text);
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lamina::gl {
+
+// What a shader is specialised by: `#define NAME VALUE` lines, in this order.
+struct Defines {
+    std::vector<std::pair<std::string, std::string>> list;
+
+    Defines& set(std::string name, std::string value);
+    Defines& set(std::string name, int value);
+};
+
+// The text of a shader file, or nothing where there is none.
+using ShaderFinder = std::function<std::optional<std::string>(const std::string& name)>;
+
+// Where a line of a composed shader comes from.
+struct ShaderLine {
+    std::string file;
+    int number;
+};
+
+// A shader ready for the compiler.
+struct ShaderSource {
+    std::string name;
+    std::string text;
+    Defines defines;
+    // Of every line of `text`. Not #line directives: Mesa loses their file number in some of its
+    // messages.
+    std::vector<ShaderLine> lines;
+};
+
+// Composes the shader `name`. Its first directive must be `#version 450 core`; the defines follow
+// it. A line
+// `#include "compositing/over.glsl"` is replaced by that file, named from the root of shaders/,
+// once: a second include of the same file is empty. Includes are replaced before any #if is looked
+// at. A file that is missing, a cycle and a malformed include are Errors that name file and line.
+ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
+ShaderSource compose_shader(const std::string& name, const Defines& defines,
+                            const ShaderFinder& find);
+
+// A compiler's log on one line, with the places in the files instead of those in the text:
+// "slicing/slab.frag:12: ...".
+std::string readable_log(const std::string& log, const ShaderSource& source);
+
+}  // namespace lamina::gl

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+namespace lamina::gl {
+
+// A library loaded at run time. It is never unloaded: Mesa and LLVM leave threads and exit handlers
+// behind.
+class SharedLibrary {
+  public:
+    // The first of `names` that the dynamic linker finds; an Error that says why each was not
+    // loaded.
+    explicit SharedLibrary(std::initializer_list<const char*> names);
+
+    // The function `name`; an Error that names the library where it has none.
+    template <typename Function>
+    Function function(const char* name) const {
+        return reinterpret_cast<Function>(symbol(name));
+    }
+
+  private:
+    void* symbol(const char* name) const;
+
+    std::string name_;
+    void* handle_ = nullptr;
+};
+
+}  // namespace lamina::gl

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/texture.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "base/error.h"
+#include "gl/check.h"
+#include "scene/capabilities.h"
+
+namespace lamina::gl {
+namespace {
+
+int limit(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+void check_side(const char* side, int found, int most) {
+    if (found < 1 || found > most) {
+        fail("texture {} {}: this OpenGL allows 1 to {}", side, found, most);
+    }
+}
+
+// Sides are at most 2^15, so that the product cannot overflow.
+std::int64_t texel_count(const TexelBox& box) {
+    return std::int64_t{box.width} * box.height * box.depth;
+}
+
+[[maybe_unused]] bool contains(const TexelBox& outer, const TexelBox& inner) {
+    return inner.x >= 0 && inner.y >= 0 && inner.z >= 0 && inner.width >= 1 && inner.height >= 1 &&
+           inner.depth >= 1 && inner.x + inner.width <= outer.width &&
+           inner.y + inner.height <= outer.height && inner.z + inner.depth <= outer.depth;
+}
+
+// Texels from the box's first to its last one in memory, both included.
+[[maybe_unused]] std::size_t texel_span(const TexelBox& box, PixelStore store) {
+    const std::size_t row =
+        static_cast<std::size_t>(store.row_length ? store.row_length : box.width);
+    const std::size_t rows =
+        static_cast<std::size_t>(store.slice_rows ? store.slice_rows : box.height);
+    return (static_cast<std::size_t>(box.depth - 1) * rows +
+            static_cast<std::size_t>(box.height - 1)) *
+               row +
+           static_cast<std::size_t>(box.width);
+}
+
+}  // namespace
+
+Texture Texture::make_1d(TextureFormat format, int width) {
+    return Texture(GL_TEXTURE_1D, format, {.width = width}, 1);
+}
+
+Texture Texture::make_2d(TextureFormat format, int width, int height) {
+    return Texture(GL_TEXTURE_2D, format, {.width = width, .height = height}, 1);
+}
+
+Texture Texture::make_2d_array(TextureFormat format, int width, int height, int layers) {
+    return Texture(GL_TEXTURE_2D_ARRAY, format, {.width = width, .height = height, .depth = layers},
+                   limit(GL_MAX_ARRAY_TEXTURE_LAYERS));
+}
+
+Texture Texture::make_3d(TextureFormat format, int width, int height, int depth) {
+    return Texture(GL_TEXTURE_3D, format, {.width = width, .height = height, .depth = depth},
+                   limit(GL_MAX_3D_TEXTURE_SIZE));
+}
+
+Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, int max_depth)
+    : target_(target), format_(format), whole_(whole) {
+    const int most = limit(target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE : GL_MAX_TEXTURE_SIZE);
+    check_side("width", whole.width, most);
+    check_side("height", whole.height, most);
+    check_side("depth", whole.depth, max_depth);
+    const TextureFormatInfo& info = info_of(format);
+    const std::int64_t bytes = texel_count(whole) * info.bytes_per_texel;
+    if (static_cast<std::uint64_t>(bytes) > Capabilities{}.max_texture_bytes) {
+        fail("texture of {} x {} x {} {} takes {} bytes, at most {} are allowed", whole.width,
+             whole.height, whole.depth, info.name, bytes, Capabilities{}.max_texture_bytes);
+    }
+    allocate();
+    check(fmt::format("allocating a texture of {} x {} x {} {}", whole.width, whole.height,
+                      whole.depth, info.name));
+    bytes_ = AllocatedBytes(bytes);
+}
+
+void Texture::allocate() {
+    GLuint id = 0;
+    glCreateTextures(target_, 1, &id);
+    handle_ = Handle<ObjectKind::texture>(id);
+    const GLenum internal = info_of(format_).internal_format;
+    switch (target_) {
+        case GL_TEXTURE_1D:
+            glTextureStorage1D(id, 1, internal, width());
+            break;
+        case GL_TEXTURE_2D:
+            glTextureStorage2D(id, 1, internal, width(), height());
+            break;
+        default:
+            glTextureStorage3D(id, 1, internal, width(), height(), depth());
+            break;
+    }
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        glTextureParameteri(id, wrap, GL_CLAMP_TO_EDGE);
+    }
+    set_filter(TextureFilter::nearest);
+}
+
+void Texture::set_filter(TextureFilter filter) {
+    const GLint mode = filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST;
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, mode);
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, mode);
+}
+
+void Texture::bind(unsigned unit) const {
+    glBindTextureUnit(unit, id());
+}
+
+void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components,
+                     PixelStore store) {
+    upload_components(box, GL_UNSIGNED_BYTE, components.data(), components.size(), store);
+}
+
+void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> components,
+                     PixelStore store) {
+    upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size(), store);
+}
+
+void Texture::upload(const TexelBox& box, std::span<const float> components, PixelStore store) {
+    upload_components(box, GL_FLOAT, components.data(), components.size(), store);
+}
+
+void Texture::upload_components(const TexelBox& box, unsigned type, const void* components,
+                                [[maybe_unused]] std::size_t count, PixelStore store) {
+    const TextureFormatInfo& info = info_of(format_);
+    assert(type == info.component_type);
+    assert(contains(whole_, box));
+    assert(count >= texel_span(box, store) * static_cast<std::size_t>(info.channels));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
+    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
+    switch (target_) {
+        case GL_TEXTURE_1D:
+            glTextureSubImage1D(id(), 0, box.x, box.width, info.layout, type, components);
+            break;
+        case GL_TEXTURE_2D:
+            glTextureSubImage2D(id(), 0, box.x, box.y, box.width, box.height, info.layout, type,
+                                components);
+            break;
+        default:
+            glTextureSubImage3D(id(), 0, box.x, box.y, box.z, box.width, box.height, box.depth,
+                                info.layout, type, components);
+            break;
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
+    check("uploading a texture");
+}
+
+std::vector<float> Texture::read_rgba() const {
+    std::vector<float> rgba(4 * static_cast<std::size_t>(texel_count(whole_)));
+    read_rgba(rgba);
+    return rgba;
+}
+
+void Texture::read_rgba(std::span<float> rgba) const {
+    assert(rgba.size() == 4 * static_cast<std::size_t>(texel_count(whole_)));
+    // In bands of rows, because OpenGL counts the bytes of one transfer in an int.
+    const std::size_t row_floats = 4 * static_cast<std::size_t>(width());
+    const std::size_t band_floats = std::size_t{1} << 24;
+    const int band_rows = static_cast<int>(std::max(band_floats / row_floats, std::size_t{1}));
+    float* destination = rgba.data();
+    for (int z = 0; z < depth(); ++z) {
+        for (int y = 0; y < height(); y += band_rows) {
+            const int rows = std::min(band_rows, height() - y);
+            const std::size_t floats = row_floats * static_cast<std::size_t>(rows);
+            glGetTextureSubImage(id(), 0, 0, y, z, width(), rows, 1, GL_RGBA, GL_FLOAT,
+                                 static_cast<GLsizei>(floats * sizeof(float)), destination);
+            destination += floats;
+        }
+    }
+    check("reading a texture back");
+}
+
+}  // namespace lamina::gl

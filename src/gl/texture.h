@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gl/handle.h"
+#include "gl/memory.h"
+#include "gl/texture_format.h"
+
+namespace lamina::gl {
+
+enum class TextureFilter { nearest, linear };
+
+// A part of a texture: first texel and size. For a 2D array, z counts layers.
+struct TexelBox {
+    int x = 0, y = 0, z = 0;
+    int width = 1, height = 1, depth = 1;
+};
+
+// How texels lie in our memory: texels from one row to the next, and rows from one slice to the
+// next, as for a box cut out of a larger grid. 0: the box's own width and height.
+struct PixelStore {
+    int row_length = 0;
+    int slice_rows = 0;
+};
+
+// An immutable-size texture with one level, clamped to its edge, filtered `nearest` unless told
+// otherwise. Contents are undefined until uploaded or drawn. Sizes below 1 or over the context's
+// limits, more than Capabilities::max_texture_bytes, and a driver out of memory are Errors.
+class Texture {
+  public:
+    Texture() = default;
+    static Texture make_1d(TextureFormat format, int width);
+    static Texture make_2d(TextureFormat format, int width, int height);
+    static Texture make_2d_array(TextureFormat format, int width, int height, int layers);
+    static Texture make_3d(TextureFormat format, int width, int height, int depth);
+
+    // Fills `box` from components in memory, x fastest. uint8 for r8 and rgba8, uint16 for r16 and
+    // rgba16, float for the rest. `components` must reach to the box's last texel (assert).
+    void upload(const TexelBox& box, std::span<const std::uint8_t> components,
+                PixelStore store = {});
+    void upload(const TexelBox& box, std::span<const std::uint16_t> components,
+                PixelStore store = {});
+    void upload(const TexelBox& box, std::span<const float> components, PixelStore store = {});
+
+    void set_filter(TextureFilter filter);
+    void bind(unsigned unit) const;
+
+    // All texels as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's, the bottom one of a
+    // drawn image. Absent channels read as 0, absent alpha as 1.
+    std::vector<float> read_rgba() const;
+    void read_rgba(std::span<float> rgba) const;  // 4 floats a texel, exactly
+
+    unsigned id() const { return handle_.id(); }
+    TextureFormat format() const { return format_; }
+    int width() const { return whole_.width; }
+    int height() const { return whole_.height; }
+    int depth() const { return whole_.depth; }
+    std::int64_t byte_count() const { return bytes_.count(); }
+
+  private:
+    Texture(unsigned target, TextureFormat format, const TexelBox& whole, int max_depth);
+    void allocate();
+    void upload_components(const TexelBox& box, unsigned type, const void* components,
+                           std::size_t count, PixelStore store);
+
+    unsigned target_ = 0;
+    TextureFormat format_ = TextureFormat::r8;
+    TexelBox whole_;
+    Handle<ObjectKind::texture> handle_;
+    AllocatedBytes bytes_;
+};
+
+}  // namespace lamina::gl

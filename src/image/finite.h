@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "image/image.h"
+
+namespace lamina {
+
+// Throws Error, naming pixel and channel, when a component is NaN, infinite or beyond the range of float32: such
+// pictures are neither written nor compared. `name` is what the message begins with.
+template <typename Real>
+void require_finite(const std::string& name, const RgbaImage<Real>& image);
+
+extern template void require_finite(const std::string&, const Image&);
+extern template void require_finite(const std::string&, const PreciseImage&);
+
+}  // namespace lamina

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/image_limits.h"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace lamina {
+
+void check_image_size(const std::string& name, std::int64_t width, std::int64_t height) {
+    if (width < 1 || height < 1 || width > max_image_side || height > max_image_side ||
+        width > max_image_pixels / height) {
+        fail("{}: an image of {} x {} pixels; expected 1 to {} a side and at most {} in all", name,
+             width, height, max_image_side, max_image_pixels);
+    }
+}
+
+std::uint64_t length_of_file(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) {
+        fail("{}: cannot open: {}", path.string(),
+             error ? error.message() : std::strerror(ENOENT));
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        fail("{}: cannot open: it is not a regular file", path.string());
+    }
+    const std::uintmax_t length = std::filesystem::file_size(path, error);
+    if (error) fail("{}: cannot open: {}", path.string(), error.message());
+    return length;
+}
+
+void check_file_can_hold(const std::string& name, std::uint64_t image_bytes,
+                         std::uint64_t file_bytes, std::uint64_t ratio) {
+    if (image_bytes / ratio > file_bytes) {
+        fail("{}: the header promises {} bytes of pixels, more than a file of {} bytes can hold",
+             name, image_bytes, file_bytes);
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/png.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "base/error.h"
+#include "image/finite.h"
+#include "image/image_limits.h"
+#include "image/srgb.h"
+
+namespace lamina {
+namespace {
+
+using Message = char[256];
+
+void on_error(png_structp png, png_const_charp text) {
+    std::snprintf(static_cast<char*>(png_get_error_ptr(png)), sizeof(Message), "%s", text);
+    png_longjmp(png, 1);
+}
+
+void on_warning(png_structp /*png*/, png_const_charp /*text*/) {}  // chunks that codes do not depend on
+
+// Runs libpng calls, which leave through longjmp when they fail; false when they did. `body` must own nothing that
+// needs a destructor.
+template <typename Body>
+[[nodiscard]] bool succeeds(png_structp png, const Body& body) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    body();
+    return true;
+}
+
+struct Writer {
+    Message message = "";
+    png_structp png =
+        png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+
+    Writer() = default;
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+    ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+struct Reader {
+    Message message = "";
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+
+    Reader() = default;
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+int color_type(int channels) {
+    constexpr int types[4] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                              PNG_COLOR_TYPE_RGB_ALPHA};
+    return types[channels - 1];
+}
+
+// One row of codes as PNG has them: 16-bit codes with the high byte first.
+void pack_row(const CodedImage& image, const std::uint16_t* codes, std::vector<png_byte>& row) {
+    png_byte* byte = row.data();
+    for (int i = 0; i < image.width * image.channels; ++i) {
+        if (image.bit_depth == 16) *byte++ = static_cast<png_byte>(codes[i] >> 8);
+        *byte++ = static_cast<png_byte>(codes[i] & 255);
+    }
+}
+
+void unpack(const std::vector<png_byte>& bytes, CodedImage& image) {
+    const png_byte* byte = bytes.data();
+    for (std::uint16_t& code : image.codes) {
+        code = *byte++;
+        if (image.bit_depth == 16) code = static_cast<std::uint16_t>(code << 8 | *byte++);
+    }
+}
+
+// Expansions that make every PNG one of CodedImage's kinds.
+void expand(Reader& reader) {
+    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
+        png_set_palette_to_rgb(reader.png);
+    }
+    if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_GRAY) {
+        png_set_expand_gray_1_2_4_to_8(reader.png);
+    }
+    if (png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0) {
+        png_set_tRNS_to_alpha(reader.png);
+    }
+    png_set_interlace_handling(reader.png);
+    png_read_update_info(reader.png, reader.info);
+}
+
+}  // namespace
+
+std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background) {
+    const std::string name = file.path().string();
+    check_image_size(name, image.width, image.height);
+    require_finite(name, image);
+    constexpr double rounding = 1.0 / 510;
+    CodedImage coded(image.width, image.height, 3, 8);
+    std::size_t clamped_pixels = 0;
+    for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
+        const float* const rgba = &image.rgba[4 * pixel];
+        bool clamped = false;
+        for (int channel = 0; channel < 3; ++channel) {
+            const double linear = rgba[channel] + (1.0 - rgba[3]) * background[channel];
+            clamped = clamped || linear < -rounding || linear > 1 + rounding;
+            const double stored = srgb_from_linear(std::clamp(linear, 0.0, 1.0));
+            coded.codes[3 * pixel + static_cast<std::size_t>(channel)] =
+                static_cast<std::uint16_t>(std::lround(255 * stored));
+        }
+        clamped_pixels += clamped;
+    }
+    write_png(file, coded);
+    return clamped_pixels;
+}
+
+void write_png(AtomicFile& file, const CodedImage& image) {
+    const std::string name = file.path().string();
+    check_image_size(name, image.width, image.height);
+    Writer writer;
+    if (writer.info == nullptr) fail("{}: cannot write: out of memory", name);
+    const std::size_t row_codes =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    std::vector<png_byte> row(row_codes * static_cast<std::size_t>(image.bit_depth / 8));
+    const bool written = succeeds(writer.png, [&] {
+        png_init_io(writer.png, file.stream());
+        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
+                     static_cast<png_uint_32>(image.height), image.bit_depth,
+                     color_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                     PNG_FILTER_TYPE_DEFAULT);
+        png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+        png_write_info(writer.png, writer.info);
+        for (int y = 0; y < image.height; ++y) {
+            pack_row(image, &image.codes[static_cast<std::size_t>(y) * row_codes], row);
+            png_write_row(writer.png, row.data());
+        }
+        png_write_end(writer.png, writer.info);
+    });
+    if (!written) fail("{}: cannot write: {}", name, one_line(writer.message));
+}
+
+CodedImage read_png(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const std::uint64_t file_bytes = length_of_file(path);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               std::fclose);
+    if (file == nullptr) fail("{}: cannot open: {}", name, std::strerror(errno));
+    Reader reader;
+    if (reader.info == nullptr) fail("{}: cannot read: out of memory", name);
+    const auto bad_file = [&] { fail("{}: cannot read as PNG: {}", name, one_line(reader.message)); };
+
+    const bool has_header = succeeds(reader.png, [&] {
+        png_init_io(reader.png, file.get());
+        png_set_user_limits(reader.png, max_image_side, max_image_side);
+        png_read_info(reader.png, reader.info);
+    });
+    if (!has_header) bad_file();
+    const std::int64_t height = png_get_image_height(reader.png, reader.info);
+    check_image_size(name, png_get_image_width(reader.png, reader.info), height);
+    // 1032:1 is the most that deflate, the only codec of PNG, can reach.
+    check_file_can_hold(name,
+                        png_get_rowbytes(reader.png, reader.info) *
+                            static_cast<std::uint64_t>(height),
+                        file_bytes, 1032);
+
+    if (!succeeds(reader.png, [&] { expand(reader); })) bad_file();
+    CodedImage image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
+                     static_cast<int>(height), png_get_channels(reader.png, reader.info),
+                     png_get_bit_depth(reader.png, reader.info));
+    const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+    std::vector<png_byte> bytes(row_bytes * static_cast<std::size_t>(height));
+    std::vector<png_bytep> rows;
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+        rows.push_back(&bytes[y * row_bytes]);
+    }
+    const bool complete = succeeds(reader.png, [&] {
+        png_read_image(reader.png, rows.data());
+        png_read_end(reader.png, nullptr);
+    });
+    if (!complete) bad_file();
+    unpack(bytes, image);
+    return image;
+}
+
+}  // namespace lamina

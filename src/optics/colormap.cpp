@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/colormap.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "optics/color_space.h"
+#include "optics/opacity.h"
+
+namespace lamina {
+
+namespace {
+
+constexpr std::uintmax_t most_bytes = 16u << 20;
+constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
+constexpr int most_halvings = 7;
+
+nlohmann::json load(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) fail("{}: no such file", name);
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error || bytes > most_bytes) {
+        fail("{}: {} bytes, expected a colour map of at most {}", name, bytes, most_bytes);
+    }
+    std::ifstream stream(file);
+    if (!stream) fail("{}: cannot be read", name);
+    try {
+        nlohmann::json root = nlohmann::json::parse(stream);
+        if (root.is_array() && !root.empty()) root = nlohmann::json(root.front());
+        if (!root.is_object()) {
+            fail("{}: found {}, expected a ParaView preset: an object or an array with one", name,
+                 root.type_name());
+        }
+        return root;
+    } catch (const nlohmann::json::exception& what) {
+        fail("{}: no valid JSON: {}", name, what.what());
+    }
+}
+
+ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
+    const std::pair<const char*, ColorSpace> known[] = {{"RGB", ColorSpace::rgb},
+                                                        {"HSV", ColorSpace::hsv},
+                                                        {"Lab", ColorSpace::lab},
+                                                        {"Diverging", ColorSpace::diverging},
+                                                        {"Step", ColorSpace::step}};
+    const auto found = preset.find("ColorSpace");
+    if (found == preset.end()) return ColorSpace::rgb;
+    for (const auto& [word, space] : known) {
+        if (*found != word) continue;
+        const auto wrap = preset.find("HSVWrap");
+        const bool wrapped = wrap != preset.end() && (*wrap == true || *wrap == 1);
+        return space == ColorSpace::hsv && wrapped ? ColorSpace::hsv_wrapped : space;
+    }
+    fail(R"({}: ColorSpace is {}, expected "RGB", "HSV", "Lab", "Diverging" or "Step")", name,
+         found->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+// Rows of four numbers; the first of each is the scalar, in order, at most two rows at one scalar.
+std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
+                                             const std::string& name) {
+    const nlohmann::json& flat = preset.at(key);
+    if (!flat.is_array() || flat.empty() || flat.size() % 4 != 0) {
+        fail("{}: {} has {} numbers, expected four for every point", name, key, flat.size());
+    }
+    std::vector<std::array<double, 4>> rows(flat.size() / 4);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        const double number = flat[i].is_number() ? flat[i].get<double>() : NAN;
+        if (!(std::abs(number) <= 1e300)) {
+            fail("{}: {}[{}] is {}, expected a number", name, key, i, flat[i].dump());
+        }
+        if (i % 4 > 0 && (number < 0 || number > 1)) {
+            fail("{}: {}[{}] is {}, expected a number from 0 to 1", name, key, i, number);
+        }
+        rows[i / 4][i % 4] = number;
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        if (rows[i][0] < rows[i - 1][0]) {
+            fail("{}: {}[{}] is {}, expected at least {}, the scalar before it", name, key, 4 * i,
+                 rows[i][0], rows[i - 1][0]);
+        }
+        if (i > 1 && rows[i][0] == rows[i - 2][0]) {
+            fail("{}: {}[{}] is {} for the third time, expected at most two points at a scalar",
+                 name, key, 4 * i, rows[i][0]);
+        }
+    }
+    return rows;
+}
+
+// Samples the colour space between two points, halving until straight lines in linear light are
+// close enough.
+class SegmentSampler {
+  public:
+    SegmentSampler(ColorSpace space, const std::array<double, 4>& a, const std::array<double, 4>& b)
+        : space_(space), a_(a), b_(b) {}
+
+    // Appends the points after share `lo` up to and with share `hi`.
+    void append(double lo, double hi, int halvings, std::vector<ColorPoint>& points) const {
+        if (halvings > 0 && !straight(lo, hi)) {
+            append(lo, (lo + hi) / 2, halvings - 1, points);
+            append((lo + hi) / 2, hi, halvings - 1, points);
+        } else {
+            points.push_back({hi < 1 ? a_[0] + hi * (b_[0] - a_[0]) : b_[0], color(hi)});
+        }
+    }
+
+  private:
+    glm::dvec3 color(double share) const {
+        const glm::dvec3 from(a_[1], a_[2], a_[3]), to(b_[1], b_[2], b_[3]);
+        // The ends themselves, free of round trips through other spaces.
+        if (share == 1) return linear_from_srgb(to);
+        if (share == 0) return linear_from_srgb(from);
+        return linear_from_srgb(interpolate_srgb(space_, from, to, share));
+    }
+
+    bool straight(double lo, double hi) const {
+        const glm::dvec3 from = color(lo), to = color(hi);
+        for (const double share : {0.25, 0.5, 0.75}) {
+            const glm::dvec3 gap =
+                glm::abs(color(glm::mix(lo, hi, share)) - glm::mix(from, to, share));
+            if (std::max({gap.r, gap.g, gap.b}) > color_tolerance) return false;
+        }
+        return true;
+    }
+
+    ColorSpace space_;
+    const std::array<double, 4>& a_;
+    const std::array<double, 4>& b_;
+};
+
+std::vector<ColorPoint> sample_colors(ColorSpace space,
+                                      const std::vector<std::array<double, 4>>& rows) {
+    const auto color_of = [](const std::array<double, 4>& row) {
+        return linear_from_srgb(glm::dvec3(row[1], row[2], row[3]));
+    };
+    std::vector<ColorPoint> points = {{rows[0][0], color_of(rows[0])}};
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const auto &a = rows[i - 1], &b = rows[i];
+        if (a[0] == b[0]) {
+            points.push_back({b[0], color_of(b)});
+        } else if (space == ColorSpace::step) {
+            // Below the first point its own colour stays: a step there, as at every other point.
+            points.push_back({a[0], color_of(b)});
+            points.push_back({b[0], color_of(b)});
+        } else {
+            SegmentSampler(space, a, b).append(0, 1, most_halvings, points);
+        }
+    }
+    return points;
+}
+
+std::vector<OpacityPoint> read_opacities(const nlohmann::json& preset, const std::string& name) {
+    std::vector<OpacityPoint> points;
+    const auto rows = read_rows(preset, "Points", name);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& [value, opacity, midpoint, sharpness] = rows[i];
+        if (midpoint != 0.5 || sharpness != 0) {
+            fail(
+                "{}: point {} of Points has midpoint {} and sharpness {}, only 0.5 and 0 are "
+                "supported",
+                name, i, midpoint, sharpness);
+        }
+        points.push_back({value, opacity});
+    }
+    return points;
+}
+
+// The limits of a piecewise linear function from below and from above; `mix(a, b, share)`
+// interpolates.
+template <typename Point, typename Mix>
+auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
+    const auto not_below = std::ranges::lower_bound(points, value, {}, &Point::value);
+    const auto above = std::ranges::upper_bound(points, value, {}, &Point::value);
+    const auto at = [&](const Point& point) { return mix(point, point, 0.0); };
+    if (not_below != above) return std::pair(at(*not_below), at(*(above - 1)));
+    if (above == points.begin()) return std::pair(at(*above), at(*above));
+    if (above == points.end()) return std::pair(at(points.back()), at(points.back()));
+    const Point& a = *(above - 1);
+    const auto between = mix(a, *above, (value - a.value) / (above->value - a.value));
+    return std::pair(between, between);
+}
+
+}  // namespace
+
+Colormap read_paraview_colormap(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const nlohmann::json preset = load(file);
+    const auto log_scale = preset.find("UseLogScale");
+    if (log_scale != preset.end() && *log_scale != 0 && *log_scale != false) {
+        fail("{}: UseLogScale is {}, only linear colour maps are supported", name,
+             log_scale->dump());
+    }
+    if (!preset.contains("RGBPoints")) {
+        fail("{}: RGBPoints is missing, expected [x, red, green, blue, ...]", name);
+    }
+    Colormap colormap;
+    colormap.colors =
+        sample_colors(color_space(preset, name), read_rows(preset, "RGBPoints", name));
+    if (preset.contains("Points")) colormap.opacities = read_opacities(preset, name);
+    return colormap;
+}
+
+std::vector<TransferKnot> combine(const Colormap& colormap,
+                                  const std::vector<ExtinctionPoint>& extinctions) {
+    if (extinctions.empty()) fail("no points with extinctions, expected at least one");
+    std::vector<double> values;
+    for (const ColorPoint& point : colormap.colors) values.push_back(point.value);
+    for (const ExtinctionPoint& point : extinctions) values.push_back(point.value);
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+
+    const auto mix_colors = [](const ColorPoint& a, const ColorPoint& b, double share) {
+        return glm::mix(a.color, b.color, share);
+    };
+    const auto mix_extinctions = [](const ExtinctionPoint& a, const ExtinctionPoint& b,
+                                    double share) {
+        return a.extinction * (1 - share) + b.extinction * share;
+    };
+    std::vector<TransferKnot> knots;
+    for (const double value : values) {
+        const auto [color_below, color_above] = limits(colormap.colors, value, mix_colors);
+        const auto [below, above] = limits(extinctions, value, mix_extinctions);
+        knots.push_back({value, {color_below, below}});
+        if (color_below != color_above || below != above) {
+            knots.push_back({value, {color_above, above}});
+        }
+    }
+    return knots;
+}
+
+std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length) {
+    if (colormap.opacities.empty()) {
+        fail(
+            "the colour map has no opacities (Points), expected points with extinction or opacity");
+    }
+    // Opacity is linear between the file's points and extinction is not: it is followed with 16
+    // straight lines.
+    constexpr int parts = 16;
+    std::vector<ExtinctionPoint> extinctions;
+    for (std::size_t i = 0; i < colormap.opacities.size(); ++i) {
+        const OpacityPoint& b = colormap.opacities[i];
+        if (i > 0 && colormap.opacities[i - 1].opacity != b.opacity) {
+            const OpacityPoint& a = colormap.opacities[i - 1];
+            for (int n = 1; n < parts && a.value < b.value; ++n) {
+                const double share = double(n) / parts;
+                extinctions.push_back(
+                    {glm::mix(a.value, b.value, share),
+                     extinction_from_opacity(glm::mix(a.opacity, b.opacity, share), unit_length)});
+            }
+        }
+        extinctions.push_back({b.value, extinction_from_opacity(b.opacity, unit_length)});
+    }
+    return combine(colormap, extinctions);
+}
+
+}  // namespace lamina

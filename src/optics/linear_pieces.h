@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The linear pieces of a transfer function between two scalars.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "optics/transfer_function.h"
+
+namespace lamina {
+
+// Colour and extinction at `value` on the straight line between two knots of different value; every
+// term is >= 0, so nothing cancels, and equal ends give exactly their value.
+inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& b, double value) {
+    const double width = b.value - a.value;
+    const double weight_a = (b.value - value) / width;
+    const double weight_b = (value - a.value) / width;
+    const auto mix = [&](double at_a, double at_b) {
+        return at_a == at_b ? at_a : at_a * weight_a + at_b * weight_b;
+    };
+    OpticalProperties result;
+    for (int c = 0; c < 3; ++c) result.color[c] = mix(a.optics.color[c], b.optics.color[c]);
+    result.extinction = mix(a.optics.extinction, b.optics.extinction);
+    return result;
+}
+
+struct LinearPiece {
+    double from = 0, to = 0;  // scalars, in walking order
+    OpticalProperties at_from, at_to;
+};
+
+// Piece j of n + 1 lies between knots j - 1 and j; the first and the last one are the constant
+// parts outside.
+inline OpticalProperties optics_in_piece(std::span<const TransferKnot> knots, std::size_t piece,
+                                         double value) {
+    if (piece == 0) return knots.front().optics;
+    if (piece == knots.size()) return knots.back().optics;
+    return interpolate(knots[piece - 1], knots[piece], value);
+}
+
+// Calls visit(piece) for the pieces of positive width from `front` to `back`, in that order; for
+// front == back once, with a piece of no width that has at(front) at both ends.
+template <typename Visit>
+void for_each_linear_piece(std::span<const TransferKnot> knots, double front, double back,
+                           const Visit& visit) {
+    const auto value_of = [](const TransferKnot& knot) { return knot.value; };
+    const auto emit = [&](std::size_t j, double from, double to) {
+        visit(
+            LinearPiece{from, to, optics_in_piece(knots, j, from), optics_in_piece(knots, j, to)});
+    };
+    if (front < back || front == back) {
+        const auto above = std::ranges::upper_bound(knots, front, {}, value_of);
+        auto j = static_cast<std::size_t>(above - knots.begin());
+        if (front == back) return emit(j, front, back);
+        for (double from = front; from < back; ++j) {
+            const double to = j < knots.size() ? std::min(knots[j].value, back) : back;
+            if (to > from) emit(j, from, to);
+            from = to;
+        }
+    } else {
+        const auto not_below = std::ranges::lower_bound(knots, front, {}, value_of);
+        auto j = static_cast<std::size_t>(not_below - knots.begin());
+        for (double from = front; from > back; --j) {
+            const double to = j > 0 ? std::max(knots[j - 1].value, back) : back;
+            if (to < from) emit(j, from, to);
+            from = to;
+        }
+    }
+}
+
+}  // namespace lamina

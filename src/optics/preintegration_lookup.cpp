@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "optics/opacity.h"
+#include "optics/preintegration_table.h"
+
+namespace lamina {
+
+namespace {
+
+using Anchor = PreintegrationTable::Anchor;
+
+struct Cell {
+    std::size_t first, second;
+    double weight;  // of the second
+};
+
+Cell cell_of(double position, std::size_t count) {
+    const auto first = std::min(static_cast<std::size_t>(position), count - 1);
+    return {first, std::min(first + 1, count - 1), position - static_cast<double>(first)};
+}
+
+// `front` and `back` are node coordinates.
+SegmentIntegral sample(const PreintegrationTable& table, double front, double back, double length) {
+    const std::size_t count = table.nodes.size();
+    const Cell f = cell_of(front, count), b = cell_of(back, count);
+    const std::array<std::size_t, 4> entries = {
+        b.first * count + f.first, b.first * count + f.second, b.second * count + f.first,
+        b.second * count + f.second};
+    const std::array<double, 4> weights = {(1 - b.weight) * (1 - f.weight),
+                                           (1 - b.weight) * f.weight, b.weight * (1 - f.weight),
+                                           b.weight * f.weight};
+    double extinction = 0;
+    for (int i = 0; i < 4; ++i) extinction += weights[i] * table.mean_extinction[entries[i]];
+    SegmentIntegral result;
+    result.optical_depth = extinction * length;
+    result.alpha = opacity_from_depth(result.optical_depth);
+    if (!table.colored) {
+        result.color = result.alpha * table.single_color;
+        return result;
+    }
+    if (extinction == 0) return result;
+    const double longest = table.lengths.back();
+    const double share = longest > 0 ? std::clamp(length / longest, 0.0, 1.0) : 0;
+    const Cell l =
+        cell_of(share * static_cast<double>(table.lengths.size() - 1), table.lengths.size());
+    glm::dvec3 emitted(0);
+    for (const auto& [layer, weight] : {std::pair(l.first, 1 - l.weight), {l.second, l.weight}}) {
+        for (int i = 0; i < 4; ++i) {
+            const float* const texel = &table.emission[(layer * count * count + entries[i]) * 3];
+            emitted += weight * weights[i] * glm::dvec3(texel[0], texel[1], texel[2]);
+        }
+    }
+    result.color = emitted * (result.alpha / extinction);
+    return result;
+}
+
+double coordinate_between(const Anchor& a, const Anchor& b, double value) {
+    return a.node + (value - a.value) / (b.value - a.value) * (b.node - a.node);
+}
+
+// As coordinate(), but at a step: its left node.
+double left_coordinate(const PreintegrationTable& table, double value) {
+    const auto& anchors = table.anchors;
+    const auto at = std::ranges::lower_bound(anchors, value, {}, &Anchor::value);
+    if (at == anchors.end()) return anchors.back().node;
+    if (at == anchors.begin()) return at->node;
+    return coordinate_between(*(at - 1), *at, value);
+}
+
+struct Part {
+    double from, to;  // node coordinates, ascending
+    double width;     // in scalars
+};
+
+// From `lo` to `hi` >= lo, split at the first and at the last anchor strictly between them.
+std::array<Part, 3> split(const PreintegrationTable& table, double lo, double hi) {
+    const auto& anchors = table.anchors;
+    const double first = table.coordinate(lo);
+    const double last = lo < hi ? left_coordinate(table, hi) : first;
+    const auto above = std::ranges::upper_bound(anchors, lo, {}, &Anchor::value);
+    const auto not_below = std::ranges::lower_bound(anchors, hi, {}, &Anchor::value);
+    if (above >= not_below) return {Part{first, last, hi - lo}, Part{}, Part{}};
+    const auto below = not_below - 1;
+    const double inner = below->value - above->value;
+    // A step at an end of the inner part: its node on the inner side.
+    return {Part{first, double(above->node), above->value - lo},
+            Part{table.coordinate(above->value), left_coordinate(table, below->value), inner},
+            Part{double(below->node), last, hi - below->value}};
+}
+
+}  // namespace
+
+double PreintegrationTable::coordinate(double value) const {
+    if (value >= anchors.back().value) return anchors.back().node;
+    const auto above = std::ranges::upper_bound(anchors, value, {}, &Anchor::value);
+    if (above == anchors.begin()) return 0;
+    return coordinate_between(*(above - 1), *above, value);
+}
+
+SegmentIntegral PreintegrationTable::lookup(double front, double back, double length) const {
+    return sample(*this, coordinate(front), coordinate(back), length);
+}
+
+SegmentIntegral PreintegrationTable::lookup_split(double front, double back, double length) const {
+    std::array<Part, 3> parts = split(*this, std::min(front, back), std::max(front, back));
+    if (front > back) {
+        std::ranges::reverse(parts);
+        for (Part& part : parts) std::swap(part.from, part.to);
+    }
+    if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
+    SegmentIntegral result;
+    for (const Part& part : parts) {
+        if (part.width == 0) continue;
+        const double share = part.width / std::abs(back - front);
+        const SegmentIntegral next = sample(*this, part.from, part.to, length * share);
+        result.color += std::exp(-result.optical_depth) * next.color;
+        result.optical_depth += next.optical_depth;
+    }
+    result.alpha = opacity_from_depth(result.optical_depth);
+    return result;
+}
+
+}  // namespace lamina

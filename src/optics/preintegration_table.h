@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pre-integrated transfer functions (NUMERICS section 5): what does not scale with length is
+// stored, so that opacity is exact at every length and colour has a finite limit at length 0.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+#include "optics/segment_integral.h"
+#include "optics/transfer_function.h"
+
+namespace lamina {
+
+struct PreintegrationRequest {
+    double lo = 0, hi = 1;   // scalars, lo <= hi, both finite
+    double max_length = 1;   // longest segment in world units, finite, >= 0
+    int scalar_nodes = 256;  // about so many nodes, >= 2
+    int length_layers = 1;   // >= 1
+    bool colored = true;     // false: only where transfer_function.single_color(lo, hi)
+};
+
+// Tables over the scalars at the front and the back of a segment. Nodes are aligned with the
+// transfer function's knots, so that within one linear piece the mean extinction is exactly
+// bilinear, and nothing is mixed across a step. Where front and back lie close on both sides of a
+// step, no table is right: there the corner holds the equal mix.
+struct PreintegrationTable {
+    struct Anchor {
+        double value;
+        int node;
+    };
+
+    std::vector<double> nodes;  // S scalars over [lo, hi], non-decreasing; a step's value stands
+                                // twice (left, right)
+    std::vector<Anchor>
+        anchors;  // lo, the knots in (lo, hi) (steps twice), hi; equally spaced nodes between two
+                  // of them, at least one. lo == hi: one node, one anchor
+    std::vector<double>
+        lengths;  // L >= 1, equally spaced from lengths[0] = 0, the limit, to max_length
+    bool colored = true;
+    glm::dvec3 single_color{0};  // the colour where colored is false
+    std::vector<float>
+        mean_extinction;          // S * S, index back * S + front: tbar = optical depth / length
+    std::vector<float> emission;  // L * S * S * 3, index ((layer * S + back) * S + front) * 3 +
+                                  // channel: E = tbar * C / alpha; empty where colored is false
+
+    // Node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a step: its
+    // right node.
+    double coordinate(double value) const;
+
+    // One look-up: bilinear between nodes, linear in length (clamped to max_length), alpha =
+    // -expm1(-tbar * length), C = alpha * E / tbar. Smooth only within a linear piece: where front
+    // and back lie on both sides of a knot, and as close to it as a cell, tbar and E are no smooth
+    // functions, at any resolution.
+    SegmentIntegral lookup(double front, double back, double length) const;
+
+    // At most three look-ups, composed with OVER: from the front to the next anchor, between
+    // anchors (exact in the scalars), from the last anchor to the back. Each stays within smooth
+    // cells.
+    SegmentIntegral lookup_split(double front, double back, double length) const;
+};
+
+// In parallel. The table has at most scalar_nodes + 3 * (knots in (lo, hi) + 1) nodes. Throws Error
+// where more than 1024 knots lie in (lo, hi) or the emission would exceed 1 GiB. Extinctions beyond
+// the largest float are cut to it.
+PreintegrationTable build_preintegration_table(const TransferFunction& transfer_function,
+                                               const PreintegrationRequest& request);
+
+}  // namespace lamina

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/transfer_function.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "optics/linear_pieces.h"
+
+namespace lamina {
+
+namespace {
+
+// Differences of scalars stay finite below this.
+constexpr double largest_value = 1e300;
+
+void check_optics(const OpticalProperties& optics, std::size_t index) {
+    constexpr const char* channels[] = {"red", "green", "blue"};
+    for (int c = 0; c < 3; ++c) {
+        if (!std::isfinite(optics.color[c]) || optics.color[c] < 0) {
+            fail("point {}: {} is {}, expected a finite number >= 0", index, channels[c],
+                 optics.color[c]);
+        }
+    }
+    if (!std::isfinite(optics.extinction) || optics.extinction < 0) {
+        fail("point {}: extinction is {}, expected a finite number >= 0", index, optics.extinction);
+    }
+}
+
+void check(std::span<const TransferKnot> points) {
+    if (points.empty()) fail("no points, expected at least one");
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double value = points[i].value;
+        if (!(std::abs(value) <= largest_value)) {
+            fail("point {}: value is {}, expected a number between -1e300 and 1e300", i, value);
+        }
+        if (i > 0 && value < points[i - 1].value) {
+            fail("point {}: value is {}, expected at least {}, the value of the point before it", i,
+                 value, points[i - 1].value);
+        }
+        if (i > 1 && value == points[i - 2].value) {
+            fail("point {}: value is {} for the third time, expected at most two points at a value",
+                 i, value);
+        }
+        check_optics(points[i].optics, i);
+    }
+}
+
+// Calls visit(a, b) with the ends of every linear piece that shares more than a point with [lo,
+// hi], and visit(k, k) for every knot in [lo, hi] and for the constant parts outside the knots.
+template <typename Visit>
+void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, const Visit& visit) {
+    if (lo < knots.front().value) visit(knots.front().optics, knots.front().optics);
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        const TransferKnot& knot = knots[i];
+        if (knot.value >= lo && knot.value <= hi) visit(knot.optics, knot.optics);
+        if (i + 1 < knots.size() && std::max(lo, knot.value) < std::min(hi, knots[i + 1].value)) {
+            visit(knot.optics, knots[i + 1].optics);
+        }
+    }
+    if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
+}
+
+// Whether key(part) is the same for all parts that meet [lo, hi], of those for which `counts`
+// holds.
+template <typename Key, typename Counts>
+bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
+                     const Counts& counts) {
+    std::optional<decltype(key(OpticalProperties{}))> seen;
+    bool same = true;
+    for_each_part(knots, lo, hi, [&](const OpticalProperties& a, const OpticalProperties& b) {
+        if (!counts(a, b)) return;
+        if (!seen) seen = key(a);
+        same = same && key(a) == *seen && key(b) == *seen;
+    });
+    return same;
+}
+
+constexpr auto always = [](const OpticalProperties&, const OpticalProperties&) { return true; };
+
+}  // namespace
+
+TransferFunction TransferFunction::linear(std::vector<TransferKnot> points) {
+    check(points);
+    return TransferFunction(std::move(points));
+}
+
+TransferFunction TransferFunction::nearest(const std::vector<TransferKnot>& points) {
+    check(points);
+    std::vector<TransferKnot> knots = {points.front()};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double step = std::midpoint(points[i - 1].value, points[i].value);
+        const bool at_step_before = knots.size() > 1 && knots.back().value == step;
+        // Points so close that two midpoints round to one number: the plateau between them has no
+        // width.
+        if (at_step_before)
+            knots.pop_back();
+        else
+            knots.push_back({step, points[i - 1].optics});
+        knots.push_back({step, points[i].optics});
+    }
+    if (knots.size() > 1) knots.erase(knots.begin());
+    return TransferFunction(std::move(knots));
+}
+
+OpticalProperties TransferFunction::at(double value) const {
+    const auto above = std::upper_bound(
+        knots_.begin(), knots_.end(), value,
+        [](double scalar, const TransferKnot& knot) { return scalar < knot.value; });
+    if (above == knots_.begin()) return knots_.front().optics;
+    if (above == knots_.end()) return knots_.back().optics;
+    return interpolate(*(above - 1), *above, value);
+}
+
+double TransferFunction::max_extinction(double lo, double hi) const {
+    double largest = std::max(at(lo).extinction, at(hi).extinction);
+    for (const TransferKnot& knot : knots_) {
+        if (knot.value >= lo && knot.value <= hi) {
+            largest = std::max(largest, knot.optics.extinction);
+        }
+    }
+    return largest;
+}
+
+bool TransferFunction::constant(double lo, double hi) const {
+    const auto both = [](const OpticalProperties& optics) {
+        return std::pair(optics.color, optics.extinction);
+    };
+    return same_everywhere(knots_, lo, hi, both, always);
+}
+
+bool TransferFunction::constant_extinction(double lo, double hi) const {
+    const auto extinction = [](const OpticalProperties& optics) { return optics.extinction; };
+    return same_everywhere(knots_, lo, hi, extinction, always);
+}
+
+bool TransferFunction::single_color(double lo, double hi) const {
+    const auto color = [](const OpticalProperties& optics) { return optics.color; };
+    const auto seen = [](const OpticalProperties& a, const OpticalProperties& b) {
+        return a.extinction > 0 || b.extinction > 0;
+    };
+    return same_everywhere(knots_, lo, hi, color, seen);
+}
+
+}  // namespace lamina

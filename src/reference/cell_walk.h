@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+#include "reference/chord.h"
+#include "volume/grid.h"
+
+namespace lamina {
+
+using CellIndex = std::array<std::int64_t, 3>;
+
+// The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between samples i and i+1;
+// on `cell` axes cells -1 and size-1 are the half voxels outside the samples. Every crossing is computed from its own
+// plane, so errors do not pile up; the first and last cell of an axis are as long as the box, so the lengths of all
+// cells add up to the chord.
+class CellWalk {
+  public:
+    CellWalk(const Grid& grid, const Chord& chord) : chord_(chord) {
+        const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto first = static_cast<std::int64_t>(std::floor(lowest[axis]));
+            const auto last = static_cast<std::int64_t>(std::ceil(highest[axis])) - 1;
+            const double p = chord.entry[axis], d = chord.direction[axis];
+            // On a plane between two cells the ray belongs to the cell it goes into.
+            const double cell = d < 0 ? std::ceil(p) - 1 : std::floor(p);
+            cell_[axis] = std::clamp(static_cast<std::int64_t>(cell), first, last);
+            final_[axis] = d < 0 ? first : last;
+            crossing_[axis] = next_crossing(axis);
+        }
+    }
+
+    // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from < to; ends early
+    // when visit returns false.
+    template <typename Visit>
+    void run(const Visit& visit) {
+        double from = 0;
+        while (true) {
+            const int axis = nearest_axis();
+            const bool last = !(crossing_[axis] < chord_.length_z);
+            const double to = last ? chord_.length_z : crossing_[axis];
+            if (from < to && !visit(cell_, from, to)) return;
+            if (last) return;
+            from = std::max(from, to);
+            cell_[axis] += chord_.direction[axis] < 0 ? -1 : 1;
+            crossing_[axis] = next_crossing(axis);
+        }
+    }
+
+  private:
+    int nearest_axis() const {
+        if (crossing_[0] <= crossing_[1]) return crossing_[0] <= crossing_[2] ? 0 : 2;
+        return crossing_[1] <= crossing_[2] ? 1 : 2;
+    }
+
+    double next_crossing(int axis) const {
+        const double d = chord_.direction[axis];
+        if (d == 0 || cell_[axis] == final_[axis]) return std::numeric_limits<double>::infinity();
+        const auto plane = static_cast<double>(cell_[axis] + (d > 0 ? 1 : 0));
+        return (plane - chord_.entry[axis]) / d;
+    }
+
+    const Chord& chord_;
+    CellIndex cell_;
+    CellIndex final_;  // the last cell in the ray's direction
+    std::array<double, 3> crossing_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/chord.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "reference/double_double.h"
+
+namespace lamina {
+namespace {
+
+// One coordinate of a ray in index space: position + z * slope.
+struct Coordinate {
+    DoubleDouble position;
+    DoubleDouble slope;
+
+    DoubleDouble z_at(double plane) const {
+        return (DoubleDouble{plane, 0} - position) / slope;
+    }
+};
+
+DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
+    DoubleDouble sum;
+    for (int i = 0; i < 3; ++i) sum = sum + a[i] * DoubleDouble{b[i], 0};
+    return sum;
+}
+
+// Projection on one (orthogonal) grid axis, which is first scaled by a power of two: its square must not underflow.
+Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dvec3& step) {
+    const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
+    const int exponent = std::ilogb(largest);
+    glm::dvec3 axis;
+    DoubleDouble offset[3], direction[3], axis_parts[3];
+    for (int i = 0; i < 3; ++i) {
+        axis[i] = std::scalbn(step[i], -exponent);
+        axis_parts[i] = {axis[i], 0};
+        offset[i] = exact_sum(ray.origin[i], -origin[i]);
+        direction[i] = {ray.direction[i], 0};
+    }
+    const DoubleDouble square = dot(axis_parts, axis);
+    const DoubleDouble unscale{std::scalbn(1.0, -exponent), 0};
+    return {dot(offset, axis) / square * unscale, dot(direction, axis) / square * unscale};
+}
+
+struct Interval {
+    DoubleDouble from, to;
+};
+
+// The part of z >= 0 where every coordinate is inside its closed range; from >= to where there is none.
+Interval clip(const Coordinate (&ray)[3], const glm::dvec3& lowest, const glm::dvec3& highest,
+              int& entry_axis) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Interval inside{{0, 0}, {infinity, 0}};
+    for (int axis = 0; axis < 3; ++axis) {
+        if (ray[axis].slope.hi == 0) {
+            const DoubleDouble p = ray[axis].position;
+            if (p < DoubleDouble{lowest[axis], 0} || DoubleDouble{highest[axis], 0} < p) return {};
+            continue;
+        }
+        DoubleDouble near = ray[axis].z_at(lowest[axis]);
+        DoubleDouble far = ray[axis].z_at(highest[axis]);
+        if (far < near) std::swap(near, far);
+        if (inside.from < near) {
+            inside.from = near;
+            entry_axis = axis;
+        }
+        if (far < inside.to) inside.to = far;
+    }
+    return inside;
+}
+
+}  // namespace
+
+Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
+    Coordinate coordinates[3];
+    double steepest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        coordinates[axis] = project(ray, grid.origin, grid.step[axis]);
+        if (!coordinates[axis].position.finite() || !coordinates[axis].slope.finite()) return {};
+        steepest = std::max(steepest, std::abs(coordinates[axis].slope.hi));
+    }
+    // A slope that moves the ray by less than 1e-30 voxels while it crosses the box only risks overflow.
+    for (Coordinate& coordinate : coordinates) {
+        if (std::abs(coordinate.slope.hi) < 1e-40 * steepest) coordinate.slope = {};
+    }
+    const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+    int entry_axis = -1;
+    const Interval inside = clip(coordinates, lowest, highest, entry_axis);
+    if (!(inside.from < inside.to)) return {};
+
+    Chord chord;
+    chord.length_z = (inside.to - inside.from).rounded();
+    chord.world_per_z = glm::length(ray.direction);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto& [position, slope] = coordinates[axis];
+        chord.direction[axis] = slope.rounded();
+        chord.entry[axis] = std::clamp((position + slope * inside.from).rounded(), lowest[axis],
+                                       highest[axis]);
+    }
+    if (entry_axis >= 0) {
+        chord.entry[entry_axis] =
+            chord.direction[entry_axis] > 0 ? lowest[entry_axis] : highest[entry_axis];
+    }
+    return chord;
+}
+
+double chord_length(const Grid& grid, const View& view, double column, double row) {
+    return clip_to_box(grid, view.ray(column, row)).world_length();
+}
+
+}  // namespace lamina

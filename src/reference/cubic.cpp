@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/cubic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lamina {
+
+MonotoneParts monotone_parts(const Cubic& cubic) {
+    // Derivative a t^2 + 2 b t + c; the quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
+    const double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
+    const double discriminant = b * b - a * c;
+    MonotoneParts parts;
+    if (!(discriminant > 0)) return parts;
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    const auto [first, second] = std::minmax({q / a, c / q});  // infinite where a = 0: not kept
+    for (const double root : {first, second}) {
+        if (!(root > parts.t[parts.count - 1] && root < 1)) continue;
+        parts.t[parts.count] = root;
+        parts.t[++parts.count] = 1;
+    }
+    return parts;
+}
+
+// Newton's method inside a bracket that is bisected where Newton's step would leave it or shrinks too slowly.
+double solve_monotone(const Cubic& cubic, double value, double from, double to) {
+    Cubic shifted = cubic;
+    shifted.c[0] -= value;
+    double below = from, above = to;  // where the shifted cubic is negative and positive
+    if (shifted(from) > shifted(to)) std::swap(below, above);
+    double t = 0.5 * (from + to);
+    double step = std::abs(to - from), previous_step = step;
+    constexpr int most_steps = 200;
+    for (int i = 0; i < most_steps; ++i) {
+        const double f = shifted(t), slope = shifted.slope(t);
+        if (f == 0) return t;
+        (f < 0 ? below : above) = t;
+        const double newton = t - f / slope;
+        const bool inside = newton > std::min(below, above) && newton < std::max(below, above);
+        const bool fast = std::abs(2 * f) <= std::abs(previous_step * slope);
+        const double next = inside && fast ? newton : 0.5 * (below + above);
+        previous_step = step;
+        step = std::abs(next - t);
+        t = next;
+        if (step <= 0.5 * std::numeric_limits<double>::epsilon() * std::abs(t)) break;
+    }
+    return t;
+}
+
+Cubic part_of(const Cubic& cubic, double from, double to, double start, double end) {
+    const double h = to - from;
+    Cubic part;
+    part.c[0] = start;
+    part.c[1] = cubic.slope(from) * h;
+    part.c[2] = (cubic.c[2] + 3 * cubic.c[3] * from) * h * h;
+    part.c[3] = cubic.c[3] * h * h * h;
+    part.c[1] += (end - start) - (part.c[1] + part.c[2] + part.c[3]);
+    return part;
+}
+
+}  // namespace lamina

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/ray_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "optics/opacity.h"
+#include "reference/emission_integral.h"
+
+namespace lamina {
+namespace {
+
+// Early termination may cost this share of the tolerance. The rest of the ray's colour is at most its transmittance
+// times the brightest colour.
+constexpr double termination_share = 1e-3;
+
+EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, double length) {
+    EmissionPiece piece;
+    piece.position.c[0] = (scalar.c[0] - interval.lo) / interval.width;
+    piece.extinction.c[0] = interval.extinction(scalar.c[0]) * length;
+    for (std::size_t i = 1; i < 4; ++i) {
+        piece.position.c[i] = scalar.c[i] / interval.width;
+        piece.extinction.c[i] = interval.extinction_change * piece.position.c[i] * length;
+    }
+    return piece;
+}
+
+}  // namespace
+
+// The errors allowed to pieces, by their share of the length and by their share of the opacity (both add up to at most
+// 1), add up to half of the tolerance.
+RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length)
+    : transfer_(transfer),
+      brightest_(std::max(1.0, transfer.brightest())),
+      depth_limit_(std::log(brightest_ / (termination_share * tolerance))),
+      error_per_opacity_(tolerance / 4),
+      error_per_length_(tolerance / 4 / ray_length) {}
+
+void RayIntegrator::add(const Cubic& scalar, double lo, double hi, double length) {
+    if (scalar.constant()) {  // on a step as well: there the value itself decides
+        return add_piece(transfer_[transfer_.above(scalar.c[0])], scalar, length);
+    }
+    const std::size_t interval = transfer_.above(lo);
+    if (interval >= transfer_.below(hi)) return add_piece(transfer_[interval], scalar, length);
+    add_split(scalar, length);
+}
+
+void RayIntegrator::add_split(const Cubic& scalar, double length) {
+    const MonotoneParts parts = monotone_parts(scalar);
+    for (int i = 0; i < parts.count && !opaque(); ++i) {
+        double from = parts.t[i], start = scalar(from);
+        const double to = parts.t[i + 1], end = scalar(to);
+        std::size_t interval = start <= end ? transfer_.above(start) : transfer_.below(start);
+        // Piece by piece up to each knot that is crossed, and then to the end of the monotone part.
+        const auto advance_to_knot = [&](std::size_t index) {
+            const double knot = transfer_.knot(index);
+            const double at = knot == start ? from : solve_monotone(scalar, knot, from, to);
+            add_part(interval, scalar, from, at, start, knot, length);
+            from = at;
+            start = knot;
+        };
+        if (start <= end) {
+            for (; interval < transfer_.knot_count() && transfer_.knot(interval) < end; ++interval)
+                advance_to_knot(interval);
+        } else {
+            for (; interval > 0 && transfer_.knot(interval - 1) > end; --interval)
+                advance_to_knot(interval - 1);
+        }
+        add_part(interval, scalar, from, to, start, end, length);
+    }
+}
+
+void RayIntegrator::add_part(std::size_t interval, const Cubic& scalar, double from, double to,
+                             double start, double end, double length) {
+    if (!(from < to) || transfer_[interval].transparent) return;
+    add_piece(transfer_[interval], part_of(scalar, from, to, start, end), (to - from) * length);
+}
+
+void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& scalar,
+                              double length) {
+    if (interval.transparent || opaque()) return;
+    ++pieces_;
+    const EmissionPiece piece = make_piece(interval, scalar, length);
+    const double depth = std::max(0.0, piece.depth(1));
+    const double transmittance = std::exp(-(depth_ + depth_rest_));
+    color_ += transmittance * opacity_from_depth(depth) * interval.at_lo.color;
+    const double reach = transmittance * interval.color_span;
+    if (reach > 0) {
+        const EmissionIntegral emission = integrate_emission(
+            piece, error_per_length_ * length / reach, error_per_opacity_ / interval.color_span);
+        color_ += transmittance * emission.value * interval.color_change;
+        error_ += reach * emission.error;
+    }
+    add_depth(depth);
+}
+
+void RayIntegrator::add_depth(double depth) {
+    const double sum = depth_ + depth;
+    depth_rest_ += depth_ >= depth ? (depth_ - sum) + depth : (depth - sum) + depth_;
+    depth_ = sum;
+}
+
+glm::dvec3 RayIntegrator::color() const {
+    return glm::max(color_, glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
+}
+
+double RayIntegrator::alpha() const { return opacity_from_depth(depth_ + depth_rest_); }
+
+double RayIntegrator::error_estimate() const {
+    return error_ + (opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0);
+}
+
+}  // namespace lamina

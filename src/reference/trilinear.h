@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <type_traits>
+
+#include "reference/cell_walk.h"
+#include "reference/cubic.h"
+#include "volume/grid.h"
+
+namespace lamina {
+
+// The eight samples around a cell; corner x + 2y + 4z.
+struct CellCorners {
+    std::array<double, 8> v;
+
+    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1). Formed from
+    // differences of corners: a constant cell is exactly constant, a linear one exactly linear.
+    Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
+        const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
+        const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
+        const double xyz = ((v[7] - v[6]) - (v[5] - v[4])) - xy;
+        const auto& [u, w, q] = std::array<double, 3>{from.x, from.y, from.z};
+        const auto& [du, dw, dq] = std::array<double, 3>{step.x, step.y, step.z};
+        Cubic field;
+        field.c[0] = v[0] + u * x + w * y + q * z + u * w * xy + u * q * xz + w * q * yz +
+                     u * w * q * xyz;
+        field.c[1] = du * (x + w * xy + q * xz + w * q * xyz) +
+                     dw * (y + u * xy + q * yz + u * q * xyz) +
+                     dq * (z + u * xz + w * yz + u * w * xyz);
+        field.c[2] = du * dw * (xy + q * xyz) + du * dq * (xz + w * xyz) + dw * dq * (yz + u * xyz);
+        field.c[3] = du * dw * dq * xyz;
+        return field;
+    }
+};
+
+// Access to the cells of a volume whose samples are of type Sample; outside the samples the border value repeats.
+template <typename Sample>
+class CellSamples {
+  public:
+    CellSamples(const Grid& grid, const Sample* samples)
+        : samples_(samples), last_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
+          row_(grid.size[0]), slice_(grid.size[0] * grid.size[1]) {}
+
+    CellCorners corners(const CellIndex& cell) const {
+        const std::int64_t x0 = clamped(cell[0], 0), x1 = clamped(cell[0] + 1, 0);
+        const std::int64_t y0 = clamped(cell[1], 1) * row_, y1 = clamped(cell[1] + 1, 1) * row_;
+        const std::int64_t z0 = clamped(cell[2], 2) * slice_;
+        const std::int64_t z1 = clamped(cell[2] + 1, 2) * slice_;
+        return {at(x0 + y0 + z0), at(x1 + y0 + z0), at(x0 + y1 + z0), at(x1 + y1 + z0),
+                at(x0 + y0 + z1), at(x1 + y0 + z1), at(x0 + y1 + z1), at(x1 + y1 + z1)};
+    }
+
+    // NaN and infinite samples make the cells around them transparent (scene option nan: transparent).
+    static bool finite(const CellCorners& corners) {
+        if constexpr (!std::is_floating_point_v<Sample>) return true;
+        double sum = 0;  // of eight finite floats it cannot overflow in double
+        for (const double value : corners.v) sum += value;
+        return std::isfinite(sum);
+    }
+
+  private:
+    double at(std::int64_t offset) const { return static_cast<double>(samples_[offset]); }
+    std::int64_t clamped(std::int64_t index, std::size_t axis) const {
+        return std::clamp<std::int64_t>(index, 0, last_[axis]);
+    }
+
+    const Sample* samples_;
+    std::array<std::int64_t, 3> last_;
+    std::int64_t row_, slice_;
+};
+
+}  // namespace lamina

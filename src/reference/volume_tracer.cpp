@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/volume_tracer.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "reference/cell_walk.h"
+#include "reference/chord.h"
+#include "reference/ray_integrator.h"
+#include "reference/transfer_intervals.h"
+#include "reference/trilinear.h"
+
+namespace lamina {
+namespace {
+
+// Adds the part of the chord inside one cell, from parameter `from` to `to`.
+template <typename Sample>
+void add_cell(const CellSamples<Sample>& samples, const TransferIntervals& transfer,
+              const Chord& chord, const CellIndex& cell, double from, double to,
+              RayIntegrator& integrator) {
+    const CellCorners corners = samples.corners(cell);
+    const auto [lo, hi] = std::minmax_element(corners.v.begin(), corners.v.end());
+    if (!CellSamples<Sample>::finite(corners) || !transfer.visible(*lo, *hi)) return;
+    const glm::dvec3 corner(cell[0], cell[1], cell[2]);
+    const glm::dvec3 local = chord.entry + from * chord.direction - corner;
+    const Cubic scalar = corners.along(glm::clamp(local, glm::dvec3(0), glm::dvec3(1)),
+                                       (to - from) * chord.direction);
+    integrator.add(scalar, *lo, *hi, (to - from) * chord.world_per_z);
+}
+
+struct RowTotals {
+    double error_estimate = 0;
+    std::int64_t segments = 0;
+};
+
+template <typename Sample>
+RowTotals trace_row(const Grid& grid, const CellSamples<Sample>& samples,
+                    const TransferIntervals& transfer, const View& view, double tolerance, int row,
+                    PreciseImage& image) {
+    RowTotals totals;
+    for (int column = 0; column < view.width; ++column) {
+        const Chord chord = clip_to_box(grid, view.ray(column, row));
+        if (!(chord.length_z > 0)) continue;
+        RayIntegrator integrator(transfer, tolerance, chord.world_length());
+        CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
+            add_cell(samples, transfer, chord, cell, from, to, integrator);
+            return !integrator.opaque();
+        });
+        const glm::dvec3 color = integrator.color();
+        double* const pixel = image.pixel(column, row);
+        for (int channel = 0; channel < 3; ++channel) pixel[channel] = color[channel];
+        pixel[3] = integrator.alpha();
+        totals.error_estimate = std::max(totals.error_estimate, integrator.error_estimate());
+        totals.segments += integrator.pieces();
+    }
+    return totals;
+}
+
+}  // namespace
+
+TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
+                         const View& view, const TraceOptions& options) {
+    if (!(options.tolerance >= TraceOptions::smallest_tolerance && options.tolerance <= 1)) {
+        fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
+             TraceOptions::smallest_tolerance);
+    }
+    TraceResult result{PreciseImage(view.width, view.height)};
+    const TransferIntervals transfer(transfer_function);
+    std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
+    Progress progress("tracing", view.height);
+    volume.visit([&](const auto* first_sample) {
+        const CellSamples samples(volume.grid(), first_sample);
+        parallel_for(view.height, 1, [&](std::int64_t row) {
+            rows[static_cast<std::size_t>(row)] =
+                trace_row(volume.grid(), samples, transfer, view, options.tolerance,
+                          static_cast<int>(row), result.image);
+            progress.advance();
+        });
+    });
+    for (const RowTotals& row : rows) {
+        result.error_estimate = std::max(result.error_estimate, row.error_estimate);
+        result.segments += row.segments;
+    }
+    return result;
+}
+
+}  // namespace lamina

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+// Interpolated and rescaled values may leave a brick's range by a rounding of float32: part of the range that is kept
+// on both sides when asking whether a brick can be seen.
+constexpr double range_margin = 1e-6;
+
+void check_finite(const Scene& scene, const Facts& facts) {
+    const std::string name = scene.volume_file.empty() ? "volume" : scene.volume_file.string();
+    const std::int64_t samples = facts.grid.sample_count();
+    if (facts.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
+    if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail("{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" in the scene draws "
+             "their cells as transparent",
+             name, facts.non_finite, samples);
+    }
+}
+
+void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks, Facts& facts) {
+    const double margin = range_margin * (facts.range.hi - facts.range.lo);
+    std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
+    std::int64_t seen = 0;
+    for (std::int64_t z = 0; z < bricks.count[2]; ++z) {
+        for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
+            for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
+                const ValueRange& range = bricks.at(x, y, z);
+                if (range.empty() || transfer_function.transparent(range.lo - margin, range.hi + margin)) continue;
+                ++seen;
+                const std::array<std::int64_t, 3> brick{x, y, z};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    first[axis] = std::min(first[axis], brick[axis]);
+                    last[axis] = std::max(last[axis], brick[axis]);
+                }
+            }
+        }
+    }
+    facts.occupied_share = static_cast<double>(seen) / static_cast<double>(bricks.ranges.size());
+    facts.occupied = {};
+    if (seen == 0) return;
+    const glm::dvec3 box_min = facts.grid.index_min(), box_max = facts.grid.index_max();
+    for (int axis = 0; axis < 3; ++axis) {
+        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
+        const bool at_start = first[axis] == 0, at_end = last[axis] + 1 == bricks.count[axis];
+        facts.occupied.min[axis] =
+            at_start ? box_min[axis] : static_cast<double>(first[axis] * MinMaxBricks::edge);
+        facts.occupied.max[axis] =
+            at_end ? box_max[axis] : static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
+    }
+}
+
+void measure_view(const Scene& scene, Facts& facts) {
+    const View view(scene.camera, scene.width, scene.height);
+    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
+    facts.orthographic = view.projection == Projection::orthographic;
+    const glm::dvec3 eye = facts.grid.to_index(view.eye);
+    facts.eye_inside = !facts.orthographic && glm::clamp(eye, lo, hi) == eye;
+    const DepthRange depth = depth_range(facts.grid, view);
+    facts.near_depth = depth.near;
+    facts.far_depth = depth.far;
+    const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
+    facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
+    if (!facts.orthographic) {
+        const double x = view.x(scene.width - 1), y = view.y(0);
+        facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
+    }
+}
+
+}  // namespace
+
+DepthRange depth_range(const Grid& grid, const View& view) {
+    const glm::dvec3 lo = grid.index_min(), hi = grid.index_max();
+    DepthRange depth{INFINITY, -INFINITY};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 index{(corner & 1) != 0 ? hi.x : lo.x, (corner & 2) != 0 ? hi.y : lo.y,
+                               (corner & 4) != 0 ? hi.z : lo.z};
+        const double z = glm::dot(grid.to_world(index) - view.eye, view.forward);
+        depth.near = std::min(depth.near, z);
+        depth.far = std::max(depth.far, z);
+    }
+    depth.near = std::max(depth.near, 0.0);
+    return depth;
+}
+
+Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
+    Facts facts;
+    facts.grid = volume.grid();
+    facts.type = volume.type();
+    facts.range = bricks.whole;
+    facts.non_finite = bricks.non_finite;
+    check_finite(scene, facts);
+    const TransferFunction& transfer_function = scene.transfer_function;
+    facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
+    facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);
+    facts.max_extinction = transfer_function.max_extinction(facts.range.lo, facts.range.hi);
+    measure_occupied(transfer_function, bricks, facts);
+    measure_view(scene, facts);
+    return facts;
+}
+
+}  // namespace lamina

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+#include "scene/camera.h"
+#include "scene/scene.h"
+#include "volume/min_max_bricks.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// A box in index space.
+struct IndexBox {
+    glm::dvec3 min{0}, max{0};
+    bool empty() const { return !(min.x < max.x && min.y < max.y && min.z < max.z); }
+};
+
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all behind the eye.
+struct DepthRange {
+    double near = 0;
+    double far = 0;
+};
+DepthRange depth_range(const Grid& grid, const View& view);
+
+// What the data and the view really contain: measured, not declared.
+struct Facts {
+    Grid grid;
+    SampleType type = SampleType::uint8;
+    ValueRange range;             // of the finite samples
+    std::int64_t non_finite = 0;  // NaN or infinite samples
+
+    // The transfer function over `range`.
+    bool constant = false;      // one colour, one extinction
+    bool single_color = false;  // one colour wherever there is extinction
+    double max_extinction = 0;  // per world unit
+
+    // The smallest box, made of whole min/max bricks, outside which the transfer function shows nothing.
+    IndexBox occupied;
+    double occupied_share = 0;  // of the volume's box, by its bricks
+
+    // The view: eye-space depths of the box's nearest and farthest point in front of the eye.
+    bool orthographic = false;
+    bool eye_inside = false;
+    double near_depth = 0;
+    double far_depth = 0;           // <= near_depth: the whole box lies behind the eye
+    double voxels_along_view = 0;   // index-space length of the forward direction over that depth
+    double max_length_per_depth = 1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+};
+
+// Throws Error when the volume has samples that are no finite numbers and the scene does not say what to do with them,
+// or has none but such.
+Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+
+}  // namespace lamina

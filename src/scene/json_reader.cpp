@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/json_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numeric>
+
+namespace lamina {
+namespace {
+
+constexpr std::uintmax_t max_json_bytes = 64u << 20;
+const nlohmann::json empty_object = nlohmann::json::object();
+
+// Levenshtein distance, for suggestions.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string nearest_of(const std::set<std::string>& words, const std::string& word) {
+    return *std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) {
+        return edit_distance(a, word) < edit_distance(b, word);
+    });
+}
+
+// The value as it stands in the file, cut where it is long.
+std::string shown(const nlohmann::json& value) {
+    const std::string text =
+        value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+}
+
+// nlohmann::json keeps the last of two equal keys without a word; a scene file must not have two.
+class RepeatedKeys {
+  public:
+    bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        using Event = nlohmann::json::parse_event_t;
+        if (event == Event::object_start) open_.emplace_back();
+        if (event == Event::object_end) open_.pop_back();
+        if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second) {
+            repeated = parsed.get<std::string>();
+        }
+        return true;
+    }
+    std::string repeated;
+
+  private:
+    std::vector<std::set<std::string>> open_;
+};
+
+std::string expand_data_folder(JsonReader& reader, const std::string& key, std::string text) {
+    static const std::string variable = "${LAMINA_DATA}";
+    const std::size_t at = text.find(variable);
+    if (at == std::string::npos) return text;
+    const char* const folder = std::getenv("LAMINA_DATA");
+    if (folder == nullptr || *folder == '\0') {
+        reader.fail_at(key, "names ${LAMINA_DATA}, which is not set: set the environment variable "
+                            "LAMINA_DATA to the folder with the data sets");
+    }
+    return text.replace(at, variable.size(), folder);
+}
+
+}  // namespace
+
+nlohmann::json load_json(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) fail("{}: no such file", file.string());
+    if (!std::filesystem::is_regular_file(file, error)) fail("{}: not a file", file.string());
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error) fail("{}: cannot read: {}", file.string(), error.message());
+    if (bytes > max_json_bytes) {
+        fail("{}: found {} bytes, expected at most {} in a JSON file", file.string(), bytes, max_json_bytes);
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) fail("{}: cannot read", file.string());
+    RepeatedKeys keys;
+    nlohmann::json parsed;
+    try {
+        parsed = nlohmann::json::parse(stream, std::ref(keys));
+    } catch (const nlohmann::json::exception& problem) {
+        std::string message = problem.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
+        message = message.substr(std::min(message.size(), message.find("] ") + 2));
+        fail("{}: {}", file.string(), message);
+    }
+    if (!keys.repeated.empty()) {
+        fail("{}: the key \"{}\" stands twice in one object", file.string(), keys.repeated);
+    }
+    return parsed;
+}
+
+JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
+                       std::string path, std::set<std::string>* known)
+    : object_(object), file_(file), path_(std::move(path)), known_(known) {
+    if (!object_.is_object()) {
+        throw KeyError(path_, fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
+                                          path_.empty() ? "" : path_ + ": ", shown(object_)));
+    }
+}
+
+std::string JsonReader::path_to(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+}
+
+void JsonReader::fail_at(const std::string& key, const std::string& message) const {
+    throw KeyError(path_to(key), fmt::format("{}: {}: {}", file_.string(), path_to(key), message));
+}
+
+void JsonReader::reject(const std::string& key, const std::string& expected) {
+    fail_at(key, has(key) ? fmt::format("found {}, expected {}", shown(object_[key]), expected)
+                          : fmt::format("is missing, expected {}", expected));
+}
+
+bool JsonReader::has(const std::string& key) {
+    asked_.insert(key);
+    if (known_ != nullptr) known_->insert(path_to(key));
+    return object_.contains(key);
+}
+
+const nlohmann::json& JsonReader::value(const std::string& key) {
+    if (!has(key)) fail_at(key, "is missing");
+    return object_[key];
+}
+
+JsonReader JsonReader::object(const std::string& key) {
+    const nlohmann::json& found = has(key) ? object_[key] : empty_object;
+    return JsonReader(found, file_, path_to(key), known_);
+}
+
+std::vector<JsonReader> JsonReader::objects(const std::string& key) {
+    if (!has(key) || !object_[key].is_array()) reject(key, "a list [...]");
+    std::vector<JsonReader> readers;
+    readers.reserve(object_[key].size());
+    for (const nlohmann::json& element : object_[key]) {
+        readers.emplace_back(element, file_, fmt::format("{}.{}", path_to(key), readers.size()), known_);
+    }
+    return readers;
+}
+
+double JsonReader::number(const std::string& key) {
+    if (!has(key) || !object_[key].is_number()) reject(key, "a number");
+    const double found = object_[key].get<double>();
+    if (!std::isfinite(found)) reject(key, "a finite number");
+    return found;
+}
+
+double JsonReader::number_or(const std::string& key, double otherwise) {
+    return has(key) ? number(key) : otherwise;
+}
+
+std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int64_t hi) {
+    const std::string expected = fmt::format("a whole number from {} to {}", lo, hi);
+    if (!has(key) || !object_[key].is_number()) reject(key, expected);
+    const double found = object_[key].get<double>();  // 8.0 and 8e0 are whole, too
+    if (!(found >= static_cast<double>(lo) && found <= static_cast<double>(hi)) ||
+        found != std::floor(found)) {
+        reject(key, expected);
+    }
+    return static_cast<std::int64_t>(found);
+}
+
+std::string JsonReader::text(const std::string& key) {
+    if (!has(key) || !object_[key].is_string()) reject(key, "a string");
+    return object_[key].get<std::string>();
+}
+
+glm::dvec3 JsonReader::vector(const std::string& key) {
+    const bool three_numbers =
+        has(key) && object_[key].is_array() && object_[key].size() == 3 &&
+        std::all_of(object_[key].begin(), object_[key].end(), [](const nlohmann::json& element) {
+            return element.is_number() && std::isfinite(element.get<double>());
+        });
+    if (!three_numbers) reject(key, "three finite numbers [x, y, z]");
+    return {object_[key][0].get<double>(), object_[key][1].get<double>(), object_[key][2].get<double>()};
+}
+
+glm::dvec3 JsonReader::vector_or(const std::string& key, const glm::dvec3& otherwise) {
+    return has(key) ? vector(key) : otherwise;
+}
+
+std::filesystem::path JsonReader::path_of(const std::string& key) {
+    const std::filesystem::path path = expand_data_folder(*this, key, text(key));
+    if (path.empty()) reject(key, "the path of a file");
+    return path.is_absolute() ? path : file_.parent_path() / path;
+}
+
+void JsonReader::close() const {
+    for (const auto& [key, ignored] : object_.items()) {
+        if (asked_.contains(key)) continue;
+        fail_at(key, asked_.empty() ? "unknown key"
+                                    : fmt::format("unknown key, did you mean \"{}\"?", nearest_of(asked_, key)));
+    }
+}
+
+}  // namespace lamina

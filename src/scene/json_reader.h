@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace lamina {
+
+// A key of a JSON file that is missing, unknown or has a bad value. `key`: its path, "render.slice.samples".
+class KeyError : public Error {
+  public:
+    KeyError(std::string path, const std::string& message)
+        : Error(message), key(std::move(path)) {}
+    std::string key;
+};
+
+// Reads the file; syntax errors, repeated keys and files over 64 MiB are Errors with line and column.
+nlohmann::json load_json(const std::filesystem::path& file);
+
+// Reads one JSON object key by key and remembers which keys it was asked for; close() then rejects all others, with
+// the nearest known key as a suggestion. Every error names the file, the path of the key, what was found and expected.
+class JsonReader {
+  public:
+    // `file`: for messages and relative paths. `known`: collects the path of every key that is asked for (the test that
+    // keeps the schema in step with the reader), or null. All must outlive the reader.
+    JsonReader(const nlohmann::json& object, const std::filesystem::path& file, std::string path = "",
+               std::set<std::string>* known = nullptr);
+
+    bool has(const std::string& key);
+    JsonReader object(const std::string& key);  // an empty object when absent
+    std::vector<JsonReader> objects(const std::string& key);
+    const nlohmann::json& value(const std::string& key);  // must be there
+
+    double number(const std::string& key);
+    double number_or(const std::string& key, double otherwise);
+    std::int64_t whole(const std::string& key, std::int64_t lo, std::int64_t hi);
+    std::string text(const std::string& key);
+    glm::dvec3 vector(const std::string& key);
+    glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise);
+    // A path of the file system: ${LAMINA_DATA} expanded, relative ones taken from the file's own folder.
+    std::filesystem::path path_of(const std::string& key);
+
+    // One of the listed words; the first where the key is absent.
+    template <typename Choice>
+    Choice choice(const std::string& key,
+                  const std::vector<std::pair<const char*, Choice>>& choices) {
+        if (!has(key)) return choices.front().second;
+        std::string words;
+        for (const auto& [word, chosen] : choices) {
+            if (value(key) == word) return chosen;
+            words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", word);
+        }
+        reject(key, "one of " + words);
+    }
+
+    void close() const;  // throws KeyError for a key that nobody asked for
+    [[noreturn]] void reject(const std::string& key, const std::string& expected);
+    [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
+
+    const std::filesystem::path& file() const { return file_; }
+
+  private:
+    std::string path_to(const std::string& key) const;
+
+    const nlohmann::json& object_;
+    const std::filesystem::path& file_;
+    std::string path_;
+    std::set<std::string> asked_;
+    std::set<std::string>* known_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_reader.h"
+
+#include <nlohmann/json.hpp>
+
+#include "scene/json_reader.h"
+#include "scene/transfer_function_json.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t max_image_edge = 65536;
+constexpr std::int64_t max_image_pixels = std::int64_t{1} << 27;  // 2 GiB of float RGBA
+constexpr std::int64_t max_slabs = 65536;
+
+
+GeneratorRequest read_generator(JsonReader reader) {
+    GeneratorRequest request;
+    request.name = reader.text("generate");
+    if (reader.has("size")) {
+        const nlohmann::json& size = reader.value("size");
+        const bool good = size.is_array() && size.size() == 3 &&
+                          std::all_of(size.begin(), size.end(), [](const nlohmann::json& edge) {
+                              return edge.is_number_integer() && edge.get<std::int64_t>() >= 1 &&
+                                     edge.get<std::int64_t>() <= largest_generated_axis;
+                          });
+        if (!good) {
+            reader.reject("size", fmt::format("three whole numbers from 1 to {}", largest_generated_axis));
+        }
+        request.size = {{size[0].get<std::int64_t>(), size[1].get<std::int64_t>(), size[2].get<std::int64_t>()}};
+    }
+    request.type = reader.choice<SampleType>("type", {{"uint8", SampleType::uint8},
+                                                      {"uint16", SampleType::uint16},
+                                                      {"float", SampleType::float32}});
+    try {
+        generated_grid(request);
+    } catch (const Error& error) {
+        reader.fail_at("generate", error.what());
+    }
+    reader.close();
+    return request;
+}
+
+void read_volume(JsonReader& reader, Scene& scene) {
+    if (reader.has("volume") && reader.value("volume").is_object()) {
+        scene.volume_request = read_generator(reader.object("volume"));
+    } else {
+        scene.volume_file = reader.path_of("volume");
+    }
+    scene.nan = reader.choice<NanPolicy>(
+        "nan", {{"error", NanPolicy::error}, {"transparent", NanPolicy::transparent}});
+}
+
+Camera read_camera(JsonReader reader) {
+    Camera camera;
+    camera.projection = reader.choice<Projection>("projection",
+                                                  {{"perspective", Projection::perspective},
+                                                   {"orthographic", Projection::orthographic}});
+    camera.eye = reader.vector("eye");
+    camera.center = reader.vector("center");
+    camera.up = reader.vector_or("up", camera.up);
+    camera.fov_y = reader.number_or("fov_y", camera.fov_y);
+    if (!(camera.fov_y > 0 && camera.fov_y < 180)) reader.reject("fov_y", "degrees between 0 and 180");
+    if (camera.projection == Projection::orthographic) camera.height = reader.number("height");
+    else camera.height = reader.number_or("height", camera.height);
+    if (!(camera.height > 0)) reader.reject("height", "world units > 0");
+    reader.close();
+    return camera;
+}
+
+void read_image(JsonReader reader, Scene& scene) {
+    const std::int64_t width = reader.whole("width", 1, max_image_edge);
+    const std::int64_t height = reader.whole("height", 1, max_image_edge);
+    if (width * height > max_image_pixels) {
+        reader.fail_at("width", fmt::format("found {} x {} pixels, expected at most {} in all", width, height,
+                                            max_image_pixels));
+    }
+    scene.width = static_cast<int>(width);
+    scene.height = static_cast<int>(height);
+    scene.background = reader.vector_or("background", scene.background);
+    reader.close();
+}
+
+SliceSettings read_slice(JsonReader reader) {
+    SliceSettings slice;
+    if (reader.has("samples") && reader.value("samples") != "auto") {
+        if (!reader.value("samples").is_number()) {
+            reader.reject("samples", fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs));
+        }
+        slice.samples = static_cast<int>(reader.whole("samples", 1, max_slabs));
+    }
+    slice.classification = reader.choice<Classification>(
+        "classification",
+        {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}});
+    slice.order = reader.choice<Order>(
+        "order", {{"back_to_front", Order::back_to_front}, {"front_to_back", Order::front_to_back}});
+    slice.filter = reader.choice<Filter>(
+        "filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
+    reader.close();
+    return slice;
+}
+
+void read_render(JsonReader reader, Scene& scene) {
+    scene.method =
+        reader.choice<Method>("method", {{"slice", Method::slice}, {"trace", Method::trace}});
+    scene.target = reader.choice<Target>("target", {{"float32", Target::float32},
+                                                    {"float16", Target::float16},
+                                                    {"fixed16", Target::fixed16},
+                                                    {"fixed8", Target::fixed8}});
+    scene.slice = read_slice(reader.object("slice"));
+    JsonReader trace = reader.object("trace");
+    scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
+    // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
+    if (!(scene.trace_tolerance >= 1e-12 && scene.trace_tolerance <= 1)) {
+        trace.reject("tolerance", "a number from 1e-12 to 1");
+    }
+    trace.close();
+    reader.close();
+}
+
+}  // namespace
+
+Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
+                 std::set<std::string>* known) {
+    JsonReader reader(document, file, "", known);
+    Scene scene;
+    scene.file = file;
+    reader.whole("version", 1, 1);
+    read_volume(reader, scene);
+    if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
+    scene.transfer_function =
+        read_transfer_function(reader.object("transfer_function"), &scene.warnings);
+    if (!reader.has("camera")) reader.reject("camera", "an object {...}");
+    scene.camera = read_camera(reader.object("camera"));
+    if (!reader.has("image")) reader.reject("image", "an object {...}");
+    read_image(reader.object("image"), scene);
+    read_render(reader.object("render"), scene);
+    reader.close();
+    try {
+        View(scene.camera, scene.width, scene.height);
+    } catch (const Error& error) {
+        throw KeyError("camera", fmt::format("{}: {}", file.string(), error.what()));
+    }
+    return scene;
+}
+
+void set_key(nlohmann::json& document, const std::string& key, const std::string& value) {
+    nlohmann::json* node = &document;
+    std::size_t start = 0;
+    while (true) {
+        const std::size_t dot = key.find('.', start);
+        const std::string part = key.substr(start, dot == std::string::npos ? dot : dot - start);
+        if (part.empty()) throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
+        if (node->is_array()) {
+            const bool number = part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
+            if (!number || std::stoul(part) >= node->size()) {
+                throw UsageError(fmt::format("--set {}: found \"{}\", expected the number of one of {} elements", key,
+                                             part, node->size()));
+            }
+            node = &(*node)[std::stoul(part)];
+        } else if (node->is_object()) {
+            node = &(*node)[part];
+        } else if (node->is_null()) {
+            *node = nlohmann::json::object();
+            node = &(*node)[part];
+        } else {
+            throw UsageError(fmt::format("--set {}: \"{}\" is not inside an object", key, part));
+        }
+        if (dot == std::string::npos) break;
+        start = dot + 1;
+    }
+    nlohmann::json parsed = nlohmann::json::parse(value, nullptr, false);
+    *node = parsed.is_discarded() ? nlohmann::json(value) : std::move(parsed);
+}
+
+}  // namespace lamina

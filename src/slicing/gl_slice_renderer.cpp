@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/gl_slice_renderer.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+
+#include "base/stopwatch.h"
+#include "gl/check.h"
+#include "gl/query.h"
+#include "optics/preintegration_table.h"
+#include "slicing/texture_bricks.h"
+#include "slicing/shader_intervals.h"
+
+namespace lamina {
+namespace {
+
+enum TextureUnit { volume_unit, intervals_unit, interval_starts_unit, preintegration_unit };
+
+gl::TextureFormat format_of(Target target) {
+    switch (target) {
+        case Target::float32: return gl::TextureFormat::rgba32f;
+        case Target::float16: return gl::TextureFormat::rgba16f;
+        case Target::fixed16: return gl::TextureFormat::rgba16;
+        default: return gl::TextureFormat::rgba8;
+    }
+}
+
+int sampling_define(VolumeSampling sampling) {
+    switch (sampling) {
+        case VolumeSampling::none: return 0;
+        case VolumeSampling::fetch: return 1;
+        default: return 2;
+    }
+}
+
+bool uses_table(const SlicePlan& plan) {
+    return plan.classification == Classification::preintegrated && plan.sampling != VolumeSampling::none;
+}
+
+// rgba of a coloured table: emission and mean extinction, one layer a length; a single channel without colour.
+gl::Texture upload_table(const PreintegrationTable& table) {
+    const std::size_t nodes = table.nodes.size();
+    const int size = static_cast<int>(nodes);
+    if (!table.colored) {
+        gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::r32f, size, size);
+        texture.upload({0, 0, 0, size, size, 1}, std::span<const float>(table.mean_extinction));
+        return texture;
+    }
+    const int layers = static_cast<int>(table.lengths.size());
+    gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::rgba32f, size, size, layers);
+    std::vector<float> texels(4 * nodes * nodes);
+    for (int layer = 0; layer < layers; ++layer) {
+        const float* const emission = table.emission.data() + 3 * nodes * nodes * static_cast<std::size_t>(layer);
+        for (std::size_t i = 0; i < nodes * nodes; ++i) {
+            std::copy_n(emission + 3 * i, 3, texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
+            texels[4 * i + 3] = table.mean_extinction[i];
+        }
+        texture.upload({0, 0, layer, size, size, 1}, std::span<const float>(texels));
+    }
+    return texture;
+}
+
+// Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it has a width.
+ValueRange shader_range(const ValueRange& range) {
+    return range.hi > range.lo ? range : ValueRange{range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
+}
+
+}  // namespace
+
+gl::Defines slab_defines(const SlicePlan& plan, int intervals, int table_nodes) {
+    gl::Defines defines;
+    defines.set("SAMPLING", sampling_define(plan.sampling));
+    if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
+    if (plan.single_color) defines.set("SINGLE_COLOR", 1);
+    if (plan.sampling == VolumeSampling::none) return defines;
+    if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
+    defines.set("INTERVALS", intervals);
+    if (!uses_table(plan)) return defines;
+    defines.set("PREINTEGRATED", 1);
+    defines.set("TABLE_NODES", table_nodes);
+    if (plan.table_filtered) defines.set("TABLE_FILTERED", 1);
+    if (!plan.table.colored) return defines;
+    defines.set("TABLE_COLORED", 1);
+    defines.set("TABLE_LAYERS", plan.table.length_layers);
+    return defines;
+}
+
+GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function, const Facts& facts,
+                                 const SlicePlan& plan, int width, int height)
+    : facts_(facts), plan_(plan), range_(shader_range(facts.range)),
+      target_(gl::Texture::make_2d(format_of(plan.target), width, height)) {
+    if (plan_.nothing_visible) return;
+    const Stopwatch table_watch;
+    make_tables(transfer_function);
+    table_ms_ = table_watch.milliseconds();
+    const Stopwatch upload_watch;
+    volume_ = upload_volume(volume, range_, plan);
+    glFinish();
+    upload_ms_ = upload_watch.milliseconds();
+    gl::check("uploading the volume");
+}
+
+void GlSliceRenderer::make_tables(const TransferFunction& transfer_function) {
+    PreintegrationTable table;
+    if (uses_table(plan_)) {
+        table = build_preintegration_table(transfer_function,
+                                           {range_.lo, range_.hi, plan_.table.max_length,
+                                            plan_.table.scalar_nodes, plan_.table.length_layers, plan_.table.colored});
+        preintegration_ = upload_table(table);
+        if (plan_.table_filtered) preintegration_.set_filter(gl::TextureFilter::linear);
+        preintegration_.bind(preintegration_unit);
+    }
+    const ShaderIntervals intervals = make_intervals(transfer_function, range_, table.anchors);
+    program_.emplace("slicing/slab.vert", "slicing/slab.frag",
+                          slab_defines(plan_, intervals.count, static_cast<int>(table.nodes.size())));
+    gl::Program& program = *program_;
+    const glm::vec3 color(first_color(transfer_function, range_));
+    program.set("single_color", color);
+    if (plan_.sampling == VolumeSampling::none) {
+        const OpticalProperties optics = transfer_function.at(range_.lo);
+        program.set("constant_optics", glm::vec4(glm::vec3(optics.color), static_cast<float>(optics.extinction)));
+        return;
+    }
+    intervals_ = gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, 3);
+    intervals_.upload({0, 0, 0, intervals.count, 3, 1}, std::span<const float>(intervals.texels));
+    intervals_.bind(intervals_unit);
+    interval_starts_ = gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
+    interval_starts_.upload({0, 0, 0, ShaderIntervals::start_count, 1, 1},
+                            std::span<const float>(intervals.starts));
+    interval_starts_.bind(interval_starts_unit);
+    program.set("volume", volume_unit);
+    program.set("intervals", intervals_unit);
+    program.set("interval_starts", interval_starts_unit);
+    program.set("preintegration", preintegration_unit);
+    if (plan_.table.max_length > 0) {
+        program.set("layers_per_length",
+                    static_cast<float>((plan_.table.length_layers - 1) / plan_.table.max_length));
+    }
+}
+
+void GlSliceRenderer::make_geometry(const View& view) {
+    const DepthRange depth = depth_range(facts_.grid, view);
+    slabs_ = {depth.near, depth.far, plan_.slabs};
+    triangles_.clear();
+    draws_.clear();
+    if (depth.far <= depth.near) return;
+    for (const std::size_t brick : visibility_order(plan_.bricks, facts_.grid, view, plan_.order)) {
+        IndexBox box = box_of(plan_.bricks[brick], facts_.grid);
+        box.min = glm::max(box.min, plan_.drawn.min);
+        box.max = glm::min(box.max, plan_.drawn.max);
+        if (box.empty()) continue;
+        const std::size_t first = triangles_.size();
+        append_slab_polygons(view, facts_.grid, box, slabs_, plan_.order, triangles_);
+        draws_.push_back({brick, static_cast<int>(first), static_cast<int>(triangles_.size() - first)});
+    }
+    const std::span<const SlabVertex> vertices(triangles_);
+    if (vertices.size_bytes() > vertices_.byte_count()) {
+        vertices_ = gl::Buffer(vertices);
+        vertex_array_.set_floats(0, vertices_, 2, sizeof(SlabVertex), offsetof(SlabVertex, column));
+        vertex_array_.set_floats(1, vertices_, 2, sizeof(SlabVertex), offsetof(SlabVertex, front));
+    } else if (!vertices.empty()) {
+        vertices_.write(vertices);
+    }
+}
+
+void GlSliceRenderer::set_view(const View& view) {
+    gl::Program& program = *program_;
+    program.set("image_size", glm::vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
+    program.set("image_middle", glm::vec2(0.5f * static_cast<float>(view.width), 0.5f * static_cast<float>(view.height)));
+    program.set("pixel_size", static_cast<float>(view.pixel));
+    program.set("normalisation", volume_.normalisation);
+    // Depth in the shader is relative to the middle of the slabs.
+    const bool perspective = view.projection == Projection::perspective;
+    const glm::dvec3 column = facts_.grid.direction_to_index(view.pixel * view.right);
+    const glm::dvec3 row = facts_.grid.direction_to_index(-view.pixel * view.up);
+    const double spread = perspective ? slabs_.middle() : 1;
+    program.set("origin_column", glm::vec3(spread * column));
+    program.set("origin_row", glm::vec3(spread * row));
+    program.set("direction_middle", glm::vec3(facts_.grid.direction_to_index(view.forward)));
+    program.set("direction_column", perspective ? glm::vec3(column) : glm::vec3(0));
+    program.set("direction_row", perspective ? glm::vec3(row) : glm::vec3(0));
+    if (!perspective) program.set("pixel_size", 0.0f);
+}
+
+void GlSliceRenderer::set_brick(const View& view, std::size_t brick) {
+    gl::Program& program = *program_;
+    const TextureBrick& texture = plan_.bricks[brick];
+    const glm::dvec3 first{texture.first[0], texture.first[1], texture.first[2]};
+    const IndexBox box = box_of(texture, facts_.grid);
+    program.set("origin_middle", glm::vec3(facts_.grid.to_index(view.eye + slabs_.middle() * view.forward) - first));
+    program.set("box_min", glm::vec3(box.min - first));
+    program.set("box_max", glm::vec3(box.max - first));
+    program.set("last_sample", glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
+    if (!volume_.bricks.empty()) volume_.bricks[brick].bind(volume_unit);
+}
+
+void GlSliceRenderer::draw(const View& view) {
+    target_.bind();
+    target_.clear(glm::vec4(0));
+    geometry_ms_ = draw_ms_ = 0;
+    if (plan_.nothing_visible) return;
+    const Stopwatch geometry_watch;
+    make_geometry(view);
+    set_view(view);
+    geometry_ms_ = geometry_watch.milliseconds();
+    const Stopwatch draw_watch;
+    glEnable(GL_BLEND);
+    if (plan_.order == Order::back_to_front) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    else glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    program_->use();
+    vertex_array_.bind();
+    for (const BrickDraw& draw : draws_) {
+        set_brick(view, draw.brick);
+        glDrawArrays(GL_TRIANGLES, draw.first_vertex, draw.vertex_count);
+    }
+    glDisable(GL_BLEND);
+    glFinish();
+    draw_ms_ = draw_watch.milliseconds();
+    gl::check("drawing the slabs");
+}
+
+std::uint64_t GlSliceRenderer::count_fragments(const View& view) {
+    gl::Query query(gl::Query::Kind::samples_passed);
+    query.begin();
+    draw(view);
+    query.end();
+    return query.result();
+}
+
+}  // namespace lamina

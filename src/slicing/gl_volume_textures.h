@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+#include "gl/texture.h"
+#include "scene/plan.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// The volume as 3D textures, one a brick of the plan.
+struct VolumeTextures {
+    std::vector<gl::Texture> bricks;
+    glm::vec2 normalisation{1, 0};  // scale and offset from what a shader reads to scalars with `range` as [0, 1]
+};
+
+// Samples that are no finite numbers become NaN. Shows progress.
+VolumeTextures upload_volume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
+
+}  // namespace lamina

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Volumes made by formula (DESIGN section 5). The same samples on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+struct GeneratorRequest {
+    std::string name;  // one of generator_names()
+    std::optional<std::array<std::int64_t, 3>>
+        size;                             // 128^3 where none is given, ramp: 256 x 4 x 1
+    SampleType type = SampleType::uint8;  // or uint16, float32
+};
+
+constexpr std::int64_t largest_generated_axis = 2048;
+
+const std::vector<std::string>& generator_names();
+
+// The unit box, samples at its faces (`node`; an axis of one sample: `cell`); ramp: voxels of edge
+// 1, the first sample at the origin. Throws Error where name, size (1..2048 along each axis) or
+// type are none.
+Grid generated_grid(const GeneratorRequest& request);
+
+// Values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress. Both throw
+// Error.
+Volume generate(const GeneratorRequest& request);  // in memory
+void generate_nrrd(AtomicFile& file,
+                   const GeneratorRequest& request);  // slab by slab: below 200 MB at any size
+
+}  // namespace lamina

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace lamina {
+
+// Gradient noise: Perlin, "An image synthesizer", SIGGRAPH 1985, with the fade curve of "Improving
+// noise", 2002, and gradients from a hash of the lattice point. Values about -1..1, mean 0, zero at
+// lattice points; the same on every machine.
+class GradientNoise {
+  public:
+    explicit GradientNoise(std::uint64_t seed) : seed_(seed) {}
+
+    double at(double x, double y, double z) const;
+
+    // values[i] += amplitude * at(first + i * step, y, z). What depends on y and z only is computed
+    // once a lattice cell, so a sample costs one interpolation. `step` > 0.
+    void add_row(double first, double step, double y, double z, double amplitude,
+                 std::int64_t count, double* values) const;
+
+  private:
+    // At a lattice point of x, what its gradients, interpolated over y and z, contribute at
+    // distance d along x: value + slope * d.
+    struct Node {
+        double value;
+        double slope;
+    };
+
+    Node node(std::int64_t x, double y, double z) const;
+
+    std::uint64_t seed_;
+};
+
+// The smooth step 6 t^5 - 15 t^4 + 10 t^3, for t in 0..1.
+inline double fade(double t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+
+}  // namespace lamina

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume/grid.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace lamina {
+namespace {
+
+// An axis with one sample has no extent between samples, so it is a voxel whatever the file says.
+bool spans_voxels(const Grid& grid, int axis) {
+    return grid.size[axis] == 1 || grid.centering[axis] == Centering::cell;
+}
+
+}  // namespace
+
+glm::dvec3 Grid::index_min() const {
+    glm::dvec3 corner{0};
+    for (int axis = 0; axis < 3; ++axis) corner[axis] = spans_voxels(*this, axis) ? -0.5 : 0.0;
+    return corner;
+}
+
+glm::dvec3 Grid::index_max() const {
+    glm::dvec3 corner{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto last = static_cast<double>(size[axis] - 1);
+        corner[axis] = spans_voxels(*this, axis) ? last + 0.5 : last;
+    }
+    return corner;
+}
+
+glm::dvec3 Grid::to_world(const glm::dvec3& index) const {
+    return origin + index.x * step[0] + index.y * step[1] + index.z * step[2];
+}
+
+glm::dvec3 Grid::to_index(const glm::dvec3& world) const {
+    return direction_to_index(world - origin);
+}
+
+glm::dvec3 Grid::direction_to_index(const glm::dvec3& world) const {
+    // The inverse of a matrix with orthogonal columns: project on each.
+    glm::dvec3 index{0};
+    for (int axis = 0; axis < 3; ++axis) {
+        index[axis] = glm::dot(world, step[axis]) / glm::dot(step[axis], step[axis]);
+    }
+    return index;
+}
+
+Grid::Bounds Grid::bounds() const {
+    const glm::dvec3 corners[2] = {index_min(), index_max()};
+    Bounds box;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 world = to_world(
+            {corners[corner & 1].x, corners[(corner >> 1) & 1].y, corners[(corner >> 2) & 1].z});
+        box.min = corner == 0 ? world : glm::min(box.min, world);
+        box.max = corner == 0 ? world : glm::max(box.max, world);
+    }
+    return box;
+}
+
+}  // namespace lamina

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume/nrrd_data.h"
+
+#include <teem/nrrd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "volume/gzip_reader.h"
+#include "volume/nrrd_text.h"
+
+namespace lamina {
+namespace {
+
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+// At most so many bytes can come out of one byte: deflate codes 258 bytes in 2 bits (zlib,
+// "Technical details": 1032:1); bzip2 codes a block of 900,000 bytes, each 5 of them a run of 259,
+// in no less than 40 bytes.
+constexpr std::uint64_t gzip_expansion = 1032;
+constexpr std::uint64_t bzip2_expansion = 900000 / 5 * 259 / 40;
+
+std::string named_size(const NrrdHeader& header) {
+    const auto& size = header.grid.size;
+    return fmt::format("{} x {} x {} {} samples", size[0], size[1], size[2], name_of(header.type));
+}
+
+std::uint64_t byte_count(const NrrdHeader& header) {
+    std::uint64_t bytes = bytes_of(header.type);
+    bool overflow = false;
+    for (const std::int64_t size : header.grid.size) {
+        overflow |= __builtin_mul_overflow(bytes, static_cast<std::uint64_t>(size), &bytes);
+    }
+    if (overflow || bytes > (std::uint64_t{1} << 62)) {
+        fail("{}: the header promises {}, more than any file holds", header.path.string(),
+             named_size(header));
+    }
+    return bytes;
+}
+
+File open_data(const NrrdHeader& header) {
+    File file(std::fopen(header.data_path.c_str(), "rb"), &std::fclose);
+    if (!file) fail("{}: cannot read: {}", header.data_path.string(), std::strerror(errno));
+    if (fseeko(file.get(), header.data_offset, SEEK_SET) != 0) {
+        fail("{}: cannot read: {}", header.data_path.string(), std::strerror(errno));
+    }
+    for (std::int64_t line = 0; line < header.line_skip; ++line) {
+        int c = std::fgetc(file.get());
+        while (c != EOF && c != '\n') c = std::fgetc(file.get());
+        if (c == EOF) {
+            fail("{}: line skip: found {} lines of data, expected {}", header.path.string(), line,
+                 header.line_skip);
+        }
+    }
+    return file;
+}
+
+// Bytes from where the file stands to its end.
+std::uint64_t bytes_left(std::FILE* file) {
+    const off_t here = ftello(file);
+    fseeko(file, 0, SEEK_END);
+    const off_t end = ftello(file);
+    fseeko(file, here, SEEK_SET);
+    return end > here ? static_cast<std::uint64_t>(end - here) : 0;
+}
+
+// The most bytes of samples that `stored` bytes can give.
+std::uint64_t capacity(const NrrdHeader& header, std::uint64_t stored) {
+    switch (header.encoding) {
+        case NrrdEncoding::raw:
+            return stored;
+        case NrrdEncoding::gzip:
+            return stored * gzip_expansion;
+        case NrrdEncoding::bzip2:
+            return stored * bzip2_expansion;
+        case NrrdEncoding::ascii:
+            return (stored + 1) / 2 * bytes_of(header.type);
+    }
+    return 0;
+}
+
+const char* name_of(NrrdEncoding encoding) {
+    switch (encoding) {
+        case NrrdEncoding::raw:
+            return "raw";
+        case NrrdEncoding::gzip:
+            return "gzip";
+        case NrrdEncoding::bzip2:
+            return "bzip2";
+        case NrrdEncoding::ascii:
+            return "ascii";
+    }
+    return "";
+}
+
+void check_capacity(const NrrdHeader& header, std::uint64_t stored, std::uint64_t needed) {
+    const std::uint64_t skipped =
+        header.byte_skip > 0 ? static_cast<std::uint64_t>(header.byte_skip) : 0;
+    const bool skips_stored =
+        header.encoding == NrrdEncoding::raw || header.encoding == NrrdEncoding::ascii;
+    const std::uint64_t usable = skips_stored ? stored - std::min(stored, skipped) : stored;
+    const std::uint64_t most = capacity(header, usable);
+    if (needed <= most) return;
+    fail(
+        "{}: the header promises {} ({} bytes), {} holds {} bytes of {} data, enough for at most "
+        "{} bytes",
+        header.path.string(), named_size(header), needed,
+        header.data_path == header.path ? "the file" : header.data_path.string(), usable,
+        name_of(header.encoding), most);
+}
+
+void read_raw(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
+              std::uint64_t count) {
+    constexpr std::uint64_t step = std::uint64_t{1} << 26;
+    for (std::uint64_t done = 0; done < count;) {
+        check_interrupt();
+        const std::size_t wanted = std::min(count - done, step);
+        const std::size_t got = std::fread(samples + done, 1, wanted, file);
+        done += got;
+        if (got == wanted) continue;
+        fail("{}: found {} bytes of data, expected {}", header.data_path.string(), done, count);
+    }
+}
+
+void read_gzip(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
+               std::uint64_t count) {
+    GzipReader reader(file, header.data_path.string());
+    reader.skip(static_cast<std::size_t>(header.byte_skip));
+    reader.read(samples, count);
+    reader.check_end();
+}
+
+void read_bzip2(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
+                std::uint64_t count) {
+    const std::unique_ptr<Nrrd, decltype(&nrrdNix)> nrrd(nrrdNew(), &nrrdNix);
+    const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> state(nrrdIoStateNew(),
+                                                                        &nrrdIoStateNix);
+    if (!nrrd || !state) throw std::bad_alloc();
+    if (nrrdEncodingBzip2->available() == 0) {
+        fail("{}: encoding: found bzip2, which this teem was built without", header.path.string());
+    }
+    nrrd->type = nrrdTypeUChar;
+    state->byteSkip = header.byte_skip;
+    if (nrrdEncodingBzip2->read(file, samples, count, nrrd.get(), state.get()) == 0) return;
+    const std::unique_ptr<char, decltype(&std::free)> ignored(biffGetDone(NRRD), &std::free);
+    fail("{}: truncated or damaged bzip2 data", header.data_path.string());
+}
+
+// Moves from the start of the data to the first sample, for encodings whose byte skip counts bytes
+// of the file.
+void skip_bytes(const NrrdHeader& header, std::FILE* file, std::uint64_t count) {
+    if (header.byte_skip >= 0) {
+        fseeko(file, header.byte_skip, SEEK_CUR);
+        return;
+    }
+    const off_t from_end = static_cast<off_t>(count) - (header.byte_skip + 1);
+    if (fseeko(file, -from_end, SEEK_END) != 0 || ftello(file) < header.data_offset) {
+        fail("{}: byte skip {}: the file is too short for it", header.path.string(),
+             header.byte_skip);
+    }
+}
+
+template <typename Word, typename Swap>
+void swap_words(void* samples, std::int64_t count, Swap swap) {
+    constexpr std::int64_t chunk = 1 << 20;
+    auto* const words = static_cast<Word*>(samples);
+    parallel_for((count + chunk - 1) / chunk, 1, [&](std::int64_t i) {
+        Word* const end = words + std::min(count, (i + 1) * chunk);
+        for (Word* word = words + i * chunk; word != end; ++word) *word = swap(*word);
+    });
+}
+
+void swap_bytes(const NrrdHeader& header, void* samples) {
+    const std::int64_t count = header.grid.sample_count();
+    if (bytes_of(header.type) == 2) {
+        swap_words<std::uint16_t>(samples, count,
+                                  [](std::uint16_t w) { return __builtin_bswap16(w); });
+    } else {
+        swap_words<std::uint32_t>(samples, count,
+                                  [](std::uint32_t w) { return __builtin_bswap32(w); });
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const void> read_nrrd_samples(const NrrdHeader& header) {
+    const std::uint64_t count = byte_count(header);
+    const File file = open_data(header);
+    check_capacity(header, bytes_left(file.get()), count);
+    const bool skips_stored =
+        header.encoding == NrrdEncoding::raw || header.encoding == NrrdEncoding::ascii;
+    if (header.byte_skip < 0 && header.encoding != NrrdEncoding::raw) {
+        fail("{}: byte skip: found {}, which goes with encoding raw only", header.path.string(),
+             header.byte_skip);
+    }
+    if (skips_stored) skip_bytes(header, file.get(), count);
+
+    // malloc, not a vector: gigabytes need not be zeroed before they are filled.
+    const std::shared_ptr<void> samples(std::malloc(count), &std::free);
+    if (!samples) throw std::bad_alloc();
+    auto* const bytes = static_cast<unsigned char*>(samples.get());
+    switch (header.encoding) {
+        case NrrdEncoding::raw:
+            read_raw(header, file.get(), bytes, count);
+            break;
+        case NrrdEncoding::gzip:
+            read_gzip(header, file.get(), bytes, count);
+            break;
+        case NrrdEncoding::bzip2:
+            read_bzip2(header, file.get(), bytes, count);
+            break;
+        case NrrdEncoding::ascii:
+            read_text_samples(file.get(), header.data_path.string(), header.type,
+                              header.grid.sample_count(), bytes);
+            break;
+    }
+    if (header.swap_bytes) swap_bytes(header, samples.get());
+    return samples;
+}
+
+}  // namespace lamina

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <teem/nrrd.h>
+
+#include <string>
+
+#include "volume/grid.h"
+
+namespace lamina {
+
+// The grid that a parsed header describes (DESIGN section 4). `file` is for messages. Throws Error
+// where the axes are not three, not spatial, not orthogonal, or not finite.
+Grid nrrd_grid(const std::string& file, const Nrrd& nrrd);
+
+}  // namespace lamina

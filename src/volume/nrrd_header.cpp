@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume/nrrd_header.h"
+
+#include <teem/nrrd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "base/error.h"
+#include "volume/nrrd_grid.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t header_limit = std::size_t{1} << 20;
+
+// The lines of a header, as far as the format's framing goes; their meaning is teem's affair.
+struct HeaderText {
+    std::string text;                      // magic and fields, without `data file`
+    std::optional<std::string> data_file;  // what `data file` says
+    std::int64_t length = 0;               // bytes up to and including the empty line
+    bool ended = false;                    // by an empty line, not by the end of the file
+};
+
+std::string trimmed(const std::string& text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+void check_regular_file(const std::filesystem::path& path, const std::string& role) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) fail("{}: {}no such file", path.string(), role);
+    if (!std::filesystem::is_regular_file(status))
+        fail("{}: {}not a regular file", path.string(), role);
+}
+
+// The first bytes of a file: at most header_limit of them.
+std::string read_beginning(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) fail("{}: cannot read: permission denied", path.string());
+    std::string bytes(header_limit, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    return bytes;
+}
+
+bool has_magic(const std::string& line) {
+    return line == "NRRD00.01" ||
+           (line.size() == 8 && line.starts_with("NRRD000") && line[7] >= '1' && line[7] <= '6');
+}
+
+// What a `data file: ...` line names; nothing for any other line.
+std::optional<std::string> data_file_of(const std::string& line) {
+    const auto colon = line.find(':');
+    if (colon == std::string::npos || line[0] == '#' || line.substr(colon, 2) == ":=") return {};
+    std::string field = trimmed(line.substr(0, colon));
+    std::transform(field.begin(), field.end(), field.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (field != "data file" && field != "datafile") return {};
+    return trimmed(line.substr(colon + 1));
+}
+
+// teem takes patterns (handed to sprintf unchecked), lists and "-" (standard input) here; volumes
+// need none of them.
+void check_data_file(const std::string& path, const std::string& name) {
+    const bool list = name == "LIST" || name.starts_with("LIST ") || name.starts_with("SKIPLIST");
+    if (list || name.find('%') != std::string::npos) {
+        fail("{}: data file: '{}' names several files; only one data file is supported", path,
+             name);
+    }
+    if (name.empty() || name == "-")
+        fail("{}: data file: found '{}', expected a file name", path, name);
+}
+
+HeaderText split_header(const std::string& path, const std::string& bytes) {
+    HeaderText header;
+    std::size_t position = 0;
+    for (int number = 1; position < bytes.size(); ++number) {
+        const auto end = std::min(bytes.find('\n', position), bytes.size());
+        std::string line = bytes.substr(position, end - position);
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        position = std::min(end + 1, bytes.size());
+        if (number == 1 && !has_magic(line))
+            fail("{}: not a NRRD file (no NRRD magic at its start)", path);
+        if (line.empty()) {
+            header.ended = true;
+            break;
+        }
+        const bool binary = std::any_of(line.begin(), line.end(),
+                                        [](unsigned char c) { return c < ' ' && c != '\t'; });
+        if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
+        if (const auto name = data_file_of(line)) {
+            check_data_file(path, *name);
+            if (header.data_file) fail("{}: line {}: second 'data file' field", path, number);
+            header.data_file = name;
+        } else {
+            header.text += line + "\n";
+        }
+    }
+    header.length = static_cast<std::int64_t>(position);
+    if (!header.ended && position == header_limit) {
+        fail("{}: the NRRD header does not end within {} bytes", path, header_limit);
+    }
+    if (header.text.empty()) fail("{}: not a NRRD file (it is empty)", path);
+    if (!header.ended && !header.data_file) {
+        fail("{}: the NRRD header ends without an empty line, and names no data file", path);
+    }
+    return header;
+}
+
+// The innermost two of teem's stacked messages, "[nrrd] function: message" each, on one line.
+std::string teem_message() {
+    const std::unique_ptr<char, decltype(&std::free)> stack(biffGetDone(NRRD), &std::free);
+    std::vector<std::string> messages;
+    const std::string text = stack ? stack.get() : "";
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        std::string line = text.substr(at, end - at);
+        if (line.starts_with("[nrrd] ")) line.erase(0, 7);
+        if (const auto colon = line.find(':'); colon != std::string::npos) line.erase(0, colon + 1);
+        if (line = trimmed(line); !line.empty()) messages.push_back(line);
+        at = end + 1;
+    }
+    if (messages.empty()) return "teem gives no reason";
+    const std::size_t last = messages.size() - 1;
+    const bool outer = last > 0 && messages[last - 1].starts_with("trouble parsing");
+    return one_line(outer ? messages[last - 1] + ": " + messages[last] : messages[last]);
+}
+
+SampleType sample_type_of(const std::string& path, int type) {
+    switch (type) {
+        case nrrdTypeUChar:
+            return SampleType::uint8;
+        case nrrdTypeShort:
+            return SampleType::int16;
+        case nrrdTypeUShort:
+            return SampleType::uint16;
+        case nrrdTypeFloat:
+            return SampleType::float32;
+        default:
+            break;
+    }
+    fail("{}: type: found '{}', expected uint8, int16, uint16 or float", path,
+         airEnumStr(nrrdType, type));
+}
+
+NrrdEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding) {
+    if (encoding == nrrdEncodingRaw) return NrrdEncoding::raw;
+    if (encoding == nrrdEncodingAscii) return NrrdEncoding::ascii;
+    if (encoding == nrrdEncodingGzip) return NrrdEncoding::gzip;
+    if (encoding == nrrdEncodingBzip2) return NrrdEncoding::bzip2;
+    fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
+}
+
+void check_required_fields(const std::string& path, const NrrdIoState& state) {
+    for (const int field :
+         {nrrdField_type, nrrdField_dimension, nrrdField_sizes, nrrdField_encoding}) {
+        if (state.seen[field] == 0) {
+            fail("{}: the NRRD header has no '{}' field", path, airEnumStr(nrrdField, field));
+        }
+    }
+}
+
+}  // namespace
+
+NrrdHeader read_nrrd_header(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    check_regular_file(path, "");
+    const HeaderText text = split_header(name, read_beginning(path));
+
+    const std::unique_ptr<Nrrd, decltype(&nrrdNuke)> nrrd(nrrdNew(), &nrrdNuke);
+    const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> state(nrrdIoStateNew(),
+                                                                        &nrrdIoStateNix);
+    if (!nrrd || !state) throw std::bad_alloc();
+    nrrdStateVerboseIO = 0;
+    nrrdIoStateSet(state.get(), nrrdIoStateSkipData, 1);
+    const bool bad = nrrdStringRead(nrrd.get(), text.text.c_str(), state.get()) != 0;
+    const std::string reason = bad ? teem_message() : "";
+    if (bad && !reason.starts_with("trouble parsing")) check_required_fields(name, *state);
+    if (bad) fail("{}: bad NRRD header: {}", name, reason);
+    check_required_fields(name, *state);
+
+    NrrdHeader header;
+    header.path = path;
+    header.type = sample_type_of(name, nrrd->type);
+    header.encoding = encoding_of(name, state->encoding);
+    header.grid = nrrd_grid(name, *nrrd);
+    const int native = std::endian::native == std::endian::little ? airEndianLittle : airEndianBig;
+    header.swap_bytes = header.encoding != NrrdEncoding::ascii && bytes_of(header.type) > 1 &&
+                        state->endian != native;
+    header.data_path = text.data_file ? path.parent_path() / *text.data_file : path;
+    if (text.data_file) check_regular_file(header.data_path, "data file of " + name + ": ");
+    header.data_offset = text.data_file ? 0 : text.length;
+    header.line_skip = state->lineSkip;
+    header.byte_skip = state->byteSkip;
+    return header;
+}
+
+}  // namespace lamina

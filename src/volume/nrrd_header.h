@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "volume/grid.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+enum class NrrdEncoding { raw, ascii, gzip, bzip2 };
+
+// What the header of a NRRD file says, and where its samples are. Nothing but the header has been
+// read.
+struct NrrdHeader {
+    std::filesystem::path path;  // the file that the user named
+    Grid grid;
+    SampleType type = SampleType::uint8;
+    NrrdEncoding encoding = NrrdEncoding::raw;
+    bool swap_bytes = false;          // the samples are not in this machine's byte order
+    std::filesystem::path data_path;  // `path` itself where the header is attached
+    std::int64_t data_offset = 0;     // bytes in data_path before anything of the data
+    std::int64_t line_skip = 0;       // then so many lines
+    std::int64_t byte_skip = 0;  // then so many bytes (of the decompressed stream); -1 - n: raw
+                                 // data that end n bytes before the end of the file
+};
+
+NrrdHeader read_nrrd_header(const std::filesystem::path& path);
+
+}  // namespace lamina

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume/nrrd_text.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
+constexpr std::size_t longest_word = 128;
+
+// Cuts a stream into words of bounded length.
+class WordReader {
+  public:
+    explicit WordReader(std::FILE* stream) : stream_(stream), buffer_(buffer_bytes) {}
+
+    // The next word, cut off beyond longest_word; empty at the end of the file.
+    const std::string& next() {
+        word_.clear();
+        int c = get();
+        while (is_separator(c)) c = get();
+        for (; c != EOF && !is_separator(c); c = get()) {
+            if (word_.size() < longest_word) word_ += static_cast<char>(c);
+        }
+        return word_;
+    }
+
+  private:
+    static bool is_separator(int c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
+
+    int get() {
+        if (at_ == filled_) {
+            check_interrupt();
+            filled_ = std::fread(buffer_.data(), 1, buffer_.size(), stream_);
+            at_ = 0;
+            if (filled_ == 0) return EOF;
+        }
+        return static_cast<unsigned char>(buffer_[at_++]);
+    }
+
+    std::FILE* stream_;
+    std::vector<char> buffer_;
+    std::size_t at_ = 0;
+    std::size_t filled_ = 0;
+    std::string word_;
+};
+
+template <typename T>
+bool parse(const std::string& word, T& sample) {
+    const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
+    const char* const end = word.data() + word.size();
+    if constexpr (std::is_floating_point_v<T>) {
+        const auto [stop, error] = std::from_chars(first, end, sample);
+        return error == std::errc{} && stop == end;
+    } else {
+        double number = 0;
+        const auto [stop, error] = std::from_chars(first, end, number);
+        if (error != std::errc{} || stop != end || number != std::floor(number)) return false;
+        if (number < std::numeric_limits<T>::min() || number > std::numeric_limits<T>::max())
+            return false;
+        sample = static_cast<T>(number);
+        return true;
+    }
+}
+
+template <typename T>
+void read_numbers(std::FILE* stream, const std::string& file, SampleType type, std::int64_t count,
+                  T* samples) {
+    WordReader reader(stream);
+    for (std::int64_t i = 0; i < count; ++i) {
+        const std::string& word = reader.next();
+        if (word.empty()) fail("{}: found {} samples, expected {}", file, i, count);
+        if (!parse(word, samples[i])) {
+            fail("{}: sample {} of {}: found '{}', expected a number of type {}", file, i + 1,
+                 count, one_line(word), name_of(type));
+        }
+    }
+}
+
+}  // namespace
+
+void read_text_samples(std::FILE* stream, const std::string& file, SampleType type,
+                       std::int64_t count, void* samples) {
+    const auto read = [&](auto* typed) { read_numbers(stream, file, type, count, typed); };
+    switch (type) {
+        case SampleType::uint8:
+            return read(static_cast<std::uint8_t*>(samples));
+        case SampleType::int16:
+            return read(static_cast<std::int16_t*>(samples));
+        case SampleType::uint16:
+            return read(static_cast<std::uint16_t*>(samples));
+        case SampleType::float32:
+            return read(static_cast<float*>(samples));
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/progress.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+// Work that lasts longer than the half second between two drawings.
+void work() {
+    Progress progress("slicing", 4);
+    progress.advance();
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    progress.advance();
+}
+
+// Sends stderr to `descriptor` while `action` runs.
+template <typename Action>
+void with_stderr(int descriptor, const Action& action) {
+    const int saved = dup(STDERR_FILENO);
+    dup2(descriptor, STDERR_FILENO);
+    action();
+    dup2(saved, STDERR_FILENO);
+    close(saved);
+}
+
+// What arrives at a terminal while work() runs.
+std::string seen_on_terminal() {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    grantpt(terminal);
+    unlockpt(terminal);
+    const int device = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    with_stderr(device, [] {
+        work();
+        (void)!write(STDERR_FILENO, ".", 1);  // so that there is something to read in any case
+    });
+    char seen[1000];
+    const ssize_t count = read(terminal, seen, sizeof seen);
+    close(device);
+    close(terminal);
+    return {seen, static_cast<std::size_t>(std::max<ssize_t>(count, 0))};
+}
+
+TEST(Progress, IsSilentWhereThereIsNoTerminal) {
+    const TemporaryFolder folder;
+    const int file = open((folder / "stderr").c_str(), O_WRONLY | O_CREAT, 0600);
+    with_stderr(file, work);
+    close(file);
+    EXPECT_EQ(read_bytes_of(folder / "stderr"), "");
+}
+
+TEST(Progress, DrawsOnATerminalAndWipesItsLine) {
+    const std::string seen = seen_on_terminal();
+    EXPECT_NE(seen.find("slicing  50 %"), std::string::npos) << seen;
+    EXPECT_TRUE(seen.ends_with("\r\033[K.")) << seen;
+}
+
+TEST(Progress, IsSilentWhenQuiet) {
+    Progress::set_quiet(true);
+    EXPECT_EQ(seen_on_terminal(), ".");
+    Progress::set_quiet(false);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules of the house that a compiler does not check: who may include whom, licence lines, sizes of files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Lowest first: a room includes only itself and the rooms before it.
+const std::vector<std::string> rooms = {"base",  "image",     "optics", "compositing", "volume",
+                                        "mesh",  "scene",     "reference", "gl",       "tiles",
+                                        "slicing", "projection", "study"};
+const fs::path source = LAMINA_SOURCE_DIR;
+
+std::size_t height_of(const std::string& room) {
+    return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), room) - rooms.begin());
+}
+bool is_room(const std::string& name) { return height_of(name) < rooms.size(); }
+
+std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
+    std::vector<fs::path> files;
+    for (const std::string& folder : folders) {
+        for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
+            if (entry.is_regular_file()) files.push_back(entry.path());
+        }
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<std::string> all_matches(const std::string& text, const char* pattern) {
+    const std::regex expression(pattern, std::regex::ECMAScript | std::regex::multiline);
+    std::vector<std::string> found;
+    for (std::sregex_iterator m(text.begin(), text.end(), expression), end; m != end; ++m) {
+        found.push_back((*m)[1]);
+    }
+    return found;
+}
+
+std::string room_of(const std::string& include) { return include.substr(0, include.find('/')); }
+
+// What a file of src/`room` includes, or its CMakeLists.txt links, against the rules; one line each.
+std::vector<std::string> wrong_includes(const std::string& room, const std::string& file_name,
+                                        const std::string& text) {
+    std::vector<std::string> wrong;
+    const bool may_use_gl =
+        room == "gl" || ((room == "slicing" || room == "projection") && file_name.starts_with("gl_"));
+    for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])")) {
+        if (include == "glad/gl.h" && !may_use_gl) wrong.push_back(include);
+    }
+    for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*"([^"]+)\")")) {
+        if (include == "glad/gl.h") continue;
+        const std::string other = room_of(include);
+        if (!is_room(other) || height_of(other) > height_of(room)) wrong.push_back(include);
+    }
+    if (file_name == "CMakeLists.txt") {
+        for (const std::string& other : all_matches(text, R"(\blamina_([a-z]+)\b)")) {
+            if (is_room(other) && height_of(other) > height_of(room)) {
+                wrong.push_back("lamina_" + other);
+            }
+        }
+    }
+    return wrong;
+}
+
+bool is_code(const fs::path& path) {
+    static const std::vector<std::string> suffixes = {".h",    ".cpp",   ".glsl", ".vert", ".frag",
+                                                      ".comp", ".cmake", ".py",   ".sh",   ".txt"};
+    const std::string suffix = path.extension();
+    return suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
+}
+
+TEST(Rooms, TheCheckItselfSeesViolations) {
+    using Wrong = std::vector<std::string>;
+    EXPECT_EQ(wrong_includes("image", "a.h", "#include \"slicing/x.h\"\n"), Wrong{"slicing/x.h"});
+    EXPECT_EQ(wrong_includes("image", "a.h", "\n  # include \"scene/x.h\"\n"), Wrong{"scene/x.h"});
+    EXPECT_EQ(wrong_includes("image", "a.h", "#include \"x.h\"\n"), Wrong{"x.h"});
+    EXPECT_EQ(wrong_includes("image", "a.h", "#include <png.h>\n#include \"image/x.h\"\n"), Wrong{});
+    EXPECT_EQ(wrong_includes("slicing", "a.h", "#include \"base/x.h\"\n#include \"gl/x.h\"\n"),
+              Wrong{});
+    EXPECT_EQ(wrong_includes("slicing", "a.h", "#include <glad/gl.h>\n"), Wrong{"glad/gl.h"});
+    EXPECT_EQ(wrong_includes("slicing", "a.h", "#include \"glad/gl.h\"\n"), Wrong{"glad/gl.h"});
+    EXPECT_EQ(wrong_includes("slicing", "gl_executor.h", "#include <glad/gl.h>\n"), Wrong{});
+    EXPECT_EQ(wrong_includes("gl", "texture.h", "#include <glad/gl.h>\n"), Wrong{});
+    EXPECT_EQ(wrong_includes("scene", "gl_facts.h", "#include <glad/gl.h>\n"), Wrong{"glad/gl.h"});
+    EXPECT_EQ(wrong_includes("optics", "CMakeLists.txt", "lamina_room(x LINK lamina_gl lamina_base)"),
+              Wrong{"lamina_gl"});
+}
+
+TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
+    int seen = 0;
+    for (const auto& folder : fs::directory_iterator(source / "src")) {
+        if (!folder.is_directory()) continue;
+        const std::string room = folder.path().filename();
+        EXPECT_TRUE(is_room(room)) << "src/" << room << " is not a room of the list";
+        for (const fs::path& file : files_under({"src/" + room})) {
+            ++seen;
+            for (const std::string& wrong :
+                 wrong_includes(room, file.filename(), read_bytes_of(file))) {
+                ADD_FAILURE() << file << " may not use " << wrong;
+            }
+        }
+    }
+    EXPECT_GT(seen, 20);
+}
+
+TEST(SourceFiles, BeginWithTheLicence) {
+    for (const fs::path& file : files_under({"src", "tools", "shaders", "tests", "cmake"})) {
+        if (!is_code(file)) continue;
+        const std::string text = read_bytes_of(file);
+        // Second line where the first must be something else: #! and #version.
+        const std::size_t line = text.find("SPDX-License-Identifier: Apache-2.0");
+        EXPECT_TRUE(line != std::string::npos && std::count(text.begin(), text.begin() + line, '\n') < 2)
+            << file << " does not begin with the SPDX line";
+    }
+}
+
+TEST(SourceFiles, AreShortEnoughToRead) {
+    for (const fs::path& file : files_under({"src", "tools", "shaders"})) {
+        if (!is_code(file)) continue;
+        const std::string text = read_bytes_of(file);
+        EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 400) << file;
+    }
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/buffer.h"
+
+#include <glad/gl.h>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "gl/framebuffer.h"
+#include "gl/full_screen.h"
+#include "gl/vertex_array.h"
+#include "gl_fixture.h"
+
+namespace lamina::gl {
+namespace {
+
+using BufferTest = GlTest;
+
+TEST_F(BufferTest, ReachesTheShaderAsUniformAndStorageBlock) {
+    const std::array<float, 4> slab{1, 2, 3, 4};
+    std::vector<float> values{10, 20, 30, 40};
+    const Buffer uniform{std::span(slab)};
+    Buffer storage{std::span(values)};
+    const std::array<float, 1> changed{50};
+    storage.write(std::span(changed), 2 * sizeof(float));
+    uniform.bind_uniform(1);
+    storage.bind_storage(2);
+
+    const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 4, 1));
+    target.bind();
+    draw_full_screen(full_screen_program(R"(#version 450 core
+        layout(std140, binding = 1) uniform Slab { vec4 slab; };
+        layout(std430, binding = 2) readonly buffer Values { float values[]; };
+        out vec4 color;
+        void main() { color = slab + values[int(gl_FragCoord.x)]; }
+    )"));
+    const Image image = target.read_back();
+    const float expected[4] = {10, 20, 50, 40};
+    for (int x = 0; x < 4; ++x) {
+        for (int c = 0; c < 4; ++c) {
+            EXPECT_EQ(image.pixel(x, 0)[c], expected[x] + slab[static_cast<std::size_t>(c)]);
+        }
+    }
+}
+
+TEST_F(BufferTest, CountsItsBytesAlsoWhenMoved) {
+    EXPECT_EQ(bytes_allocated(), 0);
+    Buffer first(100);
+    EXPECT_EQ(bytes_allocated(), 100);
+    Buffer second(28);
+    EXPECT_EQ(bytes_allocated(), 128);
+    first = std::move(second);
+    second = Buffer();
+    EXPECT_EQ(bytes_allocated(), 28);
+    EXPECT_EQ(first.byte_count(), 28u);
+    const Buffer third(std::move(first));
+    EXPECT_EQ(bytes_allocated(), 28);
+}
+
+// Two triangles over the left half and the right half of the target, each with an integer of its
+// own, by indices.
+TEST_F(BufferTest, FeedsVertexAttributesAndIndices) {
+    struct Vertex {
+        float x, y;
+        int layer;
+    };
+    const std::vector<Vertex> vertices{{-1, -1, 3}, {0, -1, 3}, {0, 1, 3}, {-1, 1, 3},
+                                       {0, -1, 7},  {1, -1, 7}, {1, 1, 7}, {0, 1, 7}};
+    const std::vector<unsigned> corners{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    const Buffer vertex_buffer{std::span(vertices)};
+    const Buffer index_buffer{std::span(corners)};
+    VertexArray array;
+    array.set_floats(0, vertex_buffer, 2, sizeof(Vertex), offsetof(Vertex, x));
+    array.set_integers(1, vertex_buffer, 1, sizeof(Vertex), offsetof(Vertex, layer));
+    array.set_indices(index_buffer);
+
+    const ShaderFinder shaders = with_shaders({{"test.vert", R"(#version 450 core
+        layout(location = 0) in vec2 position;
+        layout(location = 1) in int layer;
+        flat out int fragment_layer;
+        void main() { gl_Position = vec4(position, 0, 1); fragment_layer = layer; }
+    )"},
+                                               {"test.frag", R"(#version 450 core
+        flat in int fragment_layer;
+        out vec4 color;
+        void main() { color = vec4(fragment_layer); }
+    )"}});
+    const Program program(compose_shader("test.vert", {}, shaders),
+                          compose_shader("test.frag", {}, shaders));
+    const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 6, 5));
+    target.bind();
+    array.bind();
+    program.use();
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners.size()), GL_UNSIGNED_INT, nullptr);
+    const Image image = target.read_back();
+    for (int y = 0; y < 5; ++y) {
+        for (int x = 0; x < 6; ++x) EXPECT_EQ(image.pixel(x, y)[0], x < 3 ? 3.0f : 7.0f);
+    }
+}
+
+}  // namespace
+}  // namespace lamina::gl

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/context.h"
+
+#include <glad/gl.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "base/error.h"
+#include "gl/check.h"
+#include "gl/filter_probe.h"
+#include "gl/framebuffer.h"
+#include "gl/shared_library.h"
+#include "gl_fixture.h"
+
+namespace lamina::gl {
+namespace {
+
+using AnyContext = EveryContextTest;
+INSTANTIATE_TEST_SUITE_P(Contexts, AnyContext, both_contexts, context_name);
+
+// What a fresh context draws: a clear to a value that RGBA32F holds exactly.
+float cleared_value(float value) {
+    Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 3, 2));
+    target.clear(glm::vec4(value));
+    return target.read_back().pixel(2, 1)[3];
+}
+
+TEST_P(AnyContext, DescribesItself) {
+    const std::string prefix = GetParam() == ContextKind::osmesa ? "OSMesa: " : "EGL: ";
+    EXPECT_EQ(capabilities().renderer.rfind(prefix, 0), 0u) << capabilities().renderer;
+    EXPECT_GT(capabilities().renderer.size(), prefix.size());
+    // What OpenGL 4.5 guarantees at least (table 23.53).
+    EXPECT_GE(capabilities().max_texture_size, 16384);
+    EXPECT_GE(capabilities().max_3d_texture_size, 2048);
+    if (GetParam() == ContextKind::osmesa) {
+        EXPECT_TRUE(capabilities().software);
+    }
+}
+
+TEST_P(AnyContext, HasNoErrorToBeginWith) {
+    EXPECT_NO_THROW(check("beginning"));
+}
+
+TEST_P(AnyContext, MeasuresTheFloatFilter) {
+    const double error = measure_float_filter_error();
+    EXPECT_EQ(capabilities().exact_float_filter, error <= 1e-6);
+    // Weights and sums in float32: three nested interpolations of values below 1, each with at most
+    // 3 roundings of 2^-24, gives 9 * 2^-24 = 5.4e-7. A GPU's 8-bit weights are off by up to 1/512
+    // of a step an axis: 6e-3.
+    EXPECT_LE(error, capabilities().software ? 5.4e-7 : 6e-3);
+    // Even correctly rounded float32 results are off by up to 2^-25 each: no error at all means
+    // nothing was measured.
+    EXPECT_GT(error, 0.0);
+}
+
+TEST_P(AnyContext, TurnsErrorsIntoExceptions) {
+    glEnable(GL_TEXTURE_2D);  // not in the core profile
+    try {
+        check("testing");
+        FAIL() << "no exception";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.rfind("OpenGL: GL_INVALID_ENUM while testing", 0), 0u) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+    EXPECT_NO_THROW(check("testing again"));
+}
+
+TEST(Context, AlternatesBetweenOsmesaAndEgl) {
+    if (!has_egl()) GTEST_SKIP() << "no libEGL.so.1";
+    for (int round = 0; round < 3; ++round) {
+        for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl}) {
+            const auto context = Context::create(kind);
+            const float value = static_cast<float>(round) + 0.25f;
+            EXPECT_EQ(cleared_value(value), value) << context->capabilities().renderer;
+        }
+    }
+}
+
+TEST(Context, AutomaticNeverTakesSoftwareThroughEglWhileOsmesaIsThere) {
+    const auto context = Context::create(ContextKind::automatic);
+    const Capabilities& capabilities = context->capabilities();
+    const bool through_osmesa = capabilities.renderer.rfind("OSMesa: ", 0) == 0;
+    EXPECT_EQ(through_osmesa, capabilities.software) << capabilities.renderer;
+}
+
+// In a process of its own, because Mesa reads its environment once.
+TEST(ContextDeathTest, SaysWhatWasTriedAndWhatToDo) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    const auto create_on_old_mesa = [] {
+        setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+        try {
+            Context::create(ContextKind::osmesa);
+        } catch (const Error& error) {
+            std::fputs(error.what(), stderr);
+            std::exit(1);
+        }
+        std::exit(0);
+    };
+    EXPECT_EXIT(create_on_old_mesa(), testing::ExitedWithCode(1),
+                "no OpenGL 4.5 core context \\(OSMesa: it refused OpenGL 4.5 core.*--context egl");
+}
+
+TEST(SharedLibrary, SaysWhatIsMissing) {
+    try {
+        SharedLibrary({"libnothing_a.so.1", "libnothing_b.so"});
+        FAIL() << "no exception";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("libnothing_a.so.1"), std::string::npos) << message;
+        EXPECT_NE(message.find("libnothing_b.so"), std::string::npos) << message;
+    }
+    const SharedLibrary c_library{"libc.so.6"};
+    EXPECT_THROW(c_library.function<void (*)()>("no_such_function_at_all"), Error);
+}
+
+}  // namespace
+}  // namespace lamina::gl

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixtures for tests that draw. Every test begins with a context of its own and must leave no GPU
+// memory behind.
+#pragma once
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gl/context.h"
+#include "gl/memory.h"
+#include "gl/program.h"
+#include "gl/shader_files.h"
+#include "gl/shader_source.h"
+
+namespace lamina::gl {
+
+inline bool has_egl() {
+    return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL) != nullptr;
+}
+
+// A test with an OSMesa context, which draws the same everywhere.
+class GlTest : public testing::Test {
+  protected:
+    void SetUp() override { context_ = Context::create(ContextKind::osmesa); }
+    void TearDown() override {
+        EXPECT_EQ(bytes_allocated(), 0);
+        context_.reset();
+    }
+
+    const Capabilities& capabilities() const { return context_->capabilities(); }
+
+  private:
+    std::unique_ptr<Context> context_;
+};
+
+// A test for INSTANTIATE_TEST_SUITE_P(..., both_contexts, context_name): once under OSMesa, once
+// under EGL where the machine has it.
+class EveryContextTest : public testing::TestWithParam<ContextKind> {
+  protected:
+    void SetUp() override {
+        if (GetParam() == ContextKind::egl && !has_egl()) GTEST_SKIP() << "no libEGL.so.1";
+        context_ = Context::create(GetParam());
+    }
+    void TearDown() override {
+        EXPECT_EQ(bytes_allocated(), 0);
+        context_.reset();
+    }
+
+    const Capabilities& capabilities() const { return context_->capabilities(); }
+
+  private:
+    std::unique_ptr<Context> context_;
+};
+
+inline const auto both_contexts = testing::Values(ContextKind::osmesa, ContextKind::egl);
+
+inline std::string context_name(const testing::TestParamInfo<ContextKind>& info) {
+    return info.param == ContextKind::osmesa ? "osmesa" : "egl";
+}
+
+// Shaders that a test brings along, by name, before those of shaders/.
+inline ShaderFinder with_shaders(std::map<std::string, std::string> texts) {
+    return [texts = std::move(texts)](const std::string& name) -> std::optional<std::string> {
+        const auto found = texts.find(name);
+        return found != texts.end() ? found->second : find_shader(name);
+    };
+}
+
+// A program that runs `fragment`, the text of a fragment shader, for every pixel: for
+// draw_full_screen().
+inline Program full_screen_program(const std::string& fragment, const Defines& defines = {}) {
+    return Program(compose_shader("gl/full_screen.vert"),
+                   compose_shader("test.frag", defines, with_shaders({{"test.frag", fragment}})));
+}
+
+}  // namespace lamina::gl

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/texture.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "gl/framebuffer.h"
+#include "gl/full_screen.h"
+#include "gl_fixture.h"
+
+namespace lamina::gl {
+namespace {
+
+using TextureTest = EveryContextTest;
+INSTANTIATE_TEST_SUITE_P(Contexts, TextureTest, both_contexts, context_name);
+
+// A grid of components in memory out of which boxes are cut: component c of texel (x, y, z) is a
+// different value each.
+template <typename T>
+struct Source {
+    int width, height, depth, channels;
+    std::vector<T> components;
+
+    Source(int w, int h, int d, int c)
+        : width(w),
+          height(h),
+          depth(d),
+          channels(c),
+          components(static_cast<std::size_t>(w * h * d * c)) {
+        for (std::size_t i = 0; i < components.size(); ++i) components[i] = static_cast<T>(i + 1);
+    }
+    std::size_t index(int x, int y, int z) const {
+        return static_cast<std::size_t>(((z * height + y) * width + x) * channels);
+    }
+    std::span<const T> from(int x, int y, int z) const {
+        return std::span<const T>(components).subspan(index(x, y, z));
+    }
+};
+
+// Fills the texture with zeros, uploads the source's box at (1, 2, 1) with the source's strides to
+// the texture's box at (2, 1, 1), and compares every texel. `scale`: what a component of 1 reads
+// as. Division by 255 or 65535 may be done by a rounded reciprocal: 2^-23 relative.
+template <typename T>
+void expect_sub_box(Texture texture, int channels, double scale) {
+    const TexelBox box{2, 1, 1, 3, texture.height() > 1 ? 2 : 1, texture.depth() > 1 ? 2 : 1};
+    TexelBox target = box;
+    if (texture.height() == 1) target.y = 0;
+    if (texture.depth() == 1) target.z = 0;
+    const std::vector<T> zeros(
+        static_cast<std::size_t>(texture.width() * texture.height() * texture.depth() * channels));
+    texture.upload({.width = texture.width(), .height = texture.height(), .depth = texture.depth()},
+                   std::span<const T>(zeros));
+    const Source<T> source(5, 4, 3, channels);
+    texture.upload(target, source.from(1, 2, 1), {source.width, source.height});
+
+    const std::vector<float> read = texture.read_rgba();
+    std::size_t texel = 0;
+    for (int z = 0; z < texture.depth(); ++z) {
+        for (int y = 0; y < texture.height(); ++y) {
+            for (int x = 0; x < texture.width(); ++x, ++texel) {
+                const int u = x - target.x, v = y - target.y, w = z - target.z;
+                const bool inside = u >= 0 && u < target.width && v >= 0 && v < target.height &&
+                                    w >= 0 && w < target.depth;
+                for (int c = 0; c < channels; ++c) {
+                    const std::size_t at = inside ? source.index(1 + u, 2 + v, 1 + w) : 0;
+                    const double expected =
+                        inside ? static_cast<double>(source.components[at + c]) * scale : 0.0;
+                    EXPECT_NEAR(read[4 * texel + c], expected, 1.2e-7 * expected)
+                        << "texel " << x << ", " << y << ", " << z << ", channel " << c;
+                }
+            }
+        }
+    }
+}
+
+TEST_P(TextureTest, UploadsBoxesOfVolumes) {
+    expect_sub_box<std::uint8_t>(Texture::make_3d(TextureFormat::r8, 7, 5, 4), 1, 1 / 255.0);
+    expect_sub_box<std::uint16_t>(Texture::make_3d(TextureFormat::r16, 7, 5, 4), 1, 1 / 65535.0);
+    expect_sub_box<float>(Texture::make_3d(TextureFormat::r32f, 7, 5, 4), 1, 1);
+}
+
+TEST_P(TextureTest, UploadsBoxesOfTables) {
+    expect_sub_box<float>(Texture::make_1d(TextureFormat::rgba32f, 9), 4, 1);
+    expect_sub_box<float>(Texture::make_2d(TextureFormat::rg32f, 7, 5), 2, 1);
+    expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba32f, 7, 5), 4, 1);
+    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::rgba32f, 7, 5, 4), 4, 1);
+    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::r32f, 7, 5, 4), 1, 1);
+}
+
+TEST_P(TextureTest, UploadsBoxesOfImages) {
+    expect_sub_box<std::uint8_t>(Texture::make_2d(TextureFormat::rgba8, 7, 5), 4, 1 / 255.0);
+    expect_sub_box<std::uint16_t>(Texture::make_2d(TextureFormat::rgba16, 7, 5), 4, 1 / 65535.0);
+    // 240 components of whole numbers below 2^11: exact in half floats.
+    expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba16f, 7, 5), 4, 1);
+}
+
+// More floats than are read at a time (2^24).
+TEST_P(TextureTest, ReadsLargeTexturesInBands) {
+    const int width = 4001, height = 1100;
+    std::vector<std::uint8_t> codes(static_cast<std::size_t>(width) * height);
+    for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint8_t>(i % 251);
+    Texture texture = Texture::make_2d(TextureFormat::r8, width, height);
+    texture.upload({.width = width, .height = height}, codes);
+    const std::vector<float> read = texture.read_rgba();
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+        wrong += std::lround(read[4 * i] * 255.0f) != codes[i];
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
+// A linear ramp at texel centres 0, 1, 2, 3: outside the centres the value is clamped, halfway
+// between them it is the mean.
+TEST_P(TextureTest, FiltersAndClampsToTheEdge) {
+    Texture ramp = Texture::make_1d(TextureFormat::r32f, 4);
+    ramp.upload({.width = 4}, std::vector<float>{0, 1, 2, 3});
+    ramp.set_filter(TextureFilter::linear);
+    ramp.bind(3);
+    const Framebuffer target(Texture::make_2d(TextureFormat::r32f, 13, 1));
+    target.bind();
+    Program program = full_screen_program(R"(#version 450 core
+        uniform sampler1D ramp;
+        out float value;
+        void main() { value = texture(ramp, (floor(gl_FragCoord.x) * 0.5 - 1.0) / 4.0).r; }
+    )");
+    program.set("ramp", 3);
+    draw_full_screen(program);
+    const float expected[13] = {0, 0, 0, 0, .5f, 1, 1.5f, 2, 2.5f, 3, 3, 3, 3};
+    const Image image = target.read_back();
+    for (int x = 0; x < 13; ++x) EXPECT_EQ(image.pixel(x, 0)[0], expected[x]) << x;
+}
+
+TEST_P(TextureTest, CountsItsBytesAlsoWhenMoved) {
+    Texture volume = Texture::make_3d(TextureFormat::r16, 10, 20, 30);
+    EXPECT_EQ(bytes_allocated(), 12000);
+    EXPECT_EQ(volume.byte_count(), 12000);
+    Texture other = Texture::make_2d(TextureFormat::rgba16f, 10, 10);
+    EXPECT_EQ(bytes_allocated(), 12800);
+    volume = std::move(other);
+    other = Texture();
+    EXPECT_EQ(bytes_allocated(), 800);
+    {
+        const Framebuffer target(std::move(volume));
+        EXPECT_EQ(bytes_allocated(), 800);
+    }
+    EXPECT_EQ(bytes_allocated(), 0);
+}
+
+template <typename Make>
+void expect_refused(Make make, const std::string& part) {
+    try {
+        make();
+        FAIL() << "no exception, expected: " << part;
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(bytes_allocated(), 0);
+}
+
+TEST_P(TextureTest, RefusesSizesThatItCannotHave) {
+    expect_refused([] { Texture::make_2d(TextureFormat::r8, 0, 4); }, "texture width 0");
+    expect_refused([] { Texture::make_2d(TextureFormat::r8, 4, 1'000'000); },
+                   "texture height 1000000");
+    expect_refused([] { Texture::make_3d(TextureFormat::r8, 4, 4, 100'000); },
+                   "texture depth 100000");
+    // One slice over a GiB: refused before the driver is asked.
+    expect_refused([] { Texture::make_3d(TextureFormat::r32f, 1024, 1024, 257); },
+                   "takes 1077936128 bytes, at most 1073741824 are allowed");
+}
+
+}  // namespace
+}  // namespace lamina::gl

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/loaded_image.h"
+
+#include <gtest/gtest.h>
+
+#include "image/exr.h"
+#include "image/metrics.h"
+#include "image/npy.h"
+#include "image/png.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+class LoadedImageTest : public testing::Test {
+  protected:
+    void write(const std::string& name, const PreciseImage& image) {
+        AtomicFile file(folder / name);
+        if (name.ends_with("exr")) write_exr(file, to_float(image), {});
+        if (name.ends_with("npy")) write_npy(file, image);
+        if (name.ends_with("png") || name.ends_with("PNG")) {
+            write_png(file, to_float(image), glm::dvec3(0));
+        }
+        file.commit();
+    }
+    double linf(const std::string& a, const std::string& b) {
+        return measure(difference(load_image(folder / a), load_image(folder / b))).all.linf;
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(LoadedImageTest, LinearFilesCompareWithEachOtherAndPngWithPng) {
+    PreciseImage image(2, 2);
+    for (double& value : image.rgba) value = 0.5;
+    write("a.exr", image);
+    write("a.png", image);
+    image.pixel(1, 1)[0] = 0.75;
+    write("b.npy", image);
+    write("b.PNG", image);
+    EXPECT_EQ(linf("a.exr", "b.npy"), 63.75);
+    EXPECT_EQ(linf("b.npy", "a.exr"), 63.75);
+    EXPECT_EQ(linf("a.exr", "a.exr"), 0);
+    EXPECT_EQ(linf("a.png", "b.PNG"), 225 - 188);  // sRGB of .75 is .880825
+}
+
+TEST_F(LoadedImageTest, WhatCannotBeComparedIsAnErrorThatNamesTheFiles) {
+    write("a.exr", PreciseImage(2, 3));
+    write("a.png", PreciseImage(2, 3));
+    write("b.npy", PreciseImage(4, 3));
+    expect_error([&] { linf("a.png", "a.exr"); }, {"a.png", "a.exr", "sRGB codes"});
+    expect_error([&] { linf("a.exr", "b.npy"); }, {"a.exr", "b.npy", "2 x 3", "4 x 3"});
+    expect_error([&] { load_image(folder / "c.tiff"); }, {"c.tiff", "'.tiff'", ".exr"});
+}
+
+TEST_F(LoadedImageTest, NotFiniteNamesFilePixelAndChannel) {
+    PreciseImage image(2, 2);
+    image.pixel(0, 1)[1] = 7;
+    write("a.npy", image);
+    std::string bytes = read_bytes_of(folder / "a.npy");
+    const std::string seven("\0\0\0\0\0\0\x1C\x40", 8);
+    bytes.replace(bytes.find(seven), 8, std::string("\0\0\0\0\0\0\xF8\x7F", 8));  // a quiet NaN
+    write_bytes_to(folder / "a.npy", bytes);
+    expect_error([&] { load_image(folder / "a.npy"); }, {"a.npy", "(0, 1)", "channel G", "nan"});
+}
+
+}  // namespace
+}  // namespace lamina

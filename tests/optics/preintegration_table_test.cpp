@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/preintegration_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
+    return {value, {color, extinction}};
+}
+
+TransferFunction smooth() {
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i <= 16; ++i) {
+        const double x = i / 16.0;
+        knots.push_back(knot(x, glm::dvec3(x, 1 - x, 0.5 + 0.5 * std::sin(5 * x)), 4 * x * x));
+    }
+    return TransferFunction::linear(knots);
+}
+
+TransferFunction narrow_peak() {
+    return TransferFunction::linear({knot(0, glm::dvec3(0), 0), knot(0.5, glm::dvec3(1, 0.5, 0), 0),
+                                     knot(0.503, glm::dvec3(1, 0.8, 0.2), 60),
+                                     knot(0.506, glm::dvec3(0, 0.5, 1), 0),
+                                     knot(1, glm::dvec3(1), 0.5)});
+}
+
+TransferFunction step() {
+    return TransferFunction::linear(
+        {knot(0, glm::dvec3(1, 0, 0), 0), knot(0.4, glm::dvec3(1, 0, 0), 1),
+         knot(0.4, glm::dvec3(0, 0, 1), 5), knot(1, glm::dvec3(0, 1, 0), 8)});
+}
+
+double color_error(const SegmentIntegral& a, const SegmentIntegral& b) {
+    double worst = 0;
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(a.color[c] - b.color[c]));
+    return worst;
+}
+
+TEST(PreintegrationTable, IsExactAtItsNodes) {
+    for (const auto& f : {smooth(), narrow_peak(), step()}) {
+        const auto table = build_preintegration_table(f, {-0.25, 1.25, 3.0, 24, 4, true});
+        for (const double front : table.nodes) {
+            for (const double back : table.nodes) {
+                for (const double length : table.lengths) {
+                    const auto found = table.lookup(front, back, length);
+                    const auto expected = integrate_segment(f, front, back, length);
+                    // Two floats of 6e-8 each and a few roundings; equal scalars at a step are the
+                    // later side's.
+                    EXPECT_NEAR(found.alpha, expected.alpha, 2e-7 * std::max(1.0, expected.alpha));
+                    EXPECT_LE(color_error(found, expected), 5e-7)
+                        << front << " " << back << " " << length;
+                }
+            }
+        }
+    }
+}
+
+TEST(PreintegrationTable, MeanExtinctionIsExactWithinALinearPiece) {
+    const auto f = step();
+    const auto table = build_preintegration_table(f, {0, 1, 2.0, 16, 1, true});
+    std::mt19937 random(3);
+    for (const auto& [lo, hi] : {std::pair(0.0, 0.4 - 1e-12), {0.4, 1.0}}) {
+        std::uniform_real_distribution<double> inside(lo, hi);
+        for (int i = 0; i < 1000; ++i) {
+            const double front = inside(random), back = inside(random);
+            const double expected = integrate_segment(f, front, back, 1.5).optical_depth;
+            // Floats (6e-8) of numbers up to the cell's largest corner, which near extinction 0 is
+            // not small compared to the result: hence the second term, one float rounding of
+            // extinction 1 times the length.
+            EXPECT_NEAR(table.lookup(front, back, 1.5).optical_depth, expected,
+                        1e-6 * expected + 1e-7);
+        }
+    }
+}
+
+TEST(PreintegrationTable, DoesNotMixTheSidesOfAStep) {
+    const auto f =
+        TransferFunction::nearest({knot(0, glm::dvec3(1, 0, 0), 1), knot(1, glm::dvec3(0, 1, 0), 5),
+                                   knot(2, glm::dvec3(0, 0, 1), 0)});
+    const auto table = build_preintegration_table(f, {0, 2, 1.0, 9, 3, true});
+    for (const double d : {1e-12, 1e-3, 0.1}) {
+        const auto below = table.lookup(0.5 - d, 0.5 - d / 2, 1);
+        const auto above = table.lookup(0.5 + d / 2, 0.5 + d, 1);
+        EXPECT_NEAR(below.alpha, -std::expm1(-1), 1e-7);
+        EXPECT_NEAR(above.alpha, -std::expm1(-5), 1e-7);
+        EXPECT_EQ(below.color.g, 0);
+        EXPECT_EQ(above.color.r, 0);
+        EXPECT_EQ(table.lookup(1.5 + d / 2, 1.5 + d, 1).alpha, 0);
+    }
+}
+
+TEST(PreintegrationTable, EveryKnotIsANodeAndEveryIntervalHasAnInnerOne) {
+    const auto f = narrow_peak();
+    const PreintegrationRequest request{0.1, 0.9, 1.0, 8, 1, true};
+    const auto table = build_preintegration_table(f, request);
+    for (const double value : {0.1, 0.5, 0.503, 0.506, 0.9}) {
+        EXPECT_EQ(std::ranges::count(table.nodes, value), 1) << value;
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(table.nodes));
+    ASSERT_EQ(table.anchors.size(), 5u);
+    for (std::size_t a = 0; a + 1 < table.anchors.size(); ++a) {
+        EXPECT_GE(table.anchors[a + 1].node - table.anchors[a].node, 2);
+        EXPECT_EQ(table.nodes[table.anchors[a].node], table.anchors[a].value);
+    }
+    EXPECT_LE(table.nodes.size(), 8u + 3 * (3 + 1));
+    const auto stepped = build_preintegration_table(step(), request);
+    EXPECT_EQ(std::ranges::count(stepped.nodes, 0.4), 2);
+    ASSERT_EQ(stepped.anchors.size(), 4u);
+    EXPECT_EQ(stepped.anchors[2].node, stepped.anchors[1].node + 1);
+}
+
+TEST(PreintegrationTable, NoRangeOfScalarsNoLengthAndOneColor) {
+    const auto f = step();
+    const auto point = build_preintegration_table(f, {0.7, 0.7, 1.0, 256, 2, true});
+    EXPECT_EQ(point.nodes.size(), 1u);
+    const auto expected = integrate_segment(f, 0.7, 0.7, 0.5);
+    EXPECT_NEAR(point.lookup(0.7, 0.7, 0.5).alpha, expected.alpha, 1e-6);
+    EXPECT_LE(color_error(point.lookup(0.7, 0.7, 0.5), expected), 1e-6);
+
+    const auto flat = build_preintegration_table(f, {0, 1, 0.0, 32, 3, true});
+    EXPECT_EQ(flat.lookup(0.1, 0.9, 0).alpha, 0);
+
+    const auto gray =
+        TransferFunction::linear({knot(0, glm::dvec3(1), 0), knot(1, glm::dvec3(1), 2)});
+    const auto alone = build_preintegration_table(gray, {0, 1, 1.0, 32, 1, false});
+    EXPECT_TRUE(alone.emission.empty());
+    const auto found = alone.lookup(0.2, 0.9, 3);
+    EXPECT_NEAR(found.alpha, -std::expm1(-1.1 * 3), 1e-6);
+    EXPECT_EQ(found.color.g, found.alpha);
+}
+
+// Largest errors over random segments that are short in scalars, as slabs have them, in 1/255.
+struct WorstErrors {
+    double alpha = 0, color = 0;  // one look-up
+    double split_alpha = 0, split_color = 0;
+};
+
+WorstErrors worst_errors(const TransferFunction& f) {
+    const auto table = build_preintegration_table(f, {0, 1, 2.0, 256, 8, true});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(0, 1);
+    WorstErrors worst;
+    for (int i = 0; i < 10000; ++i) {
+        const double front = unit(random), length = 2 * unit(random);
+        const double back = std::clamp(front + 0.2 * (unit(random) - 0.5), 0.0, 1.0);
+        const auto expected = integrate_segment(f, front, back, length);
+        const auto found = table.lookup(front, back, length);
+        const auto split = table.lookup_split(front, back, length);
+        worst.alpha = std::max(worst.alpha, 255 * std::abs(found.alpha - expected.alpha));
+        worst.color = std::max(worst.color, 255 * color_error(found, expected));
+        worst.split_alpha =
+            std::max(worst.split_alpha, 255 * std::abs(split.alpha - expected.alpha));
+        worst.split_color = std::max(worst.split_color, 255 * color_error(split, expected));
+    }
+    return worst;
+}
+
+TEST(PreintegrationTable, OneLookUpIsGoodForSmoothFunctionsAndSplitOnesForAll) {
+    const WorstErrors of_smooth = worst_errors(smooth());
+    const WorstErrors of_peak = worst_errors(narrow_peak());
+    const WorstErrors of_step = worst_errors(step());
+    for (const auto& worst : {of_smooth, of_peak, of_step}) {
+        // Where nothing but floats is approximated: 255 * (6e-8 relative of depth * exp(-depth)),
+        // three times.
+        EXPECT_LE(worst.split_alpha, 1e-4);
+        EXPECT_LE(worst.split_color, 0.2);
+        printf("%g %g %g %g\n", worst.alpha, worst.color, worst.split_alpha, worst.split_color);
+    }
+    EXPECT_LE(of_smooth.alpha, 0.05);
+    EXPECT_LE(of_smooth.color, 0.1);
+}
+
+TEST(PreintegrationTable, RefusesTooManyPointsAndTooManyBytes) {
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i < 1100; ++i) knots.push_back(knot(i, glm::dvec3(1), i % 2));
+    const auto f = TransferFunction::linear(knots);
+    EXPECT_THROW(build_preintegration_table(f, {-1, 1101, 1.0, 256, 1, true}), Error);
+    EXPECT_NO_THROW(build_preintegration_table(f, {-1, 20, 1.0, 64, 2, true}));
+    EXPECT_THROW(build_preintegration_table(f, {0, 4, 1.0, 20000, 2, true}), Error);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces and thin shells: extinction up to 1e7 per unit, transfer functions with spikes of width 1e-4.
+#include <gtest/gtest.h>
+
+#include "fixtures.h"
+#include "optics/segment_integral.h"
+
+namespace lamina {
+namespace {
+
+using namespace reference_test;
+
+// A ramp along x from 0 to 1 over `cells` cells of total length 1.
+Volume ramp_volume(int cells) {
+    const Grid grid = make_grid({cells + 1, 2, 2}, Centering::node, {1.0 / cells, 1, 1});
+    std::vector<float> samples;
+    for (int copy = 0; copy < 4; ++copy) {
+        for (int i = 0; i <= cells; ++i) samples.push_back(static_cast<float>(i) / static_cast<float>(cells));
+    }
+    return make_volume<float>(grid, samples);
+}
+
+TraceResult trace_along_x(const Volume& volume, const TransferFunction& function, bool backwards) {
+    Camera camera;
+    camera.projection = Projection::orthographic;
+    camera.eye = {backwards ? 3.0 : -2.0, 0.5, 0.5};
+    camera.center = {0.5, 0.5, 0.5};
+    return trace_volume(volume, function, View(camera, 1, 1), {1e-12});
+}
+
+void expect_segment(const TransferFunction& function, int cells, double rounding) {
+    const Volume volume = ramp_volume(cells);
+    for (const bool backwards : {false, true}) {
+        const TraceResult result = trace_along_x(volume, function, backwards);
+        const SegmentIntegral expected =
+            integrate_segment(function, backwards ? 1 : 0, backwards ? 0 : 1, 1);
+        EXPECT_LE(result.error_estimate, 1e-12);
+        const auto& rgba = result.image.rgba;
+        EXPECT_NEAR(rgba[3], expected.alpha, 1e-12 + rounding);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(rgba[static_cast<std::size_t>(c)], expected.color[c], 1e-12 + rounding);
+        }
+    }
+}
+
+TEST(Stiff, RampsOfAnyDensity) {
+    for (const double extinction : {1.0, 1e2, 1e4, 1e7}) {
+        for (const int cells : {1, 2, 16, 256}) {
+            SCOPED_TRACE(testing::Message() << extinction << " in " << cells << " cells");
+            expect_segment(ramp_function(extinction), cells, 2e-13);
+        }
+    }
+}
+
+TEST(Stiff, SurfaceBehindAStep) {
+    for (const double step : {0.3, 0.5, 0.7}) {  // in a cell, on a plane between cells, in a cell
+        for (const int cells : {1, 2, 16}) {
+            expect_segment(TransferFunction::linear({{0, {{1, 0, 0}, 0.5}},
+                                                     {step, {{1, 1, 0}, 1}},
+                                                     {step, {{0, 0, 1}, 1e7}},
+                                                     {1, {{0, 1, 0}, 1e7}}}),
+                           cells, 2e-13);
+        }
+    }
+}
+
+TEST(Stiff, ThinSpikes) {
+    for (const double peak : {1e2, 1e4, 1e7}) {
+        for (const int cells : {1, 2, 16}) {
+            SCOPED_TRACE(testing::Message() << peak << " in " << cells << " cells");
+            // Places in the ray are good to 1e-16, in the spike of width 1e-4 to 1e-12 of it; that error acts on a
+            // depth d as d exp(-d) <= 0.4.
+            expect_segment(TransferFunction::linear({{0.41, {{1, 0, 0}, 0}},
+                                                     {0.41005, {{0, 1, 0}, peak}},
+                                                     {0.4101, {{0, 0, 1}, 0}}}),
+                           cells, 2e-12);
+        }
+    }
+}
+
+// All of a picture stiff: random cells, a surface and a spike; finite numbers, in time, and the estimate kept.
+TEST(Stiff, PictureOfSurfaces) {
+    Random random(31);
+    const Grid grid = make_grid({12, 12, 12}, Centering::cell);
+    const Volume volume = make_volume<float>(grid, random_samples(grid, random));
+    const TransferFunction function = TransferFunction::linear({{0.3, {{1, 0.5, 0}, 0}},
+                                                                {0.30005, {{0, 1, 0.5}, 300}},
+                                                                {0.3001, {{1, 1, 1}, 0}},
+                                                                {0.8, {{1, 0, 1}, 0}},
+                                                                {0.8, {{0, 0, 1}, 1e7}},
+                                                                {1, {{1, 1, 0}, 1e7}}});
+    const View view(camera_at(grid, Projection::perspective, {1, 2, 3}, 1), 48, 36);
+    const TraceResult fine = trace_volume(volume, function, view, {1e-11});
+    for (const double tolerance : {1e-3, 1e-5, 1e-9}) {
+        const TraceResult result = trace_volume(volume, function, view, {tolerance});
+        EXPECT_LE(result.error_estimate, tolerance);
+        EXPECT_LE(largest_difference(result.image, fine.image),
+                  result.error_estimate + fine.error_estimate);
+    }
+    EXPECT_GT(largest_alpha(fine.image), 0.999);
+}
+
+TEST(Stiff, ExtinctionBeyondAllMeasure) {
+    const Volume volume = ramp_volume(4);
+    const TraceResult result = trace_along_x(volume, ramp_function(1e300), false);
+    EXPECT_EQ(result.image.rgba[3], 1);
+    // At the very front, colour is that of value 0; the layer is 1e-150 thin.
+    EXPECT_NEAR(result.image.rgba[0], 0, 1e-12);
+    EXPECT_NEAR(result.image.rgba[2], 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace lamina

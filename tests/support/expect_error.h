@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+#include <string>
+
+#include "base/error.h"
+
+namespace lamina {
+
+// The message of the Error that `action` throws; a test failure and "" when it throws none.
+template <typename Action>
+std::string error_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no Error was thrown";
+    return {};
+}
+
+// Expects an Error of one line that has all of `parts` in it.
+template <typename Action>
+void expect_error(const Action& action, std::initializer_list<std::string> parts) {
+    const std::string message = error_of(action);
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const std::string& part : parts) {
+        EXPECT_NE(message.find(part), std::string::npos)
+            << "'" << part << "' is not in: " << message;
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kind of bad file: one line that names the file, what was found and what was expected.
+#include <gtest/gtest.h>
+
+#include "nrrd_files.h"
+
+namespace lamina {
+namespace {
+
+using testing::bytes_of_values;
+using testing::error_of;
+using testing::expect_says;
+using testing::gzip;
+using NrrdErrors = testing::NrrdFiles;
+
+const std::string good = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n";
+
+// `good` with one field changed.
+std::string with(const std::string& field, const std::string& line) {
+    std::string text = good;
+    const auto begin = text.find(field + ":");
+    return text.replace(begin, text.find('\n', begin) + 1 - begin, line);
+}
+
+TEST_F(NrrdErrors, MissingFile) {
+    expect_says(error_of(folder() / "none.nrrd"), {"none.nrrd", "no such file"});
+    expect_says(error_of(folder()), {"not a regular file"});
+}
+
+TEST_F(NrrdErrors, GarbageInsteadOfAHeader) {
+    expect_says(error_of(write("a.nrrd", "")), {"a.nrrd: not a NRRD file"});
+    expect_says(error_of(write("a.nrrd", "P5 10000 10000 255\n")), {"not a NRRD file"});
+    expect_says(error_of(write("a.nrrd", std::string(100000, '\x80'))), {"not a NRRD file"});
+    expect_says(error_of(write("a.nrrd", "NRRD0004\n\x01\x02\n\n")), {"line 2"});
+    expect_says(error_of(write("a.nrrd", "NRRD0004\nnonsense\n\n")),
+                {"bad NRRD header", "nonsense"});
+    expect_says(error_of(write("a.nrrd", "NRRD0004\n# " + std::string(1 << 21, 'x') + "\n\n")),
+                {"does not end"});
+    expect_says(error_of(write("a.nrrd", good)), {"without an empty line"});
+}
+
+TEST_F(NrrdErrors, MissingAndBadFields) {
+    const std::string data(24, 'x');
+    for (const std::string field : {"type", "dimension", "sizes", "encoding"}) {
+        expect_says(error_of(write("a.nrrd", with(field, "") + "\n" + data)), {field});
+    }
+    expect_says(error_of(write("a.nrrd", with("type", "type: int16\n") + "\n" + data + data)),
+                {"endian"});
+    expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 three 2\n") + "\n" + data)),
+                {"sizes"});
+    expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 0 2\n") + "\n" + data)),
+                {"sizes"});
+    expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 -3 2\n") + "\n" + data)),
+                {"a.nrrd"});
+    expect_says(error_of(write("a.nrrd", good + "spacings: 1 0 1\n\n" + data)), {"a.nrrd"});
+    expect_says(error_of(write("a.nrrd", good + "type: uint8\n\n" + data)), {"type"});
+}
+
+TEST_F(NrrdErrors, TypesAndEncodingsThatAreNotSupported) {
+    const std::string data(24 * 8, 'x');
+    expect_says(
+        error_of(write("a.nrrd", with("type", "type: double\nendian: little\n") + "\n" + data)),
+        {"'double'", "expected uint8, int16, uint16 or float"});
+    expect_says(error_of(write("a.nrrd", with("type", "type: int8\n") + "\n" + data)),
+                {"expected uint8"});
+    expect_says(error_of(write("a.nrrd", with("encoding", "encoding: hex\n") + "\n" + data)),
+                {"'hex'", "expected raw, gzip, bzip2 or ascii"});
+}
+
+TEST_F(NrrdErrors, NotThreeAxes) {
+    expect_says(error_of(write(
+                    "a.nrrd", "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 3\nencoding: raw\n\n" +
+                                  std::string(12, 'x'))),
+                {"found 2 axes", "expected 3"});
+    expect_says(
+        error_of(write("a.nrrd",
+                       "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 4 3 2\nencoding: raw\n\n" +
+                           std::string(72, 'x'))),
+        {"found 4 axes", "3 4 3 2"});
+    expect_says(
+        error_of(write("a.nrrd", good + "kinds: vector domain domain\n\n" + std::string(24, 'x'))),
+        {"vector"});
+}
+
+TEST_F(NrrdErrors, DirectionsThatMakeNoGrid) {
+    const auto directions = [&](const std::string& text) {
+        return error_of(write("a.nrrd", good + "space dimension: 3\nspace directions: " + text +
+                                            "\n\n" + std::string(24, 'x')));
+    };
+    expect_says(directions("(1,0,0) (1,1,0) (0,0,1)"),
+                {"axes 0 and 1 meet at 45.0000 degrees", "expected 90"});
+    expect_says(directions("(1,0,0) (0,1,0) (0,0.001,1)"), {"axes 1 and 2 meet at 89.94"});
+    expect_says(directions("(1,0,0) (0,1,0) none"), {"axis 2"});
+    expect_says(directions("(1,0,0) (0,0,0) (0,0,1)"), {"axis 1"});
+    expect_says(directions("(1,0,0) (0,1e300,0) (0,0,1)"), {"axis 1"});
+    expect_says(directions("(1,0,0) (0,inf,0) (0,0,1)"), {"a.nrrd"});
+}
+
+TEST_F(NrrdErrors, MoreVoxelsThanTheFileHas) {
+    const std::string size = "sizes: 1048576 1048576 1\n";  // 2^40
+    for (const std::string encoding : {"raw", "gzip", "bzip2", "ascii"}) {
+        const std::string text =
+            "NRRD0004\ntype: uint8\ndimension: 3\n" + size + "encoding: " + encoding + "\n\n";
+        expect_says(error_of(write("a.nrrd", text + std::string(1000, '1'))),
+                    {"a.nrrd", "1048576 x 1048576 x 1", "1000 bytes"});
+        write("data.bin", std::string(1000, '1'));
+        const std::string detached = text.substr(0, text.size() - 1) + "data file: data.bin\n";
+        expect_says(error_of(write("b.nhdr", detached)), {"b.nhdr", "data.bin"});
+    }
+    const std::string huge = with("sizes", "sizes: 4294967296 4294967296 4294967296\n");
+    expect_says(error_of(write("a.nrrd", huge + "\n")), {"a.nrrd"});
+}
+
+TEST_F(NrrdErrors, TruncatedData) {
+    const std::string text = with("encoding", "encoding: gzip\n") + "\n";
+    const std::string packed = gzip("abcdefghijklmnopqrstuvwx");
+    read_nrrd(write("a.nrrd", text + packed));
+    for (std::size_t length = 3; length < packed.size(); ++length) {
+        expect_says(error_of(write("a.nrrd", text + packed.substr(0, length))), {"truncated gzip"});
+    }
+    expect_says(error_of(write("a.nrrd", text + gzip("abc"))), {"found 3 bytes, expected 24"});
+    expect_says(error_of(write("a.nrrd", good + "\n" + std::string(23, 'x'))),
+                {"(24 bytes)", "23 bytes"});
+    expect_says(error_of(write("a.nrrd", with("encoding", "encoding: bzip2\n") + "\nBZh91AY&SY")),
+                {"bzip2"});
+}
+
+TEST_F(NrrdErrors, DamagedGzip) {
+    const std::string text = with("encoding", "encoding: gzip\n") + "\n";
+    std::string packed = gzip("abcdefghijklmnopqrstuvwx");
+    packed[packed.size() - 6] =
+        static_cast<char>(packed[packed.size() - 6] ^ 1);  // in the checksum
+    expect_says(error_of(write("a.nrrd", text + packed)), {"damaged gzip"});
+    expect_says(error_of(write("a.nrrd", text + std::string(100, 'x'))), {"damaged gzip"});
+}
+
+TEST_F(NrrdErrors, BadText) {
+    const std::string text =
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 1 1\nencoding: ascii\n\n";
+    expect_says(error_of(write("a.nrrd", text + "1 2       \n")), {"found 2 samples, expected 3"});
+    expect_says(error_of(write("a.nrrd", text + "1 two 3\n")), {"sample 2 of 3", "'two'", "uint8"});
+    expect_says(error_of(write("a.nrrd", text + "1 2 256\n")), {"'256'"});
+    expect_says(error_of(write("a.nrrd", text + "1 2.5 3\n")), {"'2.5'"});
+    expect_says(error_of(write("a.nrrd", text + "1 nan 3\n")), {"'nan'"});
+    expect_says(error_of(write("a.nrrd", text + std::string(1 << 20, '7'))), {"sample 1 of 3"});
+}
+
+TEST_F(NrrdErrors, DataFilesThatCannotBeUsed) {
+    const auto data_file = [&](const std::string& name) {
+        return error_of(write("a.nhdr", good + "data file: " + name + "\n"));
+    };
+    expect_says(data_file("none.raw"), {"none.raw", "a.nhdr", "no such file"});
+    expect_says(data_file("."), {"not a regular file"});
+    expect_says(data_file("/dev/zero"), {"not a regular file"});
+    expect_says(data_file("-"), {"expected a file name"});
+    expect_says(data_file("%s%s%n.raw 0 10 1"), {"one data file"});
+    expect_says(data_file("LIST\na.raw\nb.raw"), {"one data file"});
+}
+
+TEST_F(NrrdErrors, SkipsBeyondTheEnd) {
+    const std::string data(24, 'x');
+    expect_says(error_of(write("a.nrrd", good + "line skip: 1000000000\n\n" + data)),
+                {"line skip"});
+    expect_says(error_of(write("a.nrrd", good + "byte skip: 1\n\n" + data)), {"23 bytes"});
+    expect_says(error_of(write("a.nrrd", good + "byte skip: 9000000000000000000\n\n" + data)),
+                {"a.nrrd"});
+    const std::string packed = with("encoding", "encoding: gzip\n");
+    expect_says(error_of(write("a.nrrd", packed + "byte skip: -1\n\n" + gzip(data))),
+                {"byte skip"});
+    expect_says(
+        error_of(write("a.nrrd", packed + "byte skip: 9000000000000000000\n\n" + gzip(data))),
+        {"a.nrrd"});
+}
+
+}  // namespace
+}  // namespace lamina

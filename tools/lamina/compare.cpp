@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "image/false_color.h"
+#include "image/loaded_image.h"
+#include "image/metrics.h"
+#include "image/png.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+struct CompareOptions {
+    std::string a, b;
+    bool json = false;
+    std::string diff;
+    std::optional<double> max_linf;
+};
+
+nlohmann::ordered_json as_json(const ErrorNorms& norms) {
+    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
+}
+
+std::string json_text(const ImageError& error) {
+    nlohmann::ordered_json channels;
+    for (std::size_t i = 0; i < error.channels.size(); ++i) {
+        channels[error.channels[i]] = as_json(error.of_channel[i]);
+    }
+    const nlohmann::ordered_json root = {{"channels", channels}, {"all", as_json(error.all)}};
+    return root.dump(2) + "\n";
+}
+
+std::string table_row(const std::string& label, const ErrorNorms& norms) {
+    return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.l1, norms.l2);
+}
+
+std::string table_text(const ImageError& error) {
+    std::string text = fmt::format("{:<8}{:>12}{:>14}{:>12}\n", "A-B", "Linf", "L1 (signed)", "L2");
+    for (std::size_t i = 0; i < error.channels.size(); ++i) {
+        text += table_row(error.channels[i], error.of_channel[i]);
+    }
+    text += table_row("all", error.all);
+    text += "in units of 1/255; ";
+    const ImageError::Worst& worst = error.worst;
+    if (error.all.linf == 0) return text + "the images are equal\n";
+    return text + fmt::format("largest at pixel ({}, {}), channel {}: {:.6g}\n", worst.column,
+                              worst.row, error.channels[worst.channel], worst.e);
+}
+
+void check(const CompareOptions& options) {
+    if (options.max_linf && !(*options.max_linf >= 0)) {
+        throw UsageError(fmt::format("--max-linf {}: expected 0 or more", *options.max_linf));
+    }
+    if (!options.diff.empty() && std::filesystem::path(options.diff).extension() != ".png") {
+        throw UsageError(fmt::format("--diff {}: expected a name that ends in .png", options.diff));
+    }
+}
+
+int compare(const CompareOptions& options) {
+    check(options);
+    std::unique_ptr<AtomicFile> diff;
+    if (!options.diff.empty()) diff = std::make_unique<AtomicFile>(options.diff);
+    const Difference e = difference(load_image(options.a), load_image(options.b));
+    const ImageError error = measure(e);
+    if (diff) {
+        write_png(*diff, false_color(e, error.all.linf));
+        diff->commit();
+        fmt::print(stderr, "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
+                   options.diff, error.all.linf, error.all.linf);
+    }
+    fmt::print("{}", options.json ? json_text(error) : table_text(error));
+    if (options.max_linf && error.all.linf > *options.max_linf) {
+        fmt::print(stderr, "lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
+                   *options.max_linf);
+        return 3;
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code) {
+    auto* const verb = app.add_subcommand(
+        "compare", "How A differs from B: e = A-B in 1/255, per channel and over all");
+    const auto options = std::make_shared<CompareOptions>();
+    verb->add_option("A", options->a, "picture (.exr, .npy, or .png against .png)")->required();
+    verb->add_option("B", options->b, "picture to measure against, of the same size")->required();
+    verb->add_flag("--json", options->json, "print JSON instead of a table");
+    verb->add_option("--diff", options->diff, "write the signed difference in false colour (.png)");
+    verb->add_option("--max-linf", options->max_linf, "exit with code 3 when Linf over all is larger");
+    verb->callback([options, &exit_code] { exit_code = compare(*options); });
+}
+
+}  // namespace lamina

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "optics/segment_integral.h"
+#include "scene/json_reader.h"
+#include "scene/transfer_function_json.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+double read_scalar(JsonReader& reader, const std::string& key) {
+    const double scalar = reader.number(key);
+    if (!(std::abs(scalar) <= 1e300)) reader.reject(key, "a number between -1e300 and 1e300");
+    return scalar;
+}
+
+SegmentIntegral integrate_case(JsonReader reader, std::vector<std::string>& warnings) {
+    const TransferFunction transfer_function =
+        read_transfer_function(reader.object("transfer_function"), &warnings);
+    const double front = read_scalar(reader, "sf");
+    const double back = read_scalar(reader, "sb");
+    const double length = reader.number("length");
+    if (!(length >= 0)) reader.reject("length", "a number >= 0");
+    reader.close();
+    return integrate_segment(transfer_function, front, back, length);
+}
+
+// 17 significant digits: what every double needs to be read back as itself.
+std::string json_text(const std::vector<SegmentIntegral>& results) {
+    std::string text = "[";
+    for (const SegmentIntegral& result : results) {
+        text += text.size() > 1 ? ",\n " : "\n ";
+        text += fmt::format(R"({{"alpha": {:.17g}, "color": [{:.17g}, {:.17g}, {:.17g}]}})",
+                            result.alpha, result.color.r, result.color.g, result.color.b);
+    }
+    return text + "\n]\n";
+}
+
+void integrate(const std::string& cases_file, const std::string& output) {
+    std::unique_ptr<AtomicFile> file;
+    if (!output.empty()) file = std::make_unique<AtomicFile>(output);
+    const std::filesystem::path path = cases_file;
+    const nlohmann::json cases = load_json(path);
+    if (!cases.is_array()) {
+        fail("{}: found {}, expected an array of cases", cases_file, cases.type_name());
+    }
+    std::vector<SegmentIntegral> results;
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        check_interrupt();
+        const std::string place = fmt::format("[{}]", i);
+        if (!cases[i].is_object()) {
+            fail("{}: {}: found {}, expected an object", cases_file, place, cases[i].type_name());
+        }
+        results.push_back(integrate_case(JsonReader(cases[i], path, place), warnings));
+    }
+    for (const std::string& warning : warnings)
+        fmt::print(stderr, "lamina: warning: {}\n", warning);
+    if (file) {
+        file->write(json_text(results));
+        file->commit();
+    } else {
+        fmt::print("{}", json_text(results));
+    }
+}
+
+}  // namespace
+
+void add_integrate(CLI::App& app, int& exit_code) {
+    (void)exit_code;
+    auto* verb = app.add_subcommand(
+        "integrate", "Integrate emission and absorption along segments with a linear scalar");
+    const auto cases = std::make_shared<std::string>();
+    const auto output = std::make_shared<std::string>();
+    verb->add_option("CASES.json", *cases,
+                     R"(array of {"transfer_function", "sf", "sb", "length"}: the scalar at the )"
+                     "front and at the back, and the length in world units")
+        ->required();
+    verb->add_option("-o,--output", *output, "write the results here (default: stdout)");
+    verb->callback([cases, output] { integrate(*cases, *output); });
+}
+
+}  // namespace lamina

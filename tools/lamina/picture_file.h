@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+
+#include "base/atomic_file.h"
+#include "image/image.h"
+
+namespace lamina {
+
+// The picture that `render -o` writes: .exr, .png or .npy by the file's suffix. Made before rendering begins, so that a
+// path that cannot be written fails at once.
+class PictureFile {
+  public:
+    // `precise`: a double-precision image will come, which .npy needs. Throws UsageError for a bad suffix.
+    PictureFile(const std::filesystem::path& path, bool precise);
+
+    // Returns how many pixels had to be clamped (PNG).
+    std::size_t write(const Image& image, const glm::dvec3& background,
+                      const std::map<std::string, std::string>& attributes);
+    std::size_t write(const PreciseImage& image, const glm::dvec3& background,
+                      const std::map<std::string, std::string>& attributes);
+
+  private:
+    std::string suffix_;
+    AtomicFile file_;
+};
+
+}  // namespace lamina

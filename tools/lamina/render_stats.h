@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/plan.h"
+
+namespace lamina {
+
+// What a render cost and what happened on the way (DESIGN section 5, --stats).
+struct RenderStats {
+    std::vector<double> frames_ms;
+    std::map<std::string, double> stages_ms;
+    int samples = 0;              // slabs
+    std::uint64_t fragments = 0;  // of the scene's own frame
+    std::int64_t bytes_gpu = 0;
+    std::string context;
+    std::optional<double> error_estimate;        // trace
+    std::map<std::string, std::int64_t> counts;  // what was clamped, dropped, ...
+};
+
+nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan);
+
+}  // namespace lamina

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verbs.h"
+
+namespace lamina {
+
+void add_verbs(CLI::App& app, int& exit_code) {
+    add_render(app, exit_code);
+    add_compare(app, exit_code);
+    add_generate(app, exit_code);
+    add_info(app, exit_code);
+    add_integrate(app, exit_code);
+}
+
+}  // namespace lamina

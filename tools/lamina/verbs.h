@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs of the program, one file each. add_X() declares the verb's options; its callback does the work and throws
+// Error (exit 1) or UsageError (exit 2), or sets the exit code for an outcome that is neither (compare: 3).
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lamina {
+
+void add_verbs(CLI::App& app, int& exit_code);  // all of the below
+
+void add_render(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_generate(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
+void add_integrate(CLI::App& app, int& exit_code);
+
+}  // namespace lamina
