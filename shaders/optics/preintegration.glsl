@@ -15,48 +15,51 @@ float table_node(float scalar) {
     return place.y + place.x * place.z;
 }
 
-#ifdef TABLE_COLORED
-vec4 table_row(ivec3 texel, float share) {
-    vec4 left = texelFetch(preintegration, texel, 0);
-    return left + share * (texelFetch(preintegration, texel + ivec3(1, 0, 0), 0) - left);
-}
+vec2 table_nodes(float front, float back) { return vec2(table_node(front), table_node(back)); }
 
-vec4 table_layer(ivec2 node, int layer, vec2 share) {
-    vec4 front = table_row(ivec3(node, layer), share.x);
-    return front + share.y * (table_row(ivec3(node + ivec2(0, 1), layer), share.x) - front);
-}
+#ifdef TABLE_COLORED
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, ivec3(node, layer), 0); }
+#else
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, node, 0).rrrr; }
 #endif
 
-// Emission (rgb) and mean extinction (a) of the segment.
-vec4 table_entry(float front, float back, float world_length) {
-    vec2 node = vec2(table_node(front), table_node(back));
-#ifdef TABLE_FILTERED
-    vec2 texture_node = (node + 0.5) / float(TABLE_NODES);
-#ifdef TABLE_COLORED
-    float layer = (min(world_length * layers_per_length, float(TABLE_LAYERS - 1)) + 0.5) / float(TABLE_LAYERS);
-    return texture(preintegration, vec3(texture_node, layer));
+// Bilinear in float32 between the four nodes around `nodes`.
+vec4 table_layer(vec2 nodes, int layer) {
+    ivec2 corner = min(ivec2(nodes), ivec2(TABLE_NODES - 2));
+    vec2 share = nodes - vec2(corner);
+    vec4 front = table_texel(corner, layer);
+    vec4 back = table_texel(corner + ivec2(0, 1), layer);
+    front += share.x * (table_texel(corner + ivec2(1, 0), layer) - front);
+    back += share.x * (table_texel(corner + ivec2(1, 1), layer) - back);
+    return front + share.y * (back - front);
+}
+
+// Mean extinction at table nodes; it does not depend on length.
+float mean_extinction(vec2 nodes) {
+#if defined(TABLE_FILTERED) && defined(TABLE_COLORED)
+    return texture(preintegration, vec3((nodes + 0.5) / float(TABLE_NODES), 0.0)).a;
+#elif defined(TABLE_FILTERED)
+    return texture(preintegration, (nodes + 0.5) / float(TABLE_NODES)).r;
 #else
-    return vec4(texture(preintegration, texture_node).r);
+    return table_layer(nodes, 0).a;
 #endif
-#else
-    ivec2 corner = min(ivec2(node), ivec2(TABLE_NODES - 2));
-    vec2 share = node - vec2(corner);
-#ifdef TABLE_COLORED
-#if TABLE_LAYERS == 1
-    return table_layer(corner, 0, share);
+}
+
+// Emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
+vec4 table_entry(vec2 nodes, float world_length) {
+#ifndef TABLE_COLORED
+    return vec4(mean_extinction(nodes));
 #else
     float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
-    int below = min(int(layer), TABLE_LAYERS - 2);
-    vec4 entry = table_layer(corner, below, share);
-    return entry + (layer - float(below)) * (table_layer(corner, below + 1, share) - entry);
-#endif
+#ifdef TABLE_FILTERED
+    return texture(preintegration,
+                   vec3((nodes + 0.5) / float(TABLE_NODES), (layer + 0.5) / float(TABLE_LAYERS)));
+#elif TABLE_LAYERS == 1
+    return table_layer(nodes, 0);
 #else
-    vec4 texels = vec4(texelFetch(preintegration, corner, 0).r,
-                       texelFetch(preintegration, corner + ivec2(1, 0), 0).r,
-                       texelFetch(preintegration, corner + ivec2(0, 1), 0).r,
-                       texelFetch(preintegration, corner + ivec2(1, 1), 0).r);
-    vec2 columns = texels.xz + share.x * (texels.yw - texels.xz);
-    return vec4(columns.x + share.y * (columns.y - columns.x));
+    int below = min(int(layer), TABLE_LAYERS - 2);
+    vec4 entry = table_layer(nodes, below);
+    return entry + (layer - float(below)) * (table_layer(nodes, below + 1) - entry);
 #endif
 #endif
 }

@@ -26,7 +26,6 @@ struct Egl {
         library.function<decltype(&eglQueryString)>("eglQueryString");
     decltype(&eglInitialize) initialise =
         library.function<decltype(&eglInitialize)>("eglInitialize");
-    decltype(&eglTerminate) terminate = library.function<decltype(&eglTerminate)>("eglTerminate");
     decltype(&eglBindAPI) bind_api = library.function<decltype(&eglBindAPI)>("eglBindAPI");
     decltype(&eglCreateContext) create_context =
         library.function<decltype(&eglCreateContext)>("eglCreateContext");
@@ -125,7 +124,8 @@ class EglContext : public Context {
         if (display_ == EGL_NO_DISPLAY) return;
         egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context_ != EGL_NO_CONTEXT) egl().destroy_context(display_, context_);
-        egl().terminate(display_);
+        // The display stays initialised for the next context: Mesa leaks when it unloads its
+        // driver.
     }
 
     void open(const Route& route) {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -34,7 +35,6 @@ class Composer {
     void append_file(const std::string& name, const std::string& wanted_by) {
         const std::optional<std::string> text = find_(name);
         if (!text) fail("{}: no such shader file: {}", wanted_by, name);
-        files_.push_back(name);
         open_.push_back(name);
         std::istringstream lines(*text);
         std::string line;
@@ -83,13 +83,23 @@ class Composer {
         if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
             fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open_, " -> "), name);
         }
-        if (std::find(files_.begin(), files_.end(), name) == files_.end()) append_file(name, where);
+        // The preprocessor drops repetitions: only it knows which #if branches are alive.
+        const std::string guard = guard_of(name);
+        append_text("#ifndef " + guard, place);
+        append_text("#define " + guard, place);
+        append_file(name, where);
+        append_text("#endif", place);
+    }
+
+    std::string guard_of(const std::string& name) {
+        const auto number = guards_.try_emplace(name, guards_.size()).first->second;
+        return fmt::format("INCLUDED_FILE_{}", number);
     }
 
     const ShaderFinder& find_;
     ShaderSource& source_;
-    std::vector<std::string> files_;  // that the text has already
-    std::vector<std::string> open_;   // the chain of includes, the main file first
+    std::vector<std::string> open_;  // the chain of includes, the main file first
+    std::map<std::string, std::size_t> guards_;
     bool has_version_ = false;
 };
 

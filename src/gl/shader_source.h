@@ -37,10 +37,9 @@ struct ShaderSource {
 };
 
 // Composes the shader `name`. Its first directive must be `#version 450 core`; the defines follow
-// it. A line
-// `#include "compositing/over.glsl"` is replaced by that file, named from the root of shaders/,
-// once: a second include of the same file is empty. Includes are replaced before any #if is looked
-// at. A file that is missing, a cycle and a malformed include are Errors that name file and line.
+// it. A line `#include "compositing/over.glsl"` stands for that file, named from the root of
+// shaders/, unless the compiler has seen it already; it may be under an #if. A file that is
+// missing, a cycle and a malformed include are Errors that name file and line.
 ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
 ShaderSource compose_shader(const std::string& name, const Defines& defines,
                             const ShaderFinder& find);

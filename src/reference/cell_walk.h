@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -14,10 +15,10 @@ namespace lamina {
 
 using CellIndex = std::array<std::int64_t, 3>;
 
-// The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between samples i and i+1;
-// on `cell` axes cells -1 and size-1 are the half voxels outside the samples. Every crossing is computed from its own
-// plane, so errors do not pile up; the first and last cell of an axis are as long as the box, so the lengths of all
-// cells add up to the chord.
+// The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between
+// samples i and i+1; on `cell` axes cells -1 and size-1 are the half voxels outside the samples.
+// Every crossing is computed from its own plane, so errors do not pile up; the first and last cell
+// of an axis are as long as the box, so the lengths of all cells add up to the chord.
 class CellWalk {
   public:
     CellWalk(const Grid& grid, const Chord& chord) : chord_(chord) {
@@ -34,8 +35,8 @@ class CellWalk {
         }
     }
 
-    // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from < to; ends early
-    // when visit returns false.
+    // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from <
+    // to; ends early when visit returns false.
     template <typename Visit>
     void run(const Visit& visit) {
         double from = 0;

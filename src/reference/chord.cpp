@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
 
 #include "reference/double_double.h"
 
@@ -15,9 +17,7 @@ struct Coordinate {
     DoubleDouble position;
     DoubleDouble slope;
 
-    DoubleDouble z_at(double plane) const {
-        return (DoubleDouble{plane, 0} - position) / slope;
-    }
+    DoubleDouble z_at(double plane) const { return (DoubleDouble{plane, 0} - position) / slope; }
 };
 
 DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
@@ -26,10 +26,12 @@ DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
     return sum;
 }
 
-// Projection on one (orthogonal) grid axis, which is first scaled by a power of two: its square must not underflow.
+// Projection on one (orthogonal) grid axis, which is first scaled by a power of two: its square
+// must not underflow.
 Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dvec3& step) {
     const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
-    const int exponent = std::ilogb(largest);
+    int exponent = 0;
+    std::frexp(largest, &exponent);
     glm::dvec3 axis;
     DoubleDouble offset[3], direction[3], axis_parts[3];
     for (int i = 0; i < 3; ++i) {
@@ -47,7 +49,8 @@ struct Interval {
     DoubleDouble from, to;
 };
 
-// The part of z >= 0 where every coordinate is inside its closed range; from >= to where there is none.
+// The part of z >= 0 where every coordinate is inside its closed range; from >= to where there is
+// none.
 Interval clip(const Coordinate (&ray)[3], const glm::dvec3& lowest, const glm::dvec3& highest,
               int& entry_axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -80,7 +83,8 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
         if (!coordinates[axis].position.finite() || !coordinates[axis].slope.finite()) return {};
         steepest = std::max(steepest, std::abs(coordinates[axis].slope.hi));
     }
-    // A slope that moves the ray by less than 1e-30 voxels while it crosses the box only risks overflow.
+    // A slope that moves the ray by less than 1e-30 voxels while it crosses the box only risks
+    // overflow.
     for (Coordinate& coordinate : coordinates) {
         if (std::abs(coordinate.slope.hi) < 1e-40 * steepest) coordinate.slope = {};
     }
@@ -95,8 +99,8 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto& [position, slope] = coordinates[axis];
         chord.direction[axis] = slope.rounded();
-        chord.entry[axis] = std::clamp((position + slope * inside.from).rounded(), lowest[axis],
-                                       highest[axis]);
+        chord.entry[axis] =
+            std::clamp((position + slope * inside.from).rounded(), lowest[axis], highest[axis]);
     }
     if (entry_axis >= 0) {
         chord.entry[entry_axis] =

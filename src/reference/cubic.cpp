@@ -8,7 +8,8 @@
 namespace lamina {
 
 MonotoneParts monotone_parts(const Cubic& cubic) {
-    // Derivative a t^2 + 2 b t + c; the quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
+    // Derivative a t^2 + 2 b t + c; the quotient form has no cancellation (Press et al., Numerical
+    // Recipes, 5.6).
     const double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
     const double discriminant = b * b - a * c;
     MonotoneParts parts;
@@ -23,7 +24,8 @@ MonotoneParts monotone_parts(const Cubic& cubic) {
     return parts;
 }
 
-// Newton's method inside a bracket that is bisected where Newton's step would leave it or shrinks too slowly.
+// Newton's method inside a bracket that is bisected where Newton's step would leave it or shrinks
+// too slowly.
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;

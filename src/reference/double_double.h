@@ -5,8 +5,9 @@
 
 namespace lamina {
 
-// The unevaluated sum hi + lo with |lo| <= ulp(hi)/2: about 31 digits (Dekker 1971; Hida, Li and Bailey 2001). For the
-// few operations per ray whose rounding would decide whether, and how far, the ray meets the box.
+// The unevaluated sum hi + lo with |lo| <= ulp(hi)/2: about 31 digits (Dekker 1971; Hida, Li and
+// Bailey 2001). For the few operations per ray whose rounding would decide whether, and how far,
+// the ray meets the box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;
@@ -26,7 +27,9 @@ inline DoubleDouble exact_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
-inline DoubleDouble operator-(DoubleDouble a) { return {-a.hi, -a.lo}; }
+inline DoubleDouble operator-(DoubleDouble a) {
+    return {-a.hi, -a.lo};
+}
 
 inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
     const DoubleDouble high = exact_sum(a.hi, b.hi);
@@ -35,7 +38,9 @@ inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
     return exact_sum(middle.hi, middle.lo + low.lo);
 }
 
-inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
+    return a + -b;
+}
 
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
     const DoubleDouble product = exact_product(a.hi, b.hi);

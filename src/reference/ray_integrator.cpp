@@ -11,8 +11,8 @@
 namespace lamina {
 namespace {
 
-// Early termination may cost this share of the tolerance. The rest of the ray's colour is at most its transmittance
-// times the brightest colour.
+// Early termination may cost this share of the tolerance. The rest of the ray's colour is at most
+// its transmittance times the brightest colour.
 constexpr double termination_share = 1e-3;
 
 EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, double length) {
@@ -28,8 +28,8 @@ EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, 
 
 }  // namespace
 
-// The errors allowed to pieces, by their share of the length and by their share of the opacity (both add up to at most
-// 1), add up to half of the tolerance.
+// The errors allowed to pieces, by their share of the length and by their share of the opacity
+// (both add up to at most 1), add up to half of the tolerance.
 RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length)
     : transfer_(transfer),
       brightest_(std::max(1.0, transfer.brightest())),
@@ -102,10 +102,13 @@ void RayIntegrator::add_depth(double depth) {
 }
 
 glm::dvec3 RayIntegrator::color() const {
-    return glm::max(color_, glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
+    return glm::max(color_,
+                    glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
 }
 
-double RayIntegrator::alpha() const { return opacity_from_depth(depth_ + depth_rest_); }
+double RayIntegrator::alpha() const {
+    return opacity_from_depth(depth_ + depth_rest_);
+}
 
 double RayIntegrator::error_estimate() const {
     return error_ + (opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0);

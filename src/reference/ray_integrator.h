@@ -9,15 +9,17 @@
 
 namespace lamina {
 
-// Emission and absorption along one ray, collected front to back in double precision (NUMERICS section 1). Optical
-// depth is exact but for rounding; colour is integrated to a tolerance, with an estimate of its error.
+// Emission and absorption along one ray, collected front to back in double precision (NUMERICS
+// section 1). Optical depth is exact but for rounding; colour is integrated to a tolerance, with an
+// estimate of its error.
 class RayIntegrator {
   public:
-    // `tolerance`: of full scale, for every channel of the whole ray. `ray_length` > 0: world length of all segments.
+    // `tolerance`: of full scale, for every channel of the whole ray. `ray_length` > 0: world
+    // length of all segments.
     RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length);
 
-    // The next segment, `length` > 0 world units long: the scalar runs as `scalar` from its front to its back and
-    // stays (but for rounding) inside [lo, hi].
+    // The next segment, `length` > 0 world units long: the scalar runs as `scalar` from its front
+    // to its back and stays (but for rounding) inside [lo, hi].
     void add(const Cubic& scalar, double lo, double hi, double length);
 
     // True once what follows cannot matter: segments need no longer be added.

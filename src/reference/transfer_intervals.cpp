@@ -12,7 +12,9 @@ namespace {
 // Opaque over any length; keeps products with lengths finite.
 constexpr double largest_extinction = 1e200;
 
-double largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
 
 TransferInterval between(const TransferKnot& a, const TransferKnot& b) {
     TransferInterval interval;

@@ -9,8 +9,9 @@
 
 namespace lamina {
 
-// The part of a transfer function between two neighbouring knots, where colour and extinction are linear in the
-// position x = (value - lo) / width, 0 <= x <= 1; both are constant (changes = 0) outside the outermost knots.
+// The part of a transfer function between two neighbouring knots, where colour and extinction are
+// linear in the position x = (value - lo) / width, 0 <= x <= 1; both are constant (changes = 0)
+// outside the outermost knots.
 struct TransferInterval {
     double lo = 0;
     double hi = 1;
@@ -24,20 +25,21 @@ struct TransferInterval {
     // From the nearer knot, so that little is lost where a steep interval ends at extinction 0.
     double extinction(double value) const {
         const double from_lo = (value - lo) / width, from_hi = (hi - value) / width;
-        const double result =
-            from_lo < from_hi ? at_lo.extinction + extinction_change * from_lo
-                              : (at_lo.extinction + extinction_change) - extinction_change * from_hi;
+        const double result = from_lo < from_hi ? at_lo.extinction + extinction_change * from_lo
+                                                : (at_lo.extinction + extinction_change) -
+                                                      extinction_change * from_hi;
         return result > 0 ? result : 0;
     }
 };
 
-// A transfer function as its intervals: which one a value is in is decided once per piece of a ray, by the values on
-// the piece, so that both sides of a step are seen as they are.
+// A transfer function as its intervals: which one a value is in is decided once per piece of a ray,
+// by the values on the piece, so that both sides of a step are seen as they are.
 class TransferIntervals {
   public:
     explicit TransferIntervals(const TransferFunction& transfer_function);
 
-    // Interval i lies between knots i-1 and i. `above`: for values at and above `value`; `below`: at and below.
+    // Interval i lies between knots i-1 and i. `above`: for values at and above `value`; `below`:
+    // at and below.
     std::size_t above(double value) const;
     std::size_t below(double value) const;
     const TransferInterval& operator[](std::size_t interval) const { return intervals_[interval]; }

@@ -18,8 +18,21 @@ namespace lamina {
 struct CellCorners {
     std::array<double, 8> v;
 
-    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1). Formed from
-    // differences of corners: a constant cell is exactly constant, a linear one exactly linear.
+    struct Range {
+        double lo, hi;
+    };
+    Range range() const {  // pairwise, without branches: most cells end here
+        const auto lesser = [](double a, double b) { return b < a ? b : a; };
+        const auto greater = [](double a, double b) { return a < b ? b : a; };
+        return {lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
+                       lesser(lesser(v[4], v[5]), lesser(v[6], v[7]))),
+                greater(greater(greater(v[0], v[1]), greater(v[2], v[3])),
+                        greater(greater(v[4], v[5]), greater(v[6], v[7])))};
+    }
+
+    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1).
+    // Formed from differences of corners: a constant cell is exactly constant, a linear one exactly
+    // linear.
     Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
         const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
         const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
@@ -27,8 +40,8 @@ struct CellCorners {
         const auto& [u, w, q] = std::array<double, 3>{from.x, from.y, from.z};
         const auto& [du, dw, dq] = std::array<double, 3>{step.x, step.y, step.z};
         Cubic field;
-        field.c[0] = v[0] + u * x + w * y + q * z + u * w * xy + u * q * xz + w * q * yz +
-                     u * w * q * xyz;
+        field.c[0] =
+            v[0] + u * x + w * y + q * z + u * w * xy + u * q * xz + w * q * yz + u * w * q * xyz;
         field.c[1] = du * (x + w * xy + q * xz + w * q * xyz) +
                      dw * (y + u * xy + q * yz + u * q * xyz) +
                      dq * (z + u * xz + w * yz + u * w * xyz);
@@ -38,13 +51,16 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume whose samples are of type Sample; outside the samples the border value repeats.
+// Access to the cells of a volume whose samples are of type Sample; outside the samples the border
+// value repeats.
 template <typename Sample>
 class CellSamples {
   public:
     CellSamples(const Grid& grid, const Sample* samples)
-        : samples_(samples), last_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
-          row_(grid.size[0]), slice_(grid.size[0] * grid.size[1]) {}
+        : samples_(samples),
+          last_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
+          row_(grid.size[0]),
+          slice_(grid.size[0] * grid.size[1]) {}
 
     CellCorners corners(const CellIndex& cell) const {
         const std::int64_t x0 = clamped(cell[0], 0), x1 = clamped(cell[0] + 1, 0);
@@ -55,7 +71,8 @@ class CellSamples {
                 at(x0 + y0 + z1), at(x1 + y0 + z1), at(x0 + y1 + z1), at(x1 + y1 + z1)};
     }
 
-    // NaN and infinite samples make the cells around them transparent (scene option nan: transparent).
+    // NaN and infinite samples make the cells around them transparent (scene option nan:
+    // transparent).
     static bool finite(const CellCorners& corners) {
         if constexpr (!std::is_floating_point_v<Sample>) return true;
         double sum = 0;  // of eight finite floats it cannot overflow in double

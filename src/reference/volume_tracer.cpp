@@ -23,13 +23,13 @@ void add_cell(const CellSamples<Sample>& samples, const TransferIntervals& trans
               const Chord& chord, const CellIndex& cell, double from, double to,
               RayIntegrator& integrator) {
     const CellCorners corners = samples.corners(cell);
-    const auto [lo, hi] = std::minmax_element(corners.v.begin(), corners.v.end());
-    if (!CellSamples<Sample>::finite(corners) || !transfer.visible(*lo, *hi)) return;
+    const auto [lo, hi] = corners.range();
+    if (!transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
     const glm::dvec3 corner(cell[0], cell[1], cell[2]);
     const glm::dvec3 local = chord.entry + from * chord.direction - corner;
     const Cubic scalar = corners.along(glm::clamp(local, glm::dvec3(0), glm::dvec3(1)),
                                        (to - from) * chord.direction);
-    integrator.add(scalar, *lo, *hi, (to - from) * chord.world_per_z);
+    integrator.add(scalar, lo, hi, (to - from) * chord.world_per_z);
 }
 
 struct RowTotals {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge of every picture of a volume: the viewing rays through the exact trilinear field, in double precision.
+// The judge of every picture of a volume: the viewing rays through the exact trilinear field, in
+// double precision.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +19,15 @@ struct TraceOptions {
 };
 
 struct TraceResult {
-    PreciseImage image;         // associated RGBA in linear light, before any background
-    double error_estimate = 0;  // largest over all pixels and channels, of full scale; without rounding (some 1e-14)
-    std::int64_t segments = 0;  // pieces of rays with extinction that were integrated, each inside one cell and
-                                // one interval of the transfer function
+    PreciseImage image;  // associated RGBA in linear light, before any background
+    double error_estimate =
+        0;  // largest over all pixels and channels, of full scale; without rounding (some 1e-14)
+    std::int64_t segments = 0;  // pieces of rays with extinction that were integrated, each inside
+                                // one cell and one interval of the transfer function
 };
 
-// Cells with a NaN or infinite corner are transparent. Runs on all cores; the result does not depend on their number.
-// Throws Error for a tolerance out of range.
+// Cells with a NaN or infinite corner are transparent. Runs on all cores; the result does not
+// depend on their number. Throws Error for a tolerance out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options);
 

@@ -2,6 +2,7 @@
 #include "volume/gradient_noise.h"
 
 #include <cmath>
+#include <limits>
 
 namespace lamina {
 namespace {
@@ -19,36 +20,61 @@ double component(std::uint64_t bits) {
     return static_cast<double>(bits & 0x1fffff) * 0x1p-20 - 1;
 }
 
+// A lattice coordinate in 21 bits: noise repeats beyond 2^21 cells.
+std::uint64_t lattice_bits(std::int64_t coordinate) {
+    return static_cast<std::uint64_t>(coordinate) & 0x1fffff;
+}
+
 double blend(double a, double b, double weight) {
     return a + weight * (b - a);
 }
 
-}  // namespace
+// The four lattice lines along x around (y, z).
+struct Lines {
+    std::uint64_t key[4];             // of their lattice points, without x
+    double offset_y[4], offset_z[4];  // of (y, z) from the line
+    double weight_y, weight_z;        // of the lines at larger y, at larger z
 
-GradientNoise::Node GradientNoise::node(std::int64_t x, double y, double z) const {
-    const double cell_y = std::floor(y);
-    const double cell_z = std::floor(z);
-    Node corners[4];
-    for (int corner = 0; corner < 4; ++corner) {
-        const double corner_y = cell_y + (corner & 1);
-        const double corner_z = cell_z + (corner >> 1);
-        // Coordinates of 21 bits each; noise repeats beyond 2^21 lattice cells.
-        const auto key =
-            static_cast<std::uint64_t>(x & 0x1fffff) |
-            static_cast<std::uint64_t>(static_cast<std::int64_t>(corner_y) & 0x1fffff) << 21 |
-            static_cast<std::uint64_t>(static_cast<std::int64_t>(corner_z) & 0x1fffff) << 42;
-        const std::uint64_t bits = mix(key * 0x9e3779b97f4a7c15u + seed_);
-        corners[corner] = {
-            component(bits >> 21) * (y - corner_y) + component(bits >> 42) * (z - corner_z),
-            component(bits)};
+    Lines(double y, double z) {
+        const double cell_y = std::floor(y);
+        const double cell_z = std::floor(z);
+        weight_y = fade(y - cell_y);
+        weight_z = fade(z - cell_z);
+        for (int line = 0; line < 4; ++line) {
+            const auto line_y = static_cast<std::int64_t>(cell_y) + (line & 1);
+            const auto line_z = static_cast<std::int64_t>(cell_z) + (line >> 1);
+            key[line] = lattice_bits(line_y) << 21 | lattice_bits(line_z) << 42;
+            offset_y[line] = y - static_cast<double>(line_y);
+            offset_z[line] = z - static_cast<double>(line_z);
+        }
     }
-    const double weight_y = fade(y - cell_y);
-    const double weight_z = fade(z - cell_z);
-    return {blend(blend(corners[0].value, corners[1].value, weight_y),
-                  blend(corners[2].value, corners[3].value, weight_y), weight_z),
-            blend(blend(corners[0].slope, corners[1].slope, weight_y),
-                  blend(corners[2].slope, corners[3].slope, weight_y), weight_z)};
+
+    double interpolate(const double* values) const {
+        return blend(blend(values[0], values[1], weight_y), blend(values[2], values[3], weight_y),
+                     weight_z);
+    }
+};
+
+// At a lattice coordinate of x, what the gradients there, interpolated over y and z, contribute at
+// distance d along x: value + slope * d.
+struct Node {
+    double value;
+    double slope;
+};
+
+Node node(std::uint64_t seed, const Lines& lines, std::int64_t x) {
+    double values[4], slopes[4];
+    for (int line = 0; line < 4; ++line) {
+        const std::uint64_t bits =
+            mix((lines.key[line] | lattice_bits(x)) * 0x9e3779b97f4a7c15u + seed);
+        slopes[line] = component(bits);
+        values[line] = component(bits >> 21) * lines.offset_y[line] +
+                       component(bits >> 42) * lines.offset_z[line];
+    }
+    return {lines.interpolate(values), lines.interpolate(slopes)};
 }
+
+}  // namespace
 
 double GradientNoise::at(double x, double y, double z) const {
     double value = 0;
@@ -57,21 +83,25 @@ double GradientNoise::at(double x, double y, double z) const {
 }
 
 void GradientNoise::add_row(double first, double step, double y, double z, double amplitude,
-                            std::int64_t count, double* values) const {
-    auto cell = static_cast<std::int64_t>(std::floor(first));
-    Node left = node(cell, y, z);
-    Node right = node(cell + 1, y, z);
-    for (std::int64_t i = 0; i < count; ++i) {
-        const double x = first + static_cast<double>(i) * step;
-        if (x >= static_cast<double>(cell + 1)) {
-            const auto next = static_cast<std::int64_t>(std::floor(x));
-            left = next == cell + 1 ? right : node(next, y, z);
-            right = node(next + 1, y, z);
-            cell = next;
+                            int count, double* values) const {
+    const Lines lines(y, z);
+    Node right{};
+    std::int64_t right_x = std::numeric_limits<std::int64_t>::min();
+    const auto position = [=](int i) { return first + static_cast<double>(i) * step; };
+    for (int begin = 0; begin < count;) {
+        const double cell = std::floor(position(begin));
+        int end = begin + 1;  // of the samples in this cell
+        while (end < count && position(end) < cell + 1) ++end;
+        const auto left_x = static_cast<std::int64_t>(cell);
+        const Node left = left_x == right_x ? right : node(seed_, lines, left_x);
+        right_x = left_x + 1;
+        right = node(seed_, lines, right_x);
+        for (int i = begin; i < end; ++i) {
+            const double t = position(i) - cell;
+            values[i] += amplitude * blend(left.value + left.slope * t,
+                                           right.value + right.slope * (t - 1), fade(t));
         }
-        const double t = x - static_cast<double>(cell);
-        values[i] += amplitude * blend(left.value + left.slope * t,
-                                       right.value + right.slope * (t - 1), fade(t));
+        begin = end;
     }
 }
 

@@ -16,19 +16,10 @@ class GradientNoise {
 
     // values[i] += amplitude * at(first + i * step, y, z). What depends on y and z only is computed
     // once a lattice cell, so a sample costs one interpolation. `step` > 0.
-    void add_row(double first, double step, double y, double z, double amplitude,
-                 std::int64_t count, double* values) const;
+    void add_row(double first, double step, double y, double z, double amplitude, int count,
+                 double* values) const;
 
   private:
-    // At a lattice point of x, what its gradients, interpolated over y and z, contribute at
-    // distance d along x: value + slope * d.
-    struct Node {
-        double value;
-        double slope;
-    };
-
-    Node node(std::int64_t x, double y, double z) const;
-
     std::uint64_t seed_;
 };
 

@@ -40,6 +40,7 @@ class Mixing final : public Generator {
         }
         for (std::int64_t x = 0; x < size[0]; ++x) {
             const double position = unit_position(x, size[0]);
+            position_.push_back(position);
             strength_.push_back(smooth_step((position - layer_begin) / layer_margin) *
                                 smooth_step((layer_end - position) / layer_margin));
         }
@@ -52,16 +53,14 @@ class Mixing final : public Generator {
         std::vector<double> fine(strength_.size());
         add_eddies(py, pz, coarse.data(), fine.data());
         const double interface = interface_position(py, pz);
-        for (std::int64_t x = 0; x < size_[0]; ++x) {
-            const auto i = static_cast<std::size_t>(x);
-            const double position = unit_position(x, size_[0]);
+        for (std::size_t x = 0; x < position_.size(); ++x) {
             const double stirred =
-                position - interface + stirring * strength_[i] * (coarse[i] + fine[i]);
+                position_[x] - interface + stirring * strength_[x] * (coarse[x] + fine[x]);
             const double heavy = smooth_step(0.5 + stirred / (2 * interface_width));
             // Eddies of one fluid in the other, where the interface is near.
             const double nearness = smooth_step(1 - std::abs(stirred) / (4 * interface_width));
             values[x] =
-                std::clamp(heavy + entrainment * nearness * strength_[i] * fine[i], 0.0, 1.0);
+                std::clamp(heavy + entrainment * nearness * strength_[x] * fine[x], 0.0, 1.0);
         }
     }
 
@@ -71,15 +70,17 @@ class Mixing final : public Generator {
         const auto begin =
             std::find_if(strength_.begin(), strength_.end(), [](double s) { return s > 0; });
         const auto end = std::find(begin, strength_.end(), 0.0);
-        const std::int64_t first = begin - strength_.begin();
+        const auto first = static_cast<std::size_t>(begin - strength_.begin());
+        if (begin == end) return;
         double amplitude = 1;
         for (std::size_t octave = 0; octave < frequencies_.size(); ++octave) {
             const double frequency = frequencies_[octave];
-            const double start = unit_position(first, size_[0]) * frequency;
+            const double start = position_[first] * frequency;
             const double step =
                 frequency / static_cast<double>(std::max<std::int64_t>(1, size_[0] - 1));
             GradientNoise(stirring_seed + octave)
-                .add_row(start, step, py * frequency, pz * frequency, amplitude, end - begin,
+                .add_row(start, step, py * frequency, pz * frequency, amplitude,
+                         static_cast<int>(end - begin),
                          (octave < frequencies_.size() / 2 ? coarse : fine) + first);
             amplitude *= persistence;
         }
@@ -108,6 +109,7 @@ class Mixing final : public Generator {
 
     GridSize size_;
     std::vector<double> frequencies_;  // of stirring, in cells a box
+    std::vector<double> position_;     // of samples along x
     std::vector<double> strength_;     // of stirring, at every x: 0 outside the layer
 };
 

@@ -82,7 +82,7 @@ TEST_P(ProgramTest, IsSpecialisedByDefines) {
 std::string compile_error(const std::map<std::string, std::string>& texts, const Defines& defines) {
     try {
         Program(compose_shader("gl/full_screen.vert"),
-                compose_shader("bad.frag", defines, with_shaders(texts)));
+                compose_shader("test.frag", defines, with_shaders(texts)));
     } catch (const Error& error) {
         return error.what();
     }
@@ -91,32 +91,45 @@ std::string compile_error(const std::map<std::string, std::string>& texts, const
 
 TEST_P(ProgramTest, CompileErrorsNameShaderFileLineAndDefines) {
     const std::string included =
-        compile_error({{"bad.frag",
+        compile_error({{"test.frag",
                         "#version 450 core\n#include \"lib/bad.glsl\"\nout vec4 color;\n"
                         "void main() { color = vec4(f()); }\n"},
                        {"lib/bad.glsl", "// line 1\n// line 2\nfloat f() { return nonsense; }\n"}},
                       Defines().set("BITS", 8));
-    EXPECT_EQ(included.rfind("shader bad.frag does not compile: lib/bad.glsl:3: ", 0), 0u)
+    EXPECT_EQ(included.rfind("shader test.frag does not compile: lib/bad.glsl:3: ", 0), 0u)
         << included;
     EXPECT_NE(included.find("nonsense"), std::string::npos) << included;
     EXPECT_NE(included.find("BITS=8"), std::string::npos) << included;
 
     const std::string main =
-        compile_error({{"bad.frag",
+        compile_error({{"test.frag",
                         "#version 450 core\n#include \"lib/good.glsl\"\nout vec4 color;\n"
                         "void main() { color = nonsense; }\n"},
                        {"lib/good.glsl", "float f() { return 1.0; }\n"}},
                       {});
-    EXPECT_EQ(main.rfind("shader bad.frag does not compile: bad.frag:4: ", 0), 0u) << main;
+    EXPECT_EQ(main.rfind("shader test.frag does not compile: test.frag:4: ", 0), 0u) << main;
     EXPECT_EQ(main.find('\n'), std::string::npos);
 }
 
+// A file included twice is compiled once, also where the first include is under an #if that is not
+// taken.
+TEST_P(ProgramTest, CompilesIncludedFilesOnce) {
+    const std::map<std::string, std::string> texts{
+        {"test.frag",
+         "#version 450 core\n#if FAST\n#include \"a.glsl\"\n#endif\n#include \"a.glsl\"\n"
+         "#include \"b.glsl\"\nout vec4 color;\nvoid main() { color = vec4(a() + b()); }\n"},
+        {"a.glsl", "float a() { return 1.0; }\n"},
+        {"b.glsl", "#include \"a.glsl\"\nfloat b() { return a(); }\n"}};
+    EXPECT_EQ(compile_error(texts, Defines().set("FAST", 0)), "no error");
+    EXPECT_EQ(compile_error(texts, Defines().set("FAST", 1)), "no error");
+}
+
 TEST_P(ProgramTest, LinkErrorsNameBothShaders) {
-    const std::string message = compile_error({{"bad.frag",
+    const std::string message = compile_error({{"test.frag",
                                                 "#version 450 core\nin vec4 missing;\nout vec4 "
                                                 "color;\nvoid main() { color = missing; }\n"}},
                                               {});
-    EXPECT_EQ(message.rfind("shaders gl/full_screen.vert + bad.frag do not link: ", 0), 0u)
+    EXPECT_EQ(message.rfind("shaders gl/full_screen.vert + test.frag do not link: ", 0), 0u)
         << message;
     EXPECT_NE(message.find("missing"), std::string::npos) << message;
 }

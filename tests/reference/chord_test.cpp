@@ -10,7 +10,8 @@ namespace {
 
 using namespace reference_test;
 
-constexpr double relative_tolerance = 1e-14;  // the header promises 1e-15; world_length multiplies by a rounded norm
+constexpr double relative_tolerance =
+    1e-14;  // the header promises 1e-15; world_length multiplies by a rounded norm
 
 void expect_relative(double found, double expected) {
     EXPECT_LE(std::abs(found - expected), relative_tolerance * std::abs(expected))
@@ -21,12 +22,12 @@ TEST(Chord, AxisAlignedRaysCrossTheWholeBox) {
     const Grid node = make_grid({5, 4, 3}, Centering::node, {0.5, 2, 3});
     const Grid cell = make_grid({5, 4, 3}, Centering::cell, {0.5, 2, 3});
     const View::Ray along_x{{-7, 1, 1}, {1, 0, 0}};
-    EXPECT_EQ(clip_to_box(node, along_x).world_length(), 2.0);   // (5 - 1) * 0.5
-    EXPECT_EQ(clip_to_box(cell, along_x).world_length(), 2.5);   // 5 * 0.5
+    EXPECT_EQ(clip_to_box(node, along_x).world_length(), 2.0);  // (5 - 1) * 0.5
+    EXPECT_EQ(clip_to_box(cell, along_x).world_length(), 2.5);  // 5 * 0.5
     const View::Ray along_z{{1, 1, 20}, {0, 0, -2}};
-    EXPECT_EQ(clip_to_box(node, along_z).world_length(), 6.0);   // (3 - 1) * 3
-    EXPECT_EQ(clip_to_box(node, along_z).length_z, 3.0);         // |direction| is 2
-    EXPECT_EQ(clip_to_box(cell, along_z).world_length(), 9.0);   // 3 * 3
+    EXPECT_EQ(clip_to_box(node, along_z).world_length(), 6.0);  // (3 - 1) * 3
+    EXPECT_EQ(clip_to_box(node, along_z).length_z, 3.0);        // |direction| is 2
+    EXPECT_EQ(clip_to_box(cell, along_z).world_length(), 9.0);  // 3 * 3
 }
 
 TEST(Chord, AxisWithOneSampleIsOneVoxelThick) {
@@ -54,8 +55,9 @@ TEST(Chord, BoxIsClosed) {
     EXPECT_EQ(clip_to_box(grid, {{-1, 1, 1}, {1, -1, 0}}).world_length(), 0.0) << "only a corner";
 }
 
-// A ray that cuts off a corner of the box at a distance: through (2 - e, 2) and out at x = 2, so that length_z is e.
-// All numbers are dyadic, hence exact; the plain (plane - origin) / direction would lose 1e-16 * distance / e.
+// A ray that cuts off a corner of the box at a distance: through (2 - e, 2) and out at x = 2, so
+// that length_z is e. All numbers are dyadic, hence exact; the plain (plane - origin) / direction
+// would lose 1e-16 * distance / e.
 TEST(Chord, SliversSeenFromAfarKeepAllDigits) {
     const Grid grid = make_grid({3, 3, 3}, Centering::node);
     for (const double distance : {4.0, 1024.0, 1048576.0}) {
@@ -89,15 +91,17 @@ TEST(Chord, EntryIsOnTheBox) {
     }
 }
 
-// Through the middle of a rotated box, along a direction with components a, b, c in the box's own axes, the chord is
-// min(size / |component|). The rotation (1, 2, 2; 2, 1, -2; 2, -2, 1) / 3 is exact but for the factor 1/3 in the steps.
+// Through the middle of a rotated box, along a direction with components a, b, c in the box's own
+// axes, the chord is min(size / |component|). The rotation (1, 2, 2; 2, 1, -2; 2, -2, 1) / 3 is
+// exact but for the factor 1/3 in the steps.
 TEST(Chord, RotatedBoxThroughItsMiddle) {
     Grid grid;
     grid.size = {17, 9, 5};
     grid.centering = {Centering::node, Centering::cell, Centering::node};
     const glm::dvec3 axes[3] = {{1, 2, 2}, {2, 1, -2}, {2, -2, 1}};
     const glm::dvec3 spacing{0.5, 0.25, 2};
-    for (int axis = 0; axis < 3; ++axis) grid.step[axis] = spacing[axis] * axes[axis];  // length 3 s
+    for (int axis = 0; axis < 3; ++axis)
+        grid.step[axis] = spacing[axis] * axes[axis];  // length 3 s
     const glm::dvec3 extent = 3.0 * spacing * (grid.index_max() - grid.index_min());
     Random random(3);
     for (int i = 0; i < 500; ++i) {
@@ -108,8 +112,10 @@ TEST(Chord, RotatedBoxThroughItsMiddle) {
         for (int axis = 0; axis < 3; ++axis) {
             expected = std::min(expected, extent[axis] / (3 * std::abs(local[axis])));
         }
-        // The ray itself was rounded when it was made: relative to its length of 64, not to the chord.
-        EXPECT_NEAR(clip_to_box(grid, ray).length_z, expected, 64 * 8 * 2.3e-16 / glm::length(local));
+        // The ray itself was rounded when it was made: relative to its length of 64, not to the
+        // chord.
+        EXPECT_NEAR(clip_to_box(grid, ray).length_z, expected,
+                    64 * 8 * 2.3e-16 / glm::length(local));
     }
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using reference_test::Random;
 
-// Position and extinction linear in t: the weight of the back end is the integral (NUMERICS section 5), in closed
-// form. From 1e-8 to 1e7, so boundary layers as thin as 1e-7 of the piece.
+// Position and extinction linear in t: the weight of the back end is the integral (NUMERICS section
+// 5), in closed form. From 1e-8 to 1e7, so boundary layers as thin as 1e-7 of the piece.
 TEST(EmissionIntegral, LinearPiecesEqualTheClosedForm) {
     for (const double p : {0.0, 1e-8, 1e-3, 0.5, 3.0, 20.0, 1e3, 1e5, 1e7}) {
         for (const double q : {0.0, 1e-8, 1e-2, 1.0, 7.0, 50.0, 1e4, 1e7}) {
@@ -53,8 +53,7 @@ TEST(EmissionIntegral, EstimateCoversTheErrorAndKeepsTheTolerance) {
         for (std::size_t n = 0; n < 4; ++n) piece.extinction.c[n] = strength * piece.position.c[n];
         const EmissionIntegral exact = integrate_emission(piece, 1e-13, 1e-13);
         for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-9}) {
-            const EmissionIntegral found =
-                integrate_emission(piece, tolerance / 2, tolerance / 2);
+            const EmissionIntegral found = integrate_emission(piece, tolerance / 2, tolerance / 2);
             EXPECT_LE(found.error, tolerance) << strength;
             EXPECT_LE(std::abs(found.value - exact.value), found.error + exact.error + 1e-14)
                 << strength << " tolerance " << tolerance;

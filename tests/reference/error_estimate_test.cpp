@@ -29,7 +29,8 @@ std::vector<Judged> scenes() {
     return result;
 }
 
-// The estimate keeps the tolerance, and the true error (against a tolerance of 1e-12) keeps the estimate.
+// The estimate keeps the tolerance, and the true error (against a tolerance of 1e-12) keeps the
+// estimate.
 TEST(ErrorEstimate, KeepsTheToleranceAndIsHonest) {
     for (const Judged& scene : scenes()) {
         const TraceResult exact = trace_volume(scene.volume, scene.function, scene.view, {1e-12});

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <random>
 #include <type_traits>
@@ -18,10 +20,10 @@ namespace lamina::reference_test {
 
 template <typename Sample>
 Volume make_volume(const Grid& grid, std::vector<Sample> samples) {
-    const SampleType type = std::is_same_v<Sample, float>           ? SampleType::float32
-                            : std::is_same_v<Sample, std::uint8_t>  ? SampleType::uint8
-                            : std::is_same_v<Sample, std::int16_t>  ? SampleType::int16
-                                                                    : SampleType::uint16;
+    const SampleType type = std::is_same_v<Sample, float>          ? SampleType::float32
+                            : std::is_same_v<Sample, std::uint8_t> ? SampleType::uint8
+                            : std::is_same_v<Sample, std::int16_t> ? SampleType::int16
+                                                                   : SampleType::uint16;
     auto shared = std::make_shared<std::vector<Sample>>(std::move(samples));
     return Volume(grid, type, std::shared_ptr<const void>(shared, shared->data()));
 }
@@ -89,8 +91,7 @@ inline TransferFunction constant_function(double extinction, const glm::dvec3& c
 
 // Colour and extinction linear in the scalar over [0, 1].
 inline TransferFunction ramp_function(double extinction) {
-    return TransferFunction::linear(
-        {{0, {{0, 0.25, 1}, 0}}, {1, {{1, 0.5, 0.125}, extinction}}});
+    return TransferFunction::linear({{0, {{0, 0.25, 1}, 0}}, {1, {{1, 0.5, 0.125}, extinction}}});
 }
 
 // `peaks` triangular peaks and `steps` steps at random places in [0, 1], over a faint base.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A volume of one value: alpha must be 1 - exp(-extinction * chord), whatever the grid, the camera and the cells.
+// A volume of one value: alpha must be 1 - exp(-extinction * chord), whatever the grid, the camera
+// and the cells.
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -10,7 +11,8 @@ namespace {
 
 using namespace reference_test;
 
-// The chord through an oriented box, in the box's world axes and in extended precision: nothing shared with chord.cpp.
+// The chord through an oriented box, in the box's world axes and in extended precision: nothing
+// shared with chord.cpp.
 double independent_chord(const Grid& grid, const View::Ray& ray) {
     long double from = 0, to = std::numeric_limits<long double>::infinity();
     long double square = 0;
@@ -51,8 +53,8 @@ void expect_exact_opacity(const Grid& grid, const Camera& camera, double extinct
             const double expected = -std::expm1(-extinction * chord);
             longest = std::max(longest, chord);
             const double* pixel = result.image.pixel(column, row);
-            // Some 10 roundings of the chord and of each cell's depth (which exp(-depth) * depth <= 0.4 damps), and
-            // early termination at 1e-15: together below 1e-13.
+            // Some 10 roundings of the chord and of each cell's depth (which exp(-depth) * depth <=
+            // 0.4 damps), and early termination at 1e-15: together below 1e-13.
             ASSERT_NEAR(pixel[3], expected, 1e-13) << column << "," << row;
             for (int channel = 0; channel < 3; ++channel) {
                 ASSERT_NEAR(pixel[channel], expected * color[channel], 1e-13 * color[channel]);
@@ -136,8 +138,8 @@ TEST(Homogeneous, BehindTheEye) {
     EXPECT_EQ(result.segments, 0);
 }
 
-// Every cell's share of a ray is integrated once: cells are counted along rays in planes between cells, along edges,
-// through corners.
+// Every cell's share of a ray is integrated once: cells are counted along rays in planes between
+// cells, along edges, through corners.
 TEST(Homogeneous, DegenerateRaysCountEveryCellOnce) {
     const Grid grid = make_grid({5, 5, 5}, Centering::node);
     const Volume volume = make_volume<std::uint8_t>(grid, std::vector<std::uint8_t>(125, 1));
@@ -146,11 +148,11 @@ TEST(Homogeneous, DegenerateRaysCountEveryCellOnce) {
         double chord;
     };
     const Case cases[] = {
-        {{-1, 2, 1.5}, {4, 2, 1.5}, 4},                      // in a plane between cells
-        {{-1, 2, 3}, {4, 2, 3}, 4},                          // along an edge
-        {{-1, 0, 4}, {4, 0, 4}, 4},                          // along the box's own edge
-        {{-1, -1, -1}, {4, 4, 4}, 4 * std::sqrt(3.0)},       // through corners
-        {{5, -1, 2}, {0, 4, 2}, 4 * std::sqrt(2.0)},         // through edges, in a plane
+        {{-1, 2, 1.5}, {4, 2, 1.5}, 4},                 // in a plane between cells
+        {{-1, 2, 3}, {4, 2, 3}, 4},                     // along an edge
+        {{-1, 0, 4}, {4, 0, 4}, 4},                     // along the box's own edge
+        {{-1, -1, -1}, {4, 4, 4}, 4 * std::sqrt(3.0)},  // through corners
+        {{5, -1, 2}, {0, 4, 2}, 4 * std::sqrt(2.0)},    // through edges, in a plane
     };
     for (const Case& c : cases) {
         Camera camera;
@@ -161,7 +163,8 @@ TEST(Homogeneous, DegenerateRaysCountEveryCellOnce) {
         const TraceResult result =
             trace_volume(volume, constant_function(0.3, glm::dvec3(1)), View(camera, 1, 1), {});
         EXPECT_NEAR(result.image.rgba[3], -std::expm1(-0.3 * c.chord), 1e-14);
-        // Rounding of the direction may cut slivers off neighbours (at most 2 at each of 3 inner corners).
+        // Rounding of the direction may cut slivers off neighbours (at most 2 at each of 3 inner
+        // corners).
         EXPECT_GE(result.segments, 4);
         EXPECT_LE(result.segments, 4 + 6);
     }

@@ -10,7 +10,8 @@ namespace {
 
 using namespace reference_test;
 
-constexpr double tolerance = 1e-12;  // of each picture; both err by that at most, and round at some 1e-13
+constexpr double tolerance =
+    1e-12;  // of each picture; both err by that at most, and round at some 1e-13
 constexpr double allowed = 2 * tolerance + 3e-13;
 constexpr int width = 31, height = 25;
 
@@ -42,7 +43,8 @@ std::size_t offset(const Grid& grid, const std::array<std::int64_t, 3>& i) {
     return static_cast<std::size_t>((i[2] * grid.size[1] + i[1]) * grid.size[0] + i[0]);
 }
 
-// The same field stored with axis a of the new grid being axis order[a] of the old one, reversed where asked.
+// The same field stored with axis a of the new grid being axis order[a] of the old one, reversed
+// where asked.
 Scene stored_differently(const Scene& scene, const std::array<std::size_t, 3>& order,
                          const std::array<bool, 3>& reversed) {
     Scene result = scene;
@@ -51,8 +53,8 @@ Scene stored_differently(const Scene& scene, const std::array<std::size_t, 3>& o
         result.grid.size[a] = scene.grid.size[old_axis];
         result.grid.step[a] = scene.grid.step[old_axis] * (reversed[a] ? -1.0 : 1.0);
         if (reversed[a]) {
-            result.grid.origin += static_cast<double>(scene.grid.size[old_axis] - 1) *
-                                  scene.grid.step[old_axis];
+            result.grid.origin +=
+                static_cast<double>(scene.grid.size[old_axis] - 1) * scene.grid.step[old_axis];
         }
     }
     std::array<std::int64_t, 3> i;
@@ -148,10 +150,12 @@ TEST(Metamorphic, GridRefined) {
     for (i[2] = 0; i[2] < fine.grid.size[2]; ++i[2]) {
         for (i[1] = 0; i[1] < fine.grid.size[1]; ++i[1]) {
             for (i[0] = 0; i[0] < fine.grid.size[0]; ++i[0]) {
-                float sum = 0;  // mean of the 8 (not always different) coarse samples around: exact in float
+                float sum = 0;  // mean of the 8 (not always different) coarse samples around: exact
+                                // in float
                 for (int corner = 0; corner < 8; ++corner) {
                     std::array<std::int64_t, 3> coarse;
-                    for (std::size_t a = 0; a < 3; ++a) coarse[a] = (i[a] + ((corner >> a) & 1)) / 2;
+                    for (std::size_t a = 0; a < 3; ++a)
+                        coarse[a] = (i[a] + ((corner >> a) & 1)) / 2;
                     sum += scene.samples[offset(scene.grid, coarse)];
                 }
                 fine.samples[offset(fine.grid, i)] = sum / 8;

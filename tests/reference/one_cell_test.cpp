@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One trilinear cell, random corners, random transfer functions, against two oracles that know nothing of cubics.
+// One trilinear cell, random corners, random transfer functions, against two oracles that know
+// nothing of cubics.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -76,9 +77,9 @@ Sample midpoint_sum(const OneCell& cell, const TransferFunction& function, int c
     return sum;
 }
 
-// What midpoint_sum may err by. Total variation bounds the error of a midpoint sum: step / 2 * TV. A cubic is monotone
-// in at most three parts, so TV along the ray is at most 3 times TV over the transfer function; the error of the depth
-// acts on colour through exp(-depth).
+// What midpoint_sum may err by. Total variation bounds the error of a midpoint sum: step / 2 * TV.
+// A cubic is monotone in at most three parts, so TV along the ray is at most 3 times TV over the
+// transfer function; the error of the depth acts on colour through exp(-depth).
 double midpoint_bound(const TransferFunction& function, double step) {
     double depth_variation = 0, emission_variation = 0, brightest = 0, densest = 0;
     const auto knots = function.knots();
@@ -91,8 +92,8 @@ double midpoint_bound(const TransferFunction& function, double step) {
         depth_variation += std::abs(b.extinction - a.extinction);
         emission_variation += a.extinction + b.extinction;  // colours are at most 1
     }
-    return step / 2 * (3 * (depth_variation * (1 + brightest) + emission_variation) +
-                       brightest * densest);
+    return step / 2 *
+           (3 * (depth_variation * (1 + brightest) + emission_variation) + brightest * densest);
 }
 
 // The field as `count` linear pieces, each integrated in closed form by optics.
@@ -130,8 +131,9 @@ TEST(OneCell, EqualsAMidpointSum) {
     }
 }
 
-// Linear pieces replace the field f by one within max|f''| / (8 n^2) of it, so their error is C / n^2 with a factor that
-// changes irregularly with n where steps and knots are crossed. C is taken from the worst of six coarser divisions.
+// Linear pieces replace the field f by one within max|f''| / (8 n^2) of it, so their error is C /
+// n^2 with a factor that changes irregularly with n where steps and knots are crossed. C is taken
+// from the worst of six coarser divisions.
 double linear_pieces_error(const OneCell& cell, const TransferFunction& function,
                            const Sample& fine, int count) {
     double worst = 0;
@@ -172,9 +174,8 @@ TEST(OneCell, LinearFieldEqualsTheSegmentIntegral) {
         const double y = random.uniform(), z = random.uniform();
         cell.front = {0, y, z};
         cell.back = {1, y, z};
-        const TransferFunction function =
-            random_function(random, random.below(4), random.below(4),
-                            std::pow(10, random.uniform(-3, 3)));
+        const TransferFunction function = random_function(random, random.below(4), random.below(4),
+                                                          std::pow(10, random.uniform(-3, 3)));
         const SegmentIntegral exact = integrate_segment(function, a, b, 1);
         // Tolerance 1e-12 asked for; both sides round at 1e-13.
         EXPECT_LE(difference(trace(cell, function, 1e-12), {exact.color, exact.alpha}), 1.2e-12)
@@ -189,15 +190,16 @@ TEST(OneCell, LinearCellsComposeToSegments) {
         const Grid grid = make_grid({33, 2, 2}, Centering::node, {0.125, 1, 1});
         std::vector<float> line(33), samples;
         for (float& value : line) value = static_cast<float>(random.below(65)) / 64;
-        for (int copy = 0; copy < 4; ++copy) samples.insert(samples.end(), line.begin(), line.end());
+        for (int copy = 0; copy < 4; ++copy)
+            samples.insert(samples.end(), line.begin(), line.end());
         const TransferFunction function =
             random_function(random, 2, 2, std::pow(10, random.uniform(-2, 2)));
         Camera camera;
         camera.projection = Projection::orthographic;
         camera.eye = {i % 2 ? 9.0 : -5.0, 0.3, 0.6};
         camera.center = {2, 0.3, 0.6};
-        const TraceResult result = trace_volume(make_volume<float>(grid, samples), function,
-                                                View(camera, 1, 1), {1e-12});
+        const TraceResult result =
+            trace_volume(make_volume<float>(grid, samples), function, View(camera, 1, 1), {1e-12});
         if (i % 2) std::reverse(line.begin(), line.end());
         Sample expected;
         double depth = 0;
@@ -212,10 +214,12 @@ TEST(OneCell, LinearCellsComposeToSegments) {
     }
 }
 
-// A knot that the field only touches, from below, at the middle of the ray: a parabola's vertex on a peak's tip.
+// A knot that the field only touches, from below, at the middle of the ray: a parabola's vertex on
+// a peak's tip.
 TEST(OneCell, TangentKnots) {
     OneCell cell;
-    cell.corners = {0, 1, 1, 0, 0, 1, 1, 0};  // x + y - 2xy: along the diagonal 2t - 2t^2, vertex 1/2
+    cell.corners = {0, 1, 1, 0,
+                    0, 1, 1, 0};  // x + y - 2xy: along the diagonal 2t - 2t^2, vertex 1/2
     cell.front = {0, 0, 0.5};
     cell.back = {1, 1, 0.5};
     const double below = std::nextafter(0.5, 0.0), above = std::nextafter(0.5, 1.0);
@@ -229,7 +233,8 @@ TEST(OneCell, TangentKnots) {
         const TransferFunction step = TransferFunction::linear(
             {{0, {glm::dvec3(1), 2}}, {knot, {glm::dvec3(1), 2}}, {knot, {glm::dvec3(0), 9}}});
         const double expected = -std::expm1(-2 * std::sqrt(2.0));
-        // Where the field rounds up to the step, it is beyond it for at most sqrt(1e-16) of the ray.
+        // Where the field rounds up to the step, it is beyond it for at most sqrt(1e-16) of the
+        // ray.
         EXPECT_NEAR(trace(cell, step, 1e-10).alpha, expected, 1e-6) << knot;
     }
 }

@@ -21,9 +21,9 @@ double alpha_along_x(const Volume& volume, const TransferFunction& function, dou
 }
 
 TEST(SpecialValues, CellsAroundANonFiniteSampleAreTransparent) {
-    for (const float bad : {std::numeric_limits<float>::quiet_NaN(),
-                            std::numeric_limits<float>::infinity(),
-                            -std::numeric_limits<float>::infinity()}) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+          -std::numeric_limits<float>::infinity()}) {
         const Grid grid = make_grid({9, 3, 3}, Centering::node);
         std::vector<float> samples(81, 1.0f);
         samples[9 * 3 + 4] = bad;  // sample (4, 0, 1): cells x 3 and 4, y 0, z 0 and 1
@@ -37,8 +37,8 @@ TEST(SpecialValues, CellsAroundANonFiniteSampleAreTransparent) {
 
 TEST(SpecialValues, AllNonFinite) {
     const Grid grid = make_grid({3, 3, 3}, Centering::cell);
-    const Volume volume = make_volume<float>(
-        grid, std::vector<float>(27, std::numeric_limits<float>::quiet_NaN()));
+    const Volume volume =
+        make_volume<float>(grid, std::vector<float>(27, std::numeric_limits<float>::quiet_NaN()));
     EXPECT_EQ(alpha_along_x(volume, constant_function(1, glm::dvec3(1)), 1, 1), 0);
 }
 
@@ -52,7 +52,8 @@ TEST(SpecialValues, ConstantFieldOnAStep) {
     const Volume volume = make_volume<std::int16_t>(grid, std::vector<std::int16_t>(27, 5));
     EXPECT_NEAR(alpha_along_x(volume, up, 0.5, 0.5), -std::expm1(-0.5 * 2), 1e-15);
     EXPECT_EQ(alpha_along_x(volume, down, 0.5, 0.5), 0);
-    // Constant along the ray only: in the plane between cells where the field is 5 (and in the last one of the box).
+    // Constant along the ray only: in the plane between cells where the field is 5 (and in the last
+    // one of the box).
     std::vector<std::int16_t> ramp;
     for (int i = 0; i < 27; ++i) ramp.push_back(static_cast<std::int16_t>(4 + i / 3 % 3));
     const Volume ramp_volume = make_volume<std::int16_t>(grid, ramp);
@@ -69,11 +70,10 @@ TEST(SpecialValues, PaletteAlongARamp) {
     const Grid grid = make_grid({5, 2, 2}, Centering::node);
     std::vector<std::uint8_t> samples;
     for (int i = 0; i < 20; ++i) samples.push_back(static_cast<std::uint8_t>(i % 5));
-    const TransferFunction palette =
-        TransferFunction::nearest({{0, {glm::dvec3(1), 0.1}},
-                                   {1, {glm::dvec3(1), 0}},
-                                   {2, {glm::dvec3(1), 0.7}},
-                                   {4, {glm::dvec3(1), 0.2}}});
+    const TransferFunction palette = TransferFunction::nearest({{0, {glm::dvec3(1), 0.1}},
+                                                                {1, {glm::dvec3(1), 0}},
+                                                                {2, {glm::dvec3(1), 0.7}},
+                                                                {4, {glm::dvec3(1), 0.2}}});
     // Steps halfway: at 0.5, 1.5 and 3.
     const double depth = 0.1 * 0.5 + 0 * 1 + 0.7 * 1.5 + 0.2 * 1;
     EXPECT_NEAR(alpha_along_x(make_volume<std::uint8_t>(grid, samples), palette, 0.5, 0.5),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces and thin shells: extinction up to 1e7 per unit, transfer functions with spikes of width 1e-4.
+// Surfaces and thin shells: extinction up to 1e7 per unit, transfer functions with spikes of width
+// 1e-4.
 #include <gtest/gtest.h>
 
 #include "fixtures.h"
@@ -15,7 +16,8 @@ Volume ramp_volume(int cells) {
     const Grid grid = make_grid({cells + 1, 2, 2}, Centering::node, {1.0 / cells, 1, 1});
     std::vector<float> samples;
     for (int copy = 0; copy < 4; ++copy) {
-        for (int i = 0; i <= cells; ++i) samples.push_back(static_cast<float>(i) / static_cast<float>(cells));
+        for (int i = 0; i <= cells; ++i)
+            samples.push_back(static_cast<float>(i) / static_cast<float>(cells));
     }
     return make_volume<float>(grid, samples);
 }
@@ -68,8 +70,8 @@ TEST(Stiff, ThinSpikes) {
     for (const double peak : {1e2, 1e4, 1e7}) {
         for (const int cells : {1, 2, 16}) {
             SCOPED_TRACE(testing::Message() << peak << " in " << cells << " cells");
-            // Places in the ray are good to 1e-16, in the spike of width 1e-4 to 1e-12 of it; that error acts on a
-            // depth d as d exp(-d) <= 0.4.
+            // Places in the ray are good to 1e-16, in the spike of width 1e-4 to 1e-12 of it; that
+            // error acts on a depth d as d exp(-d) <= 0.4.
             expect_segment(TransferFunction::linear({{0.41, {{1, 0, 0}, 0}},
                                                      {0.41005, {{0, 1, 0}, peak}},
                                                      {0.4101, {{0, 0, 1}, 0}}}),
@@ -78,7 +80,8 @@ TEST(Stiff, ThinSpikes) {
     }
 }
 
-// All of a picture stiff: random cells, a surface and a spike; finite numbers, in time, and the estimate kept.
+// All of a picture stiff: random cells, a surface and a spike; finite numbers, in time, and the
+// estimate kept.
 TEST(Stiff, PictureOfSurfaces) {
     Random random(31);
     const Grid grid = make_grid({12, 12, 12}, Centering::cell);

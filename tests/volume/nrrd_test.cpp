@@ -114,9 +114,11 @@ TEST_F(Nrrd, ReadsGzipOfSeveralMembers) {
 }
 
 TEST_F(Nrrd, ReadsLinesThatEndInCarriageReturns) {
-    std::string text = header("uint8", "raw");
-    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
-        text.insert(at, "\r");
+    std::string text;
+    for (const char c : header("uint8", "raw")) {
+        if (c == '\n') text += '\r';
+        text += c;
+    }
     expect_samples<std::uint8_t>(
         write("a.nrrd", text + bytes_of_values(test_values<std::uint8_t>())), SampleType::uint8);
 }

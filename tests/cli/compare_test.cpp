@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "cli/run_program.h"
+#include "image/exr.h"
+#include "image/npy.h"
+#include "image/png.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+// One line that names every one of `parts`.
+void expect_one_line(const std::string& text, const std::vector<std::string>& parts) {
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+    for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+class Compare : public testing::Test {
+  protected:
+    // a: all .5; b: as a but for pixel (2, 1), where G is .25 more and B .125 less.
+    void SetUp() override {
+        PreciseImage image(4, 3);
+        for (double& value : image.rgba) value = 0.5;
+        write_all("a", image);
+        image.pixel(2, 1)[1] += 0.25;
+        image.pixel(2, 1)[2] -= 0.125;
+        write_all("b", image);
+        write_all("small", PreciseImage(2, 2));
+    }
+
+    void write_all(const std::string& stem, const PreciseImage& image) {
+        AtomicFile exr(folder / (stem + ".exr")), npy(folder / (stem + ".npy")),
+            png(folder / (stem + ".png"));
+        write_exr(exr, to_float(image), {});
+        write_npy(npy, image);
+        write_png(png, to_float(image), glm::dvec3(0));
+        exr.commit();
+        npy.commit();
+        png.commit();
+    }
+
+    ProgramResult compare(const std::string& a, const std::string& b,
+                          const std::vector<std::string>& options = {}) {
+        std::vector<std::string> arguments = {LAMINA_BINARY, "compare", folder / a, folder / b};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_program(arguments);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Compare, JsonHasTheNormsOfEveryChannel) {
+    const ProgramResult result = compare("a.exr", "b.npy", {"--json"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    // 12 pixels; e(G) = -255/4, e(B) = 255/8 at one of them: exact binary fractions, so only the division by 12 and
+    // the root round.
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.size(), 2u);
+    EXPECT_EQ(json["channels"].size(), 4u);
+    EXPECT_EQ(json["channels"]["R"]["linf"], 0);
+    EXPECT_EQ(json["channels"]["G"]["linf"], 63.75);
+    EXPECT_DOUBLE_EQ(json["channels"]["G"]["l1"], -63.75 / 12);
+    EXPECT_DOUBLE_EQ(json["channels"]["G"]["l2"], 63.75 / std::sqrt(12.0));
+    EXPECT_DOUBLE_EQ(json["channels"]["B"]["l1"], 31.875 / 12);
+    EXPECT_EQ(json["channels"]["A"]["l2"], 0);
+    EXPECT_EQ(json["all"]["linf"], 63.75);
+    EXPECT_DOUBLE_EQ(json["all"]["l1"], (31.875 - 63.75) / 48);
+    EXPECT_DOUBLE_EQ(json["all"]["l2"], 31.875 * std::sqrt(5.0 / 48));
+}
+
+TEST_F(Compare, TableNamesTheWorstPixel) {
+    const ProgramResult result = compare("a.npy", "b.exr");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_NE(result.out.find("pixel (2, 1), channel G: -63.75"), std::string::npos) << result.out;
+    EXPECT_NE(compare("a.exr", "a.exr").out.find("equal"), std::string::npos);
+}
+
+TEST_F(Compare, PngsAreComparedAsStoredCodes) {
+    const auto json = nlohmann::json::parse(compare("a.png", "b.png", {"--json"}).out);
+    EXPECT_EQ(json["channels"].size(), 3u);
+    EXPECT_EQ(json["channels"]["G"]["linf"], 225 - 188);  // sRGB of .75 and .5: 224.6, 187.5
+}
+
+TEST_F(Compare, ExitsWith3OnlyWhenOverTheLimit) {
+    const ProgramResult over = compare("a.exr", "b.exr", {"--max-linf", "63.7", "--json"});
+    EXPECT_EQ(over.exit_code, 3);
+    EXPECT_EQ(nlohmann::json::parse(over.out)["all"]["linf"], 63.75);
+    expect_one_line(over.err, {"63.75", "--max-linf 63.7"});
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "63.75"}).exit_code, 0);
+    EXPECT_EQ(compare("a.exr", "a.exr", {"--max-linf", "0"}).exit_code, 0);
+}
+
+TEST_F(Compare, DiffShowsSignAndPlace) {
+    const ProgramResult result = compare("a.exr", "b.exr", {"--diff", folder / "d.png"});
+    EXPECT_EQ(result.exit_code, 0);
+    expect_one_line(result.err, {"d.png", "63.75"});
+    const CodedImage picture = read_png(folder / "d.png");
+    ASSERT_EQ(picture.width, 4);
+    ASSERT_EQ(picture.height, 3);
+    for (std::size_t pixel = 0; pixel < 12; ++pixel) {
+        const std::uint16_t* const rgb = &picture.codes[3 * pixel];
+        if (pixel == 1 * 4 + 2) {
+            EXPECT_LT(rgb[0], rgb[2]);  // A < B: blue
+        } else {
+            EXPECT_EQ(rgb[0] + rgb[1] + rgb[2], 3 * 255);
+        }
+    }
+}
+
+TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
+    const auto expect_failure = [&](const std::string& a, const std::string& b,
+                                    const std::vector<std::string>& parts) {
+        const ProgramResult result = compare(a, b, {"--diff", folder / "d.png"});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_EQ(result.out, "");
+        expect_one_line(result.err, parts);
+    };
+    write_bytes_to(folder / "text.exr", "no image");
+    write_bytes_to(folder / "cut.exr", read_bytes_of(folder / "a.exr").substr(0, 300));
+    const auto files_before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+    expect_failure("a.exr", "absent.exr", {"absent.exr", "No such file"});
+    expect_failure("text.exr", "a.exr", {"text.exr", "OpenEXR"});
+    expect_failure("cut.exr", "a.exr", {"cut.exr", "OpenEXR"});
+    expect_failure("a.exr", "small.npy", {"a.exr", "4 x 3", "small.npy", "2 x 2"});
+    expect_failure("a.exr", "a.png", {"sRGB codes"});
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), files_before);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--diff", folder / "absent" / "d.png"}).exit_code, 1);
+}
+
+TEST_F(Compare, BadUsageIsExit2) {
+    EXPECT_EQ(run_program({LAMINA_BINARY, "compare"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--nonsense"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "much"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "-1"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "nan"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--diff", folder / "d.jpg"}).exit_code, 2);
+}
+
+TEST_F(Compare, HelpGoesToStdout) {
+    const ProgramResult result = run_program({LAMINA_BINARY, "compare", "--help"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    for (const char* word : {"--json", "--diff", "--max-linf"}) {
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(Program, HasAVersionAndRefusesUnknownVerbs) {
+    const ProgramResult version = run_program({LAMINA_BINARY, "--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_TRUE(version.out.starts_with("lamina ")) << version.out;
+    EXPECT_EQ(run_program({LAMINA_BINARY}).exit_code, 2);
+    const ProgramResult unknown = run_program({LAMINA_BINARY, "nonsense"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    expect_one_line(unknown.err, {"lamina: ", "--help"});
+}
+
+}  // namespace
+}  // namespace lamina
