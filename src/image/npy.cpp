@@ -106,7 +106,7 @@ std::string read_header(std::ifstream& stream, const std::string& name) {
     if (std::string_view(start, magic.size()) != magic) {
         fail("{}: cannot read as NPY: the file does not begin with \\x93NUMPY", name);
     }
-    const int version = start[6];
+    const int version = static_cast<unsigned char>(start[6]);
     if (version < 1 || version > 3) {
         fail("{}: NPY version {}; expected 1, 2 or 3", name, version);
     }

@@ -85,12 +85,18 @@ std::vector<Node> place_nodes(const TransferFunction& transfer_function,
         return builder.finish();
     }
     const double width = request.hi - request.lo;
+    // Emission is a product of two linear functions even within an interval: narrow ones need inner
+    // nodes, too.
+    int intervals = 0;
     for_each_linear_piece(transfer_function.knots(), request.lo, request.hi,
-                          [&](const LinearPiece& piece) {
-                              const double share = (piece.to - piece.from) / width;
-                              const double cells = std::round((request.scalar_nodes - 1) * share);
-                              builder.add_interval(piece, std::max(2, static_cast<int>(cells)));
-                          });
+                          [&](const LinearPiece&) { ++intervals; });
+    const int fewest_cells = std::clamp(request.scalar_nodes / (2 * intervals), 2, 16);
+    for_each_linear_piece(
+        transfer_function.knots(), request.lo, request.hi, [&](const LinearPiece& piece) {
+            const double share = (piece.to - piece.from) / width;
+            const double cells = std::round((request.scalar_nodes - 1) * share);
+            builder.add_interval(piece, std::max(fewest_cells, static_cast<int>(cells)));
+        });
     return builder.finish();
 }
 

@@ -60,9 +60,9 @@ struct PreintegrationTable {
     SegmentIntegral lookup_split(double front, double back, double length) const;
 };
 
-// In parallel. The table has at most scalar_nodes + 3 * (knots in (lo, hi) + 1) nodes. Throws Error
-// where more than 1024 knots lie in (lo, hi) or the emission would exceed 1 GiB. Extinctions beyond
-// the largest float are cut to it.
+// In parallel. The table has at most 1.5 * scalar_nodes + 3 * (knots in (lo, hi) + 1) nodes. Throws
+// Error where more than 1024 knots lie in (lo, hi) or the emission would exceed 1 GiB. Extinctions
+// beyond the largest float are cut to it.
 PreintegrationTable build_preintegration_table(const TransferFunction& transfer_function,
                                                const PreintegrationRequest& request);
 

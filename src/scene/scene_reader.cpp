@@ -100,6 +100,21 @@ SliceSettings read_slice(JsonReader reader) {
     return slice;
 }
 
+// The settings of the method "project" belong to the format: a scene for it and for slicing has them. They are checked
+// here, so that a slip does not wait, and used by no method of this version.
+void check_project(JsonReader reader) {
+    const auto check = [&](const char* key, const std::vector<std::pair<const char*, int>>& words) {
+        reader.choice<int>(key, words);
+    };
+    check("coloring", {{"preintegrated", 0}, {"attenuation", 1}, {"vertex", 2}, {"analytic", 3}});
+    check("interpolation", {{"perspective", 0}, {"linear", 1}});
+    check("thickness", {{"exact", 0}, {"dz", 1}});
+    check("order", {{"auto", 0}, {"mpvo", 1}, {"exact", 2}, {"centroid", 3}, {"none", 4}});
+    check("geometry", {{"auto", 0}, {"silhouette", 1}, {"triangles", 2}});
+    check("dither", {{"none", 0}, {"alpha", 1}, {"after_blend", 2}});
+    reader.close();
+}
+
 void read_render(JsonReader reader, Scene& scene) {
     scene.method =
         reader.choice<Method>("method", {{"slice", Method::slice}, {"trace", Method::trace}});
@@ -108,7 +123,9 @@ void read_render(JsonReader reader, Scene& scene) {
                                                     {"fixed16", Target::fixed16},
                                                     {"fixed8", Target::fixed8}});
     scene.slice = read_slice(reader.object("slice"));
+    check_project(reader.object("project"));
     JsonReader trace = reader.object("trace");
+    trace.choice<int>("of", {{"volume", 0}});
     scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
     // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
     if (!(scene.trace_tolerance >= 1e-12 && scene.trace_tolerance <= 1)) {

@@ -127,10 +127,14 @@ TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
     };
     write_bytes_to(folder / "text.exr", "no image");
     write_bytes_to(folder / "cut.exr", read_bytes_of(folder / "a.exr").substr(0, 300));
+    std::string with_nan = read_bytes_of(folder / "a.npy");  // the last number: pixel (3, 2), A
+    with_nan.replace(with_nan.size() - 8, 8, std::string("\0\0\0\0\0\0\xF8\x7F", 8));
+    write_bytes_to(folder / "nan.npy", with_nan);
     const auto files_before = std::distance(std::filesystem::directory_iterator(folder.path()), {});
     expect_failure("a.exr", "absent.exr", {"absent.exr", "No such file"});
     expect_failure("text.exr", "a.exr", {"text.exr", "OpenEXR"});
     expect_failure("cut.exr", "a.exr", {"cut.exr", "OpenEXR"});
+    expect_failure("a.exr", "nan.npy", {"nan.npy", "(3, 2)", "channel A", "nan"});
     expect_failure("a.exr", "small.npy", {"a.exr", "4 x 3", "small.npy", "2 x 2"});
     expect_failure("a.exr", "a.png", {"sRGB codes"});
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), files_before);

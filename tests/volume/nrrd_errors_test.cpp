@@ -121,8 +121,14 @@ TEST_F(NrrdErrors, TruncatedData) {
     expect_says(error_of(write("a.nrrd", text + gzip("abc"))), {"found 3 bytes, expected 24"});
     expect_says(error_of(write("a.nrrd", good + "\n" + std::string(23, 'x'))),
                 {"(24 bytes)", "23 bytes"});
-    expect_says(error_of(write("a.nrrd", with("encoding", "encoding: bzip2\n") + "\nBZh91AY&SY")),
-                {"bzip2"});
+}
+
+TEST_F(NrrdErrors, TruncatedBzip2) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "teem 1.12 does not free its decompressor after an error";
+#endif
+    const std::string text = with("encoding", "encoding: bzip2\n") + "\nBZh91AY&SY";
+    expect_says(error_of(write("a.nrrd", text)), {"a.nrrd: truncated or damaged bzip2 data"});
 }
 
 TEST_F(NrrdErrors, DamagedGzip) {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/plan.h"
+
+#include "scene_fixture.h"
+#include "support/expect_error.h"
+
+namespace lamina {
+namespace {
+
+Capabilities usual() {
+    Capabilities capabilities;
+    capabilities.renderer = "test";
+    capabilities.max_texture_size = 16384;
+    capabilities.max_3d_texture_size = 2048;
+    return capabilities;
+}
+
+Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
+    const Scene scene = read_scene(document, "s");
+    const Volume volume = load_volume(scene);
+    return make_plan(scene, measure(scene, volume, measure_bricks(volume)), capabilities, {});
+}
+
+TEST(Plan, AutoSamplesAreTwoAVoxelAlongTheView) {
+    nlohmann::json document = minimal_scene();
+    document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
+    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells
+    document["render"]["slice"]["samples"] = 7;
+    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 7);
+}
+
+TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
+    Capabilities capabilities = usual();
+    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::fetch);
+    capabilities.exact_float_filter = true;
+    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::filtered);
+    EXPECT_EQ(plan_of(with("/render/slice/filter", "hardware"), capabilities).slice.sampling,
+              VolumeSampling::hardware);
+}
+
+TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {
+    Capabilities capabilities = usual();
+    capabilities.max_texture_size = 16;
+    expect_error([&] { plan_of(minimal_scene(), capabilities); }, {"32 x 24", "at most 16", "test"});
+    capabilities = usual();
+    capabilities.max_texture_bytes = 16 * 100;
+    expect_error([&] { plan_of(minimal_scene(), capabilities); }, {"32 x 24", "at most 100", "test"});
+}
+
+TEST(Plan, TracingMakesNoContext) {
+    const Plan plan = plan_of(with("/render/method", "trace"), {});
+    ASSERT_EQ(plan.omitted.size(), 1u);
+    EXPECT_EQ(plan.omitted[0].name, "context");
+}
+
+TEST(Plan, EveryOmissionCanBeSwitchedOffByItsName) {
+    const Scene scene = read_scene(with("/transfer_function/points/1/opacity", 0), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const auto names = omission_names();
+    const Plan plan = make_plan(scene, facts, usual(), {});
+    ASSERT_FALSE(plan.omitted.empty());
+    for (const Omission& omission : plan.omitted) {
+        EXPECT_NE(std::find(names.begin(), names.end(), omission.name), names.end()) << omission.name;
+        EXPECT_FALSE(omission.reason.empty());
+        OmissionSwitch without;
+        without.kept = {omission.name};
+        for (const Omission& other : make_plan(scene, facts, usual(), without).omitted) {
+            EXPECT_NE(other.name, omission.name);
+        }
+    }
+    OmissionSwitch none;
+    none.none = true;
+    EXPECT_TRUE(make_plan(scene, facts, usual(), none).omitted.empty());
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_reader.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "scene_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
+    const Scene scene = read_scene(minimal_scene(), "scene.json");
+    EXPECT_EQ(scene.method, Method::slice);
+    EXPECT_EQ(scene.target, Target::float32);
+    EXPECT_EQ(scene.slice.classification, Classification::post);
+    EXPECT_EQ(scene.slice.order, Order::back_to_front);
+    EXPECT_EQ(scene.slice.filter, Filter::exact);
+    EXPECT_FALSE(scene.slice.samples.has_value());
+    EXPECT_EQ(scene.camera.projection, Projection::perspective);
+    EXPECT_EQ(scene.nan, NanPolicy::error);
+    EXPECT_EQ(scene.trace_tolerance, 1e-5);
+}
+
+TEST(SceneReader, OpacityBecomesExtinction) {
+    nlohmann::json document = with("/transfer_function/unit_length", 4);
+    const auto knots = read_scene(document, "s").transfer_function.knots();
+    EXPECT_DOUBLE_EQ(knots[1].optics.extinction, std::log(2.) / 4);
+}
+
+TEST(SceneReader, OpacityOneIsAWarningWhereItIsInterpolatedTo) {
+    const nlohmann::json document = with("/transfer_function/points/1/opacity", 1);
+    const Scene linear = read_scene(document, "s");
+    EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 1e7);
+    EXPECT_EQ(linear.warnings.size(), 1u);
+    nlohmann::json nearest = document;
+    nearest["transfer_function"]["interpolation"] = "nearest";
+    EXPECT_TRUE(read_scene(nearest, "s").warnings.empty());
+}
+
+TEST(SceneReader, PathsAreRelativeToTheScene) {
+    EXPECT_EQ(read_scene(with("/volume", "a/b.nrrd"), "/x/scene.json").volume_file, "/x/a/b.nrrd");
+    EXPECT_EQ(read_scene(with("/volume", "/a/b.nrrd"), "/x/scene.json").volume_file, "/a/b.nrrd");
+    setenv("LAMINA_DATA", "/data", 1);
+    EXPECT_EQ(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file, "/data/b.nrrd");
+    unsetenv("LAMINA_DATA");
+    EXPECT_THROW(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json"), KeyError);
+}
+
+TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "map.json",
+                   R"([{"Name": "two", "ColorSpace": "Step", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
+    nlohmann::json document = minimal_scene();
+    document["transfer_function"] = {{"colormap", "map.json"},
+                                     {"colormap_range", {0, 255}},
+                                     {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 2}}}}};
+    const TransferFunction read = read_scene(document, folder / "scene.json").transfer_function;
+    EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
+    EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);
+    EXPECT_DOUBLE_EQ(read.at(1).color.g, 0);
+    EXPECT_DOUBLE_EQ(read.at(127.5).extinction, 1);
+}
+
+TEST(SceneReader, SetReachesKeysAndListElements) {
+    nlohmann::json document = minimal_scene();
+    set_key(document, "render.slice.samples", "512");
+    set_key(document, "render.target", "fixed8");
+    set_key(document, "camera.eye", "[1, 2, 3]");
+    set_key(document, "transfer_function.points.1.opacity", "0.25");
+    const Scene scene = read_scene(document, "s");
+    EXPECT_EQ(scene.slice.samples, 512);
+    EXPECT_EQ(scene.target, Target::fixed8);
+    EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
+    EXPECT_DOUBLE_EQ(scene.transfer_function.knots()[1].optics.extinction, -std::log1p(-.25));
+    EXPECT_THROW(set_key(document, "camera.eye.7", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "version.x", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "camera..eye", "1"), UsageError);
+}
+
+TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
+    Camera camera;
+    camera.eye = {3, 4, 5};
+    camera.center = {1, 1, 1};
+    camera.up = {0, 2, 0};
+    const Camera quarter = turned(camera, 90);
+    // (2, 3, 4) about +y by 90 degrees: x <- z, z <- -x.
+    EXPECT_NEAR(quarter.eye.x, 1 + 4, 1e-14);
+    EXPECT_NEAR(quarter.eye.y, 4, 1e-14);
+    EXPECT_NEAR(quarter.eye.z, 1 - 2, 1e-14);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// The polygons cover every pixel whose ray meets the slab inside the box, and none twice.
+#include "slicing/slab_polygons.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "reference/fixtures.h"
+
+namespace lamina {
+namespace {
+
+double side(const SlabVertex& a, const SlabVertex& b, double x, double y) {
+    return (double{b.column} - a.column) * (y - a.row) - (double{b.row} - a.row) * (x - a.column);
+}
+
+// Strictly inside: pixel centres on an edge belong to one of its two triangles, by the rasteriser's rule.
+bool inside(const SlabVertex* triangle, double x, double y) {
+    const double one = side(triangle[0], triangle[1], x, y), two = side(triangle[1], triangle[2], x, y),
+                 three = side(triangle[2], triangle[0], x, y);
+    return (one > 0 && two > 0 && three > 0) || (one < 0 && two < 0 && three < 0);
+}
+
+bool on_edge(const SlabVertex* triangle, double x, double y) {
+    return side(triangle[0], triangle[1], x, y) * side(triangle[1], triangle[2], x, y) *
+               side(triangle[2], triangle[0], x, y) ==
+           0;
+}
+
+// Length of the ray's part inside box and slab, in units of depth.
+double overlap(const View::Ray& ray, const IndexBox& box, double front, double back) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.min[axis] - ray.origin[axis]) / ray.direction[axis];
+        const double b = (box.max[axis] - ray.origin[axis]) / ray.direction[axis];
+        front = std::max(front, std::min(a, b));
+        back = std::min(back, std::max(a, b));
+    }
+    return back - front;
+}
+
+TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
+    const Grid grid = reference_test::make_grid({5, 5, 5}, Centering::node);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-6, 10), low(0, 2), high(2.1, 4);
+    int covered = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        Camera camera;
+        camera.projection = trial % 3 == 0 ? Projection::orthographic : Projection::perspective;
+        camera.eye = {place(random), place(random), place(random)};
+        if (trial % 7 == 0) camera.eye = {low(random), low(random), high(random)};  // inside
+        camera.center = {2.1, 1.9, 2.2};
+        camera.fov_y = 20 + 13 * (trial % 11);
+        camera.height = 6;
+        camera.up = {.1, 1, .2};
+        const View view(camera, 24, 18);
+        const DepthRange depth = depth_range(grid, view);
+        const Slabs slabs{depth.near, depth.far, 1 + trial % 9};
+        const IndexBox box{{low(random), low(random), low(random)}, {high(random), high(random), high(random)}};
+        for (int slab = 0; slab < slabs.count; ++slab) {
+            std::vector<SlabVertex> all, triangles;
+            append_slab_polygons(view, grid, box, slabs, Order::front_to_back, all);
+            const float front = static_cast<float>(slabs.depth(slab) - slabs.middle());
+            for (std::size_t i = 0; i < all.size(); i += 3) {
+                if (all[i].front == front) triangles.insert(triangles.end(), all.begin() + i, all.begin() + i + 3);
+            }
+            for (int row = 0; row < view.height; ++row) {
+                for (int column = 0; column < view.width; ++column) {
+                    int times = 0;
+                    bool edge = false;
+                    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+                        times += inside(&triangles[i], column + .5, row + .5);
+                        edge = edge || on_edge(&triangles[i], column + .5, row + .5);
+                    }
+                    EXPECT_LE(times, 1);
+                    const bool met =
+                        overlap(view.ray(column, row), box, slabs.depth(slab), slabs.depth(slab + 1)) > 1e-9;
+                    if (met && !edge) EXPECT_EQ(times, 1) << "trial " << trial << ", slab " << slab;
+                    covered += met;
+                }
+            }
+        }
+    }
+    EXPECT_GT(covered, 10000);
+}
+
+TEST(SlabPolygons, ComeInTheOrderAskedFor) {
+    const Grid grid = reference_test::make_grid({5, 5, 5}, Centering::node);
+    const View view(reference_test::camera_at(grid, Projection::perspective, {1, .3, .5}, 1.5), 32, 32);
+    const DepthRange depth = depth_range(grid, view);
+    const Slabs slabs{depth.near, depth.far, 12};
+    for (const Order order : {Order::back_to_front, Order::front_to_back}) {
+        std::vector<SlabVertex> triangles;
+        append_slab_polygons(view, grid, {grid.index_min(), grid.index_max()}, slabs, order, triangles);
+        for (std::size_t i = 3; i < triangles.size(); i += 3) {
+            if (order == Order::front_to_back) EXPECT_GE(triangles[i].front, triangles[i - 3].front);
+            else EXPECT_LE(triangles[i].front, triangles[i - 3].front);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina

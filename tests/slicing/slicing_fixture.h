@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes for the tests of the slicing renderer, and the way from a scene to its image.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "gl/gl_fixture.h"
+#include "image/image.h"
+#include "image/metrics.h"
+#include "reference/fixtures.h"
+#include "reference/volume_tracer.h"
+#include "scene/plan.h"
+#include "slicing/gl_slice_renderer.h"
+
+namespace lamina {
+
+using SlicingTest = gl::GlTest;
+
+inline OmissionSwitch leave_nothing_out() {
+    OmissionSwitch omissions;
+    omissions.none = true;
+    return omissions;
+}
+
+inline Image render(const Volume& volume, const Scene& scene, const Capabilities& capabilities,
+                    const OmissionSwitch& omissions = {}) {
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const Plan plan = make_plan(scene, facts, capabilities, omissions);
+    GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, scene.width,
+                             scene.height);
+    renderer.draw(View(scene.camera, scene.width, scene.height));
+    return renderer.read();
+}
+
+inline Image trace(const Volume& volume, const Scene& scene, double tolerance) {
+    return to_float(trace_volume(volume, scene.transfer_function,
+                                 View(scene.camera, scene.width, scene.height), {tolerance})
+                        .image);
+}
+
+inline Volume gaussians(std::int64_t edge) {
+    return generate({"gaussians", std::array{edge, edge, edge}, SampleType::float32});
+}
+
+inline TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
+    return {value, {color, extinction}};
+}
+
+inline TransferFunction smooth_transfer_function() {
+    return TransferFunction::linear({knot(0, {.1, .2, .6}, 0), knot(.25, {.2, .7, .5}, .8),
+                                     knot(.5, {.8, .7, .2}, 2.5), knot(1, {1, .2, .1}, 6)});
+}
+
+// Looks at the unit box from outside, at an oblique angle.
+inline Scene unit_box_scene(const TransferFunction& transfer_function, Projection projection,
+                            int width = 64, int height = 48) {
+    Scene scene;
+    scene.transfer_function = transfer_function;
+    scene.camera.projection = projection;
+    scene.camera.eye = {1.7, -.9, 1.3};
+    scene.camera.center = {.5, .5, .5};
+    scene.camera.up = {.1, .05, 1};
+    scene.camera.fov_y = 50;
+    scene.camera.height = 1.7;
+    scene.width = width;
+    scene.height = height;
+    return scene;
+}
+
+}  // namespace lamina
