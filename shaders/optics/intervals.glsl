@@ -14,8 +14,8 @@ int find_interval(float scalar) {
 #endif
 }
 
-// Where `scalar` lies in its interval: (share of the interval, place.zw = table nodes).
-vec3 place_in_interval(int interval, float scalar) {
-    vec4 place = texelFetch(intervals, ivec2(interval, 0), 0);
-    return vec3(clamp((scalar - place.x) * place.y, 0.0, 1.0), place.zw);
-}
+// (left end, 1 / width, table node at the left end, table nodes to the right end)
+vec4 interval_place(int interval) { return texelFetch(intervals, ivec2(interval, 0), 0); }
+
+// Where in its interval a scalar lies, 0..1.
+float share_of_interval(vec4 place, float scalar) { return clamp((scalar - place.x) * place.y, 0.0, 1.0); }

@@ -1,7 +1,7 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Twin of PreintegrationTable::lookup (optics/preintegration_table.h). Texel (front node, back node): mean extinction in
+// Twin of PreintegrationTable::lookup_split (optics/preintegration_table.h). Texel (front node, back node): mean extinction in
 // the last component; with colour, emission in rgb and one layer a length.
 #ifdef TABLE_COLORED
 uniform sampler3D preintegration;
@@ -10,12 +10,8 @@ uniform float layers_per_length;
 uniform sampler2D preintegration;
 #endif
 
-float table_node(float scalar) {
-    vec3 place = place_in_interval(find_interval(scalar), scalar);
-    return place.y + place.x * place.z;
-}
-
-vec2 table_nodes(float front, float back) { return vec2(table_node(front), table_node(back)); }
+// Coordinate of a scalar in the table: whole numbers are nodes.
+float table_node(vec4 place, float scalar) { return place.z + share_of_interval(place, scalar) * place.w; }
 
 #ifdef TABLE_COLORED
 vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, ivec3(node, layer), 0); }
@@ -62,4 +58,48 @@ vec4 table_entry(vec2 nodes, float world_length) {
     return entry + (layer - float(below)) * (table_layer(nodes, below + 1) - entry);
 #endif
 #endif
+}
+
+// Adds what lies behind `sum` (associated colour, optical depth in a): a run between two table nodes.
+void add_run(inout vec4 sum, vec2 nodes, float world_length) {
+    vec4 entry = table_entry(nodes, world_length);
+    float depth = entry.a * world_length;
+#ifdef TABLE_COLORED
+    if (depth > 0.0) sum.rgb += exp(-sum.a) * opacity_from_depth(depth) / entry.a * entry.rgb;
+#endif
+    sum.a += depth;
+}
+
+// Associated colour and optical depth (a) of a segment on which the scalar runs straight from `front` to `back`. The
+// table is smooth inside the transfer function's intervals and not across their ends: the run is cut at the first and
+// at the last of these.
+vec4 integrate_run(float front, float back, float world_length) {
+    vec4 sum = vec4(0.0);
+    int front_interval = find_interval(front);
+    int back_interval = find_interval(back);
+    vec4 front_place = interval_place(front_interval);
+    vec4 back_place = interval_place(back_interval);
+    float front_node = table_node(front_place, front);
+    float back_node = table_node(back_place, back);
+    if (front_interval == back_interval) {
+        add_run(sum, vec2(front_node, back_node), world_length);
+        return sum;
+    }
+    bool rising = front < back;
+    vec4 first = rising ? interval_place(front_interval + 1) : front_place;
+    vec4 last = rising ? back_place : interval_place(back_interval + 1);
+    float front_end = rising ? front_place.z + front_place.w : front_place.z;
+    float back_end = rising ? back_place.z : back_place.z + back_place.w;
+    float length_per_scalar = world_length / (back - front);
+    add_run(sum, vec2(front_node, front_end), (first.x - front) * length_per_scalar);
+    if (first.x != last.x) add_run(sum, vec2(first.z, back_end), (last.x - first.x) * length_per_scalar);
+    add_run(sum, vec2(back_end, back_node), (back - last.x) * length_per_scalar);
+    return sum;
+}
+
+// Whether a segment on which the scalar stays between two values shows nothing.
+bool is_transparent(float least, float largest) {
+    vec2 nodes = vec2(table_node(interval_place(find_interval(least)), least),
+                      table_node(interval_place(find_interval(largest)), largest));
+    return mean_extinction(nodes) == 0.0;
 }

@@ -25,10 +25,14 @@ uniform vec3 box_max;
 flat in vec2 slab;
 layout(location = 0) out vec4 associated;
 
+// Associated colour and optical depth (a) of the ray between two depths.
 #if SAMPLING == SAMPLING_NONE
-vec4 segment_optics(Ray ray, vec2 depths, float world_length) { return constant_optics; }
+vec4 integrate(Ray ray, vec2 depths, float world_length) {
+    float depth = constant_optics.a * world_length;
+    return vec4(constant_optics.rgb * opacity_from_depth(depth), depth);
+}
 #elif defined(PREINTEGRATED)
-vec4 segment_optics(Ray ray, vec2 depths, float world_length) {
+vec4 integrate(Ray ray, vec2 depths, float world_length) {
     float front = sample_scalar(ray.origin + depths.x * ray.direction);
     float middle = sample_scalar(ray.origin + 0.5 * (depths.x + depths.y) * ray.direction);
     float back = sample_scalar(ray.origin + depths.y * ray.direction);
@@ -38,26 +42,22 @@ vec4 segment_optics(Ray ray, vec2 depths, float world_length) {
     // What shows nothing between the least and the largest sample shows nothing: so empty space may be left out.
     float least = clamp(min(middle, min(front, back)), 0.0, 1.0);
     float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
-    if (mean_extinction(table_nodes(least, largest)) == 0.0) discard;
+    if (is_transparent(least, largest)) discard;
     // The table knows straight runs of the scalar; the trilinear field bends. The run from front to back is moved so
     // that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of one
     // cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of second.
     float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
-    vec4 entry = table_entry(
-        table_nodes(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0)), world_length);
-#ifdef SINGLE_COLOR
-    return entry;
-#else
-    return vec4(entry.a > 0.0 ? entry.rgb / entry.a : vec3(0.0), entry.a);
-#endif
+    return integrate_run(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0), world_length);
 }
 #else
-vec4 segment_optics(Ray ray, vec2 depths, float world_length) {
+vec4 integrate(Ray ray, vec2 depths, float world_length) {
     float scalar = sample_scalar(ray.origin + 0.5 * (depths.x + depths.y) * ray.direction);
 #ifdef NAN_TRANSPARENT
     if (is_nan(scalar)) discard;
 #endif
-    return classify(clamp(scalar, 0.0, 1.0));
+    vec4 optics = classify(clamp(scalar, 0.0, 1.0));
+    float depth = optics.a * world_length;
+    return vec4(optics.rgb * opacity_from_depth(depth), depth);
 }
 #endif
 
@@ -65,11 +65,10 @@ void main() {
     Ray ray = view_ray(gl_FragCoord.xy);
     vec2 depths = clip_to_box(ray, slab, box_min, box_max);
     if (!(depths.y > depths.x)) discard;
-    float world_length = (depths.y - depths.x) * ray.length_per_depth;
-    vec4 optics = segment_optics(ray, depths, world_length);
+    vec4 integral = integrate(ray, depths, (depths.y - depths.x) * ray.length_per_depth);
+    float opacity = opacity_from_depth(integral.a);
 #ifdef SINGLE_COLOR
-    optics.rgb = single_color;
+    integral.rgb = single_color * opacity;
 #endif
-    float opacity = opacity_from_depth(optics.a * world_length);
-    associated = vec4(optics.rgb * opacity, opacity);
+    associated = vec4(integral.rgb, opacity);
 }

@@ -6,7 +6,8 @@
 
 namespace lamina {
 
-// Pixels as an 8- or 16-bit PNG stores them, sRGB codes not turned into light. Row 0 is the top, channels interleaved.
+// Pixels as an 8- or 16-bit PNG stores them, sRGB codes not turned into light. Row 0 is the top,
+// channels interleaved.
 struct CodedImage {
     int width = 0;
     int height = 0;
@@ -16,7 +17,10 @@ struct CodedImage {
 
     CodedImage() = default;
     CodedImage(int width_pixels, int height_pixels, int channel_count, int depth)
-        : width(width_pixels), height(height_pixels), channels(channel_count), bit_depth(depth),
+        : width(width_pixels),
+          height(height_pixels),
+          channels(channel_count),
+          bit_depth(depth),
           codes(static_cast<std::size_t>(width_pixels) * static_cast<std::size_t>(height_pixels) *
                 static_cast<std::size_t>(channel_count)) {}
 };

@@ -10,12 +10,20 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-// ColorBrewer's RdBu (Brewer, Harrower), the diverging scheme that stays legible with every common colour-vision
-// deficiency; its middle is made pure white. From 0 outwards, at equal steps.
-constexpr std::array<Rgb, 6> blues = {
-    {{255, 255, 255}, {209, 229, 240}, {146, 197, 222}, {67, 147, 195}, {33, 102, 172}, {5, 48, 97}}};
-constexpr std::array<Rgb, 6> reds = {
-    {{255, 255, 255}, {253, 219, 199}, {244, 165, 130}, {214, 96, 77}, {178, 24, 43}, {103, 0, 31}}};
+// ColorBrewer's RdBu (Brewer, Harrower), the diverging scheme that stays legible with every common
+// colour-vision deficiency; its middle is made pure white. From 0 outwards, at equal steps.
+constexpr std::array<Rgb, 6> blues = {{{255, 255, 255},
+                                       {209, 229, 240},
+                                       {146, 197, 222},
+                                       {67, 147, 195},
+                                       {33, 102, 172},
+                                       {5, 48, 97}}};
+constexpr std::array<Rgb, 6> reds = {{{255, 255, 255},
+                                      {253, 219, 199},
+                                      {244, 165, 130},
+                                      {214, 96, 77},
+                                      {178, 24, 43},
+                                      {103, 0, 31}}};
 
 Rgb color_of(double share) {  // -1..1
     const std::array<Rgb, 6>& steps = share < 0 ? blues : reds;

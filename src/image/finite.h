@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Throws Error, naming pixel and channel, when a component is NaN, infinite or beyond the range of float32: such
-// pictures are neither written nor compared. `name` is what the message begins with.
+// Throws Error, naming pixel and channel, when a component is NaN, infinite or beyond the range of
+// float32: such pictures are neither written nor compared. `name` is what the message begins with.
 template <typename Real>
 void require_finite(const std::string& name, const RgbaImage<Real>& image);
 

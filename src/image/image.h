@@ -6,8 +6,8 @@
 
 namespace lamina {
 
-// Associated (premultiplied) RGBA in linear light, before any background. Row 0 is the top; pixels row by row, four
-// numbers each.
+// Associated (premultiplied) RGBA in linear light, before any background. Row 0 is the top; pixels
+// row by row, four numbers each.
 template <typename Real>
 struct RgbaImage {
     int width = 0;
@@ -16,8 +16,10 @@ struct RgbaImage {
 
     RgbaImage() = default;
     RgbaImage(int width_pixels, int height_pixels)
-        : width(width_pixels), height(height_pixels),
-          rgba(4 * static_cast<std::size_t>(width_pixels) * static_cast<std::size_t>(height_pixels)) {}
+        : width(width_pixels),
+          height(height_pixels),
+          rgba(4 * static_cast<std::size_t>(width_pixels) *
+               static_cast<std::size_t>(height_pixels)) {}
 
     Real* pixel(int column, int row) { return rgba.data() + offset(column, row); }
     const Real* pixel(int column, int row) const { return rgba.data() + offset(column, row); }
@@ -29,7 +31,7 @@ struct RgbaImage {
     }
 };
 
-using Image = RgbaImage<float>;         // what renderers write
+using Image = RgbaImage<float>;          // what renderers write
 using PreciseImage = RgbaImage<double>;  // what the reference tracer writes
 
 Image to_float(const PreciseImage& image);

@@ -21,8 +21,7 @@ std::uint64_t length_of_file(const std::filesystem::path& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) {
-        fail("{}: cannot open: {}", path.string(),
-             error ? error.message() : std::strerror(ENOENT));
+        fail("{}: cannot open: {}", path.string(), error ? error.message() : std::strerror(ENOENT));
     }
     if (!std::filesystem::is_regular_file(status)) {
         fail("{}: cannot open: it is not a regular file", path.string());

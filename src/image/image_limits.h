@@ -18,7 +18,8 @@ void check_image_size(const std::string& name, std::int64_t width, std::int64_t 
 // Length in bytes; throws Error when there is no such file, or it is not a regular file.
 std::uint64_t length_of_file(const std::filesystem::path& path);
 
-// Throws Error when a file of `file_bytes` cannot hold `image_bytes` even at the best compression, `ratio` : 1.
+// Throws Error when a file of `file_bytes` cannot hold `image_bytes` even at the best compression,
+// `ratio` : 1.
 void check_file_can_hold(const std::string& name, std::uint64_t image_bytes,
                          std::uint64_t file_bytes, std::uint64_t ratio);
 

@@ -31,10 +31,12 @@ template <typename A, typename B>
 Difference pixel_difference(const A& a, const B& b) {
     constexpr bool coded_a = std::is_same_v<A, CodedImage>;
     constexpr bool coded_b = std::is_same_v<B, CodedImage>;
-    if constexpr (coded_a == coded_b) return difference(a, b);
+    if constexpr (coded_a == coded_b)
+        return difference(a, b);
     else
-        fail("a PNG holds sRGB codes over a background, EXR and NPY hold linear light before any "
-             "background; compare PNG with PNG, EXR and NPY with each other");
+        fail(
+            "a PNG holds sRGB codes over a background, EXR and NPY hold linear light before any "
+            "background; compare PNG with PNG, EXR and NPY with each other");
 }
 
 }  // namespace
@@ -49,8 +51,8 @@ LoadedImage load_image(const std::filesystem::path& path) {
 
 Difference difference(const LoadedImage& a, const LoadedImage& b) {
     try {
-        return std::visit(
-            [](const auto& x, const auto& y) { return pixel_difference(x, y); }, a.pixels, b.pixels);
+        return std::visit([](const auto& x, const auto& y) { return pixel_difference(x, y); },
+                          a.pixels, b.pixels);
     } catch (const Error& error) {
         fail("{}, {}: {}", a.name, b.name, error.what());
     }

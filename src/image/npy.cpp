@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/npy.h"
 
+#include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -19,10 +19,11 @@
 namespace lamina {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the numbers are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "the numbers are copied as they lie in memory");
 
 constexpr std::string_view magic = "\x93NUMPY";
-constexpr std::size_t alignment = 64;           // of the data, NEP 1
+constexpr std::size_t alignment = 64;  // of the data, NEP 1
 constexpr std::uint64_t max_header_bytes = 65536;
 
 struct Layout {
@@ -131,7 +132,8 @@ void read_pixels(std::ifstream& stream, const std::string& name, std::int64_t ch
         double* pixel = image.pixel(0, y);
         for (std::size_t x = 0; x < width; ++x, pixel += 4) {
             pixel[3] = 1;
-            for (std::size_t c = 0; c < stored; ++c) pixel[c] = static_cast<double>(row[x * stored + c]);
+            for (std::size_t c = 0; c < stored; ++c)
+                pixel[c] = static_cast<double>(row[x * stored + c]);
         }
     }
 }
@@ -172,8 +174,10 @@ PreciseImage read_npy(const std::filesystem::path& path) {
              file_bytes - header_bytes, data_bytes, layout.height, layout.width, layout.channels);
     }
     PreciseImage image(static_cast<int>(layout.width), static_cast<int>(layout.height));
-    if (layout.is_double) read_pixels<double>(stream, name, layout.channels, image);
-    else read_pixels<float>(stream, name, layout.channels, image);
+    if (layout.is_double)
+        read_pixels<double>(stream, name, layout.channels, image);
+    else
+        read_pixels<float>(stream, name, layout.channels, image);
     return image;
 }
 

@@ -26,10 +26,11 @@ void on_error(png_structp png, png_const_charp text) {
     png_longjmp(png, 1);
 }
 
-void on_warning(png_structp /*png*/, png_const_charp /*text*/) {}  // chunks that codes do not depend on
+void on_warning(png_structp /*png*/, png_const_charp /*text*/) {
+}  // chunks that codes do not depend on
 
-// Runs libpng calls, which leave through longjmp when they fail; false when they did. `body` must own nothing that
-// needs a destructor.
+// Runs libpng calls, which leave through longjmp when they fail; false when they did. `body` must
+// own nothing that needs a destructor.
 template <typename Body>
 [[nodiscard]] bool succeeds(png_structp png, const Body& body) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -39,8 +40,7 @@ template <typename Body>
 
 struct Writer {
     Message message = "";
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
 
     Writer() = default;
@@ -156,7 +156,9 @@ CodedImage read_png(const std::filesystem::path& path) {
     if (file == nullptr) fail("{}: cannot open: {}", name, std::strerror(errno));
     Reader reader;
     if (reader.info == nullptr) fail("{}: cannot read: out of memory", name);
-    const auto bad_file = [&] { fail("{}: cannot read as PNG: {}", name, one_line(reader.message)); };
+    const auto bad_file = [&] {
+        fail("{}: cannot read as PNG: {}", name, one_line(reader.message));
+    };
 
     const bool has_header = succeeds(reader.png, [&] {
         png_init_io(reader.png, file.get());
@@ -167,10 +169,9 @@ CodedImage read_png(const std::filesystem::path& path) {
     const std::int64_t height = png_get_image_height(reader.png, reader.info);
     check_image_size(name, png_get_image_width(reader.png, reader.info), height);
     // 1032:1 is the most that deflate, the only codec of PNG, can reach.
-    check_file_can_hold(name,
-                        png_get_rowbytes(reader.png, reader.info) *
-                            static_cast<std::uint64_t>(height),
-                        file_bytes, 1032);
+    check_file_can_hold(
+        name, png_get_rowbytes(reader.png, reader.info) * static_cast<std::uint64_t>(height),
+        file_bytes, 1032);
 
     if (!succeeds(reader.png, [&] { expand(reader); })) bad_file();
     CodedImage image(static_cast<int>(png_get_image_width(reader.png, reader.info)),

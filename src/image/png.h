@@ -11,16 +11,18 @@
 
 namespace lamina {
 
-// For looking at: C + (1-A) * background in linear light, clamped to 0..1, sRGB encoded to the nearest 8-bit code, RGB
-// with an sRGB chunk, no time stamp. Returns how many pixels were clamped by more than 1/510 in some channel (less is
-// the rounding of a low-precision target). Throws Error as write_exr does; the caller commits the file.
+// For looking at: C + (1-A) * background in linear light, clamped to 0..1, sRGB encoded to the
+// nearest 8-bit code, RGB with an sRGB chunk, no time stamp. Returns how many pixels were clamped
+// by more than 1/510 in some channel (less is the rounding of a low-precision target). Throws Error
+// as write_exr does; the caller commits the file.
 std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background);
 
 // The codes as they are, marked as sRGB.
 void write_png(AtomicFile& file, const CodedImage& image);
 
-// Palettes and grey of fewer than 8 bits are expanded to 8 bits, a transparent colour to an alpha channel; codes are
-// otherwise as stored. Throws Error for damaged files and for sizes beyond image_limits.h.
+// Palettes and grey of fewer than 8 bits are expanded to 8 bits, a transparent colour to an alpha
+// channel; codes are otherwise as stored. Throws Error for damaged files and for sizes beyond
+// image_limits.h.
 CodedImage read_png(const std::filesystem::path& path);
 
 }  // namespace lamina

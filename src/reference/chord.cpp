@@ -32,6 +32,7 @@ Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dv
     const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
     int exponent = 0;
     std::frexp(largest, &exponent);
+    --exponent;  // to [1, 2): an offset of one subnormal number from a face must survive
     glm::dvec3 axis;
     DoubleDouble offset[3], direction[3], axis_parts[3];
     for (int i = 0; i < 3; ++i) {

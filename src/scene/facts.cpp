@@ -102,6 +102,9 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
     facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);
     facts.max_extinction = transfer_function.max_extinction(facts.range.lo, facts.range.hi);
+    facts.knots = std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
+        return knot.value > facts.range.lo && knot.value < facts.range.hi;
+    });
     measure_occupied(transfer_function, bricks, facts);
     measure_view(scene, facts);
     return facts;

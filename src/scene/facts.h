@@ -36,6 +36,7 @@ struct Facts {
     bool constant = false;      // one colour, one extinction
     bool single_color = false;  // one colour wherever there is extinction
     double max_extinction = 0;  // per world unit
+    std::int64_t knots = 0;     // strictly inside the range
 
     // The smallest box, made of whole min/max bricks, outside which the transfer function shows nothing.
     IndexBox occupied;

@@ -20,6 +20,10 @@ constexpr double thin_depth = 0.02;
 // as that is affordable; deeper segments are nearly opaque and change little with length.
 constexpr int max_length_layers = 9;
 
+// A table's colours cost about nodes^2 * layers * knots segment integrals: at most this many, some seconds on two cores.
+// Palettes of hundreds of points get fewer layers, down to the limit alone, which has a fast way.
+constexpr double max_table_work = 5e7;
+
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
@@ -171,8 +175,11 @@ class SlicePlanner {
         table.max_length = (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
         if (!table.colored) return;
         const double depth = facts_.max_extinction * table.max_length;
-        table.length_layers =
-            static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, double{max_length_layers}));
+        const double knots = static_cast<double>(facts_.knots);
+        const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);  // at most
+        const double affordable = std::floor(max_table_work / (nodes * nodes * (knots + 1)));
+        table.length_layers = static_cast<int>(
+            std::clamp(std::min(std::ceil(depth) + 1, affordable), 1.0, double{max_length_layers}));
         if (leave_out(depth < thin_depth, "length_layers",
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does not depend on its length",
                                   depth))) {

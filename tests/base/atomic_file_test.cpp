@@ -17,7 +17,8 @@ TEST(AtomicFile, AppearsUnderItsNameOnlyWhenCommitted) {
         file.write("new");
         EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
         EXPECT_TRUE(std::filesystem::exists(file.temporary_path()));
-        EXPECT_EQ(file.temporary_path().parent_path(), folder.path());  // rename needs one file system
+        EXPECT_EQ(file.temporary_path().parent_path(),
+                  folder.path());  // rename needs one file system
         file.commit();
         EXPECT_FALSE(std::filesystem::exists(file.temporary_path()));
     }
@@ -64,7 +65,8 @@ TEST(AtomicFile, CanBeWrittenByNameAfterItsStreamIsClosed) {
 TEST(AtomicFile, PathsThatCannotBeWrittenFailAtOnce) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "file", "");
-    expect_error([&] { AtomicFile(folder / "absent" / "a.txt"); }, {"absent/a.txt", "cannot write"});
+    expect_error([&] { AtomicFile(folder / "absent" / "a.txt"); },
+                 {"absent/a.txt", "cannot write"});
     expect_error([&] { AtomicFile(folder / "file" / "a.txt"); }, {"file/a.txt", "cannot write"});
     expect_error([&] { AtomicFile(folder.path()); }, {"directory"});
 }

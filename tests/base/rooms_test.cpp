@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of the house that a compiler does not check: who may include whom, licence lines, sizes of files.
+// The rules of the house that a compiler does not check: who may include whom, licence lines, sizes
+// of files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,15 +17,17 @@ namespace {
 namespace fs = std::filesystem;
 
 // Lowest first: a room includes only itself and the rooms before it.
-const std::vector<std::string> rooms = {"base",  "image",     "optics", "compositing", "volume",
-                                        "mesh",  "scene",     "reference", "gl",       "tiles",
-                                        "slicing", "projection", "study"};
+const std::vector<std::string> rooms = {
+    "base",      "image", "optics", "compositing", "volume",     "mesh", "scene",
+    "reference", "gl",    "tiles",  "slicing",     "projection", "study"};
 const fs::path source = LAMINA_SOURCE_DIR;
 
 std::size_t height_of(const std::string& room) {
     return static_cast<std::size_t>(std::find(rooms.begin(), rooms.end(), room) - rooms.begin());
 }
-bool is_room(const std::string& name) { return height_of(name) < rooms.size(); }
+bool is_room(const std::string& name) {
+    return height_of(name) < rooms.size();
+}
 
 std::vector<fs::path> files_under(const std::vector<std::string>& folders) {
     std::vector<fs::path> files;
@@ -46,14 +49,17 @@ std::vector<std::string> all_matches(const std::string& text, const char* patter
     return found;
 }
 
-std::string room_of(const std::string& include) { return include.substr(0, include.find('/')); }
+std::string room_of(const std::string& include) {
+    return include.substr(0, include.find('/'));
+}
 
-// What a file of src/`room` includes, or its CMakeLists.txt links, against the rules; one line each.
+// What a file of src/`room` includes, or its CMakeLists.txt links, against the rules; one line
+// each.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& file_name,
                                         const std::string& text) {
     std::vector<std::string> wrong;
-    const bool may_use_gl =
-        room == "gl" || ((room == "slicing" || room == "projection") && file_name.starts_with("gl_"));
+    const bool may_use_gl = room == "gl" || ((room == "slicing" || room == "projection") &&
+                                             file_name.starts_with("gl_"));
     for (const std::string& include : all_matches(text, R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])")) {
         if (include == "glad/gl.h" && !may_use_gl) wrong.push_back(include);
     }
@@ -84,7 +90,8 @@ TEST(Rooms, TheCheckItselfSeesViolations) {
     EXPECT_EQ(wrong_includes("image", "a.h", "#include \"slicing/x.h\"\n"), Wrong{"slicing/x.h"});
     EXPECT_EQ(wrong_includes("image", "a.h", "\n  # include \"scene/x.h\"\n"), Wrong{"scene/x.h"});
     EXPECT_EQ(wrong_includes("image", "a.h", "#include \"x.h\"\n"), Wrong{"x.h"});
-    EXPECT_EQ(wrong_includes("image", "a.h", "#include <png.h>\n#include \"image/x.h\"\n"), Wrong{});
+    EXPECT_EQ(wrong_includes("image", "a.h", "#include <png.h>\n#include \"image/x.h\"\n"),
+              Wrong{});
     EXPECT_EQ(wrong_includes("slicing", "a.h", "#include \"base/x.h\"\n#include \"gl/x.h\"\n"),
               Wrong{});
     EXPECT_EQ(wrong_includes("slicing", "a.h", "#include <glad/gl.h>\n"), Wrong{"glad/gl.h"});
@@ -92,8 +99,9 @@ TEST(Rooms, TheCheckItselfSeesViolations) {
     EXPECT_EQ(wrong_includes("slicing", "gl_executor.h", "#include <glad/gl.h>\n"), Wrong{});
     EXPECT_EQ(wrong_includes("gl", "texture.h", "#include <glad/gl.h>\n"), Wrong{});
     EXPECT_EQ(wrong_includes("scene", "gl_facts.h", "#include <glad/gl.h>\n"), Wrong{"glad/gl.h"});
-    EXPECT_EQ(wrong_includes("optics", "CMakeLists.txt", "lamina_room(x LINK lamina_gl lamina_base)"),
-              Wrong{"lamina_gl"});
+    EXPECT_EQ(
+        wrong_includes("optics", "CMakeLists.txt", "lamina_room(x LINK lamina_gl lamina_base)"),
+        Wrong{"lamina_gl"});
 }
 
 TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
@@ -119,7 +127,8 @@ TEST(SourceFiles, BeginWithTheLicence) {
         const std::string text = read_bytes_of(file);
         // Second line where the first must be something else: #! and #version.
         const std::size_t line = text.find("SPDX-License-Identifier: Apache-2.0");
-        EXPECT_TRUE(line != std::string::npos && std::count(text.begin(), text.begin() + line, '\n') < 2)
+        EXPECT_TRUE(line != std::string::npos &&
+                    std::count(text.begin(), text.begin() + line, '\n') < 2)
             << file << " does not begin with the SPDX line";
     }
 }

@@ -61,8 +61,8 @@ TEST_F(Compare, JsonHasTheNormsOfEveryChannel) {
     const ProgramResult result = compare("a.exr", "b.npy", {"--json"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
-    // 12 pixels; e(G) = -255/4, e(B) = 255/8 at one of them: exact binary fractions, so only the division by 12 and
-    // the root round.
+    // 12 pixels; e(G) = -255/4, e(B) = 255/8 at one of them: exact binary fractions, so only the
+    // division by 12 and the root round.
     const auto json = nlohmann::json::parse(result.out);
     EXPECT_EQ(json.size(), 2u);
     EXPECT_EQ(json["channels"].size(), 4u);

@@ -29,11 +29,12 @@ inline std::string text_of(std::FILE* file) {
     return text;
 }
 
-// Runs the program arguments[0] (looked for in PATH) with an empty stdin, waits for its end, and keeps what it wrote.
-// Exit code 127: the program could not be started.
+// Runs the program arguments[0] (looked for in PATH) with an empty stdin, waits for its end, and
+// keeps what it wrote. Exit code 127: the program could not be started.
 inline ProgramResult run_program(const std::vector<std::string>& arguments) {
     std::vector<char*> argv;
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     std::FILE* const out = std::tmpfile();
     std::FILE* const err = std::tmpfile();

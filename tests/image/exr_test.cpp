@@ -26,7 +26,8 @@ void write(const std::filesystem::path& path, const Image& image,
     file.commit();
 }
 
-// A file of half-float channels with the given names; channel k of pixel i holds i + 10 k, exact in half.
+// A file of half-float channels with the given names; channel k of pixel i holds i + 10 k, exact in
+// half.
 void write_half(const std::filesystem::path& path, const std::vector<std::string>& names,
                 const Imath::Box2i& window) {
     Imf::Header header(Imath::Box2i({0, 0}, {99, 99}), window);
@@ -122,14 +123,16 @@ TEST(Exr, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(3, 2));
     const std::string bytes = read_bytes_of(folder / "a.exr");
-    // A flip of the magic number, of sizes, types and offsets is refused; one of a pixel cannot be noticed.
+    // A flip of the magic number, of sizes, types and offsets is refused; one of a pixel cannot be
+    // noticed.
     EXPECT_GT(refusals_of_damaged(bytes, folder / "b.exr", read_exr), 50);
 }
 
 TEST(Exr, PromisedSizesAreCheckedBeforeMemoryIsTaken) {
     const TemporaryFolder folder;
     write(folder / "a.exr", random_image(3, 2));
-    // Zeros at the end pass for the table of lines (8 bytes for 16 lines), so that OpenEXR itself has no objection.
+    // Zeros at the end pass for the table of lines (8 bytes for 16 lines), so that OpenEXR itself
+    // has no objection.
     const std::string bytes = read_bytes_of(folder / "a.exr") + std::string(10240, '\0');
     const auto with_window = [&](std::int32_t width, std::int32_t height) {
         std::string changed = bytes;

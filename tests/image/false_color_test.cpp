@@ -10,7 +10,9 @@ namespace {
 
 using Codes = std::vector<std::uint16_t>;
 
-Codes color_of(double e, double scale) { return false_color({1, 1, {"Y"}, {e}}, scale).codes; }
+Codes color_of(double e, double scale) {
+    return false_color({1, 1, {"Y"}, {e}}, scale).codes;
+}
 
 double luminance(const Codes& rgb) {
     return 0.2126 * linear_from_srgb(rgb[0] / 255.0) + 0.7152 * linear_from_srgb(rgb[1] / 255.0) +
@@ -33,7 +35,8 @@ TEST(FalseColor, SizeReadsAsDarknessAndSignAsHue) {
             const Codes rgb = color_of(side == 0 ? -i : i, 100);
             EXPECT_LT(luminance(rgb), lighter[side]) << i;
             lighter[side] = luminance(rgb);
-            // Who cannot tell red from green still tells yellow from blue: that difference must have e's sign.
+            // Who cannot tell red from green still tells yellow from blue: that difference must
+            // have e's sign.
             const int yellow = (rgb[0] + rgb[1]) / 2 - rgb[2];
             if (i >= 3) {
                 EXPECT_GT(side == 0 ? -yellow : yellow, 0) << i;

@@ -21,7 +21,8 @@ TEST(Metrics, RampHasTheClosedFormsOfItsSums) {
         }
     }
     const ImageError error = measure(difference);
-    // All sums are integers below 2^53, so they are exact; what is left is one division and one root.
+    // All sums are integers below 2^53, so they are exact; what is left is one division and one
+    // root.
     EXPECT_EQ(error.channels, difference.channels);
     EXPECT_DOUBLE_EQ(error.of_channel[0].linf, n - 1);
     EXPECT_DOUBLE_EQ(error.of_channel[0].l1, (n - 1) / 2.0);

@@ -37,7 +37,8 @@ std::string npy_bytes(const std::string& header, std::size_t data_bytes, char ve
     return bytes + header + std::string(data_bytes, '\0');
 }
 
-std::string header_of(const std::string& descr, const std::string& order, const std::string& shape) {
+std::string header_of(const std::string& descr, const std::string& order,
+                      const std::string& shape) {
     return "{'descr': " + descr + ", 'fortran_order': " + order + ", 'shape': " + shape + ", }\n";
 }
 
@@ -63,13 +64,13 @@ TEST(Npy, NumpyReadsWhatWeWrite) {
         image.rgba[i] = 1.0 / (static_cast<double>(i) + 3);
     }
     write(folder / "a.npy", image);
-    const ProgramResult result = run_program(
-        {"/usr/bin/python3", "-c",
-         "import numpy, sys\n"
-         "a = numpy.load(sys.argv[1])\n"
-         "b = 1.0 / (numpy.arange(24.0).reshape(2, 3, 4) + 3)\n"
-         "print(a.dtype.str, a.shape, a.flags.c_contiguous, bool((a == b).all()))",
-         folder / "a.npy"});
+    const ProgramResult result =
+        run_program({"/usr/bin/python3", "-c",
+                     "import numpy, sys\n"
+                     "a = numpy.load(sys.argv[1])\n"
+                     "b = 1.0 / (numpy.arange(24.0).reshape(2, 3, 4) + 3)\n"
+                     "print(a.dtype.str, a.shape, a.flags.c_contiguous, bool((a == b).all()))",
+                     folder / "a.npy"});
     EXPECT_EQ(result.out, "<f8 (2, 3, 4) True True\n") << result.err;
     // The data begin at a multiple of 64 bytes, as NEP 1 asks.
     EXPECT_EQ((read_bytes_of(folder / "a.npy").size() - 24 * sizeof(double)) % 64, 0u);
@@ -145,7 +146,8 @@ TEST(Npy, RefusesToWriteWhatIsNotFinite) {
     const TemporaryFolder folder;
     PreciseImage image(2, 2);
     image.pixel(1, 0)[2] = 1e300;  // beyond float32: nothing that a renderer means
-    expect_error([&] { write(folder / "a.npy", image); }, {"a.npy", "(1, 0)", "channel B", "1e+300"});
+    expect_error([&] { write(folder / "a.npy", image); },
+                 {"a.npy", "(1, 0)", "channel B", "1e+300"});
     EXPECT_TRUE(folder.empty());
 }
 

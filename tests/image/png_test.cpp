@@ -45,8 +45,8 @@ std::string big_endian(std::uint32_t value) {
 
 std::string chunk(const std::string& type, const std::string& data) {
     const std::string body = type + data;
-    const auto crc = crc32(0, reinterpret_cast<const Bytef*>(body.data()),
-                           static_cast<uInt>(body.size()));
+    const auto crc =
+        crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
     return big_endian(static_cast<std::uint32_t>(data.size())) + body +
            big_endian(static_cast<std::uint32_t>(crc));
 }
@@ -68,7 +68,8 @@ std::string png_bytes(std::uint32_t width, std::uint32_t height, char depth, cha
 using Codes = std::vector<std::uint16_t>;
 
 TEST(Srgb, KnownValues) {
-    // IEC 61966-2-1: 0.5 -> 0.735357, 0.18 -> 0.461356 (printed in many tables, 6 digits), linear part 12.92 x.
+    // IEC 61966-2-1: 0.5 -> 0.735357, 0.18 -> 0.461356 (printed in many tables, 6 digits), linear
+    // part 12.92 x.
     EXPECT_NEAR(srgb_from_linear(0.5), 0.735357, 5e-7);
     EXPECT_NEAR(srgb_from_linear(0.18), 0.461356, 5e-7);
     EXPECT_DOUBLE_EQ(srgb_from_linear(0.001), 0.01292);
@@ -87,8 +88,9 @@ TEST(Png, BackgroundThenCurveThenNearestCode) {
     ASSERT_EQ(back.height, 1);
     ASSERT_EQ(back.channels, 3);
     ASSERT_EQ(back.bit_depth, 8);
-    // 255 * .735357 = 187.5 (187.516), 255 * .461356 = 117.6, 255 * .01292 = 3.3. Second pixel: .25 + .5 * .5 = .5,
-    // .5 * .36 = .18, .5 (188 again). Third: the background itself; .36 -> .634524 (161.8).
+    // 255 * .735357 = 187.5 (187.516), 255 * .461356 = 117.6, 255 * .01292 = 3.3. Second pixel: .25
+    // + .5 * .5 = .5, .5 * .36 = .18, .5 (188 again). Third: the background itself; .36 -> .634524
+    // (161.8).
     EXPECT_EQ(back.codes, (Codes{188, 118, 3, 188, 118, 188, 188, 162, 255}));
 }
 
@@ -107,7 +109,8 @@ TEST(Png, EveryCodeComesBack) {
 
 TEST(Png, CountsPixelsThatWereClamped) {
     const TemporaryFolder folder;
-    // Clamped: 1.5 and -.5 in one pixel (counts once), 1.01. Roundings below 1/510 = .00196: not counted.
+    // Clamped: 1.5 and -.5 in one pixel (counts once), 1.01. Roundings below 1/510 = .00196: not
+    // counted.
     const Image image = row_of({{1.5f, -0.5f, 0, 1}, {0, 0, 1.01f, 1}, {1.001f, -0.001f, 0, 1}});
     EXPECT_EQ(write(folder / "a.png", image), 2u);
     EXPECT_EQ(read_png(folder / "a.png").codes, (Codes{255, 0, 0, 0, 0, 255, 255, 0, 0}));
@@ -130,7 +133,8 @@ TEST(Png, CodesOfEveryKindComeBack) {
         for (const int depth : {8, 16}) {
             CodedImage image(5, 3, channels, depth);
             for (std::size_t i = 0; i < image.codes.size(); ++i) {
-                image.codes[i] = static_cast<std::uint16_t>(i * 40503 % (depth == 16 ? 65536 : 256));
+                image.codes[i] =
+                    static_cast<std::uint16_t>(i * 40503 % (depth == 16 ? 65536 : 256));
             }
             write(folder / "a.png", image);
             const CodedImage back = read_png(folder / "a.png");
@@ -169,7 +173,8 @@ TEST(Png, DamagedFilesAreErrors) {
     const TemporaryFolder folder;
     write(folder / "a.png", random_image(3, 2));
     const std::string bytes = read_bytes_of(folder / "a.png");
-    // Every chunk has a checksum; only the ancillary sRGB chunk (13 bytes) may be damaged without harm to the codes.
+    // Every chunk has a checksum; only the ancillary sRGB chunk (13 bytes) may be damaged without
+    // harm to the codes.
     EXPECT_GE(refusals_of_damaged(bytes, folder / "b.png", read_png),
               static_cast<int>(bytes.size()) - 13);
 }

@@ -14,7 +14,8 @@
 
 namespace lamina {
 
-// Components of every magnitude that float32 has between 2^-140 (subnormal) and 2^100, both signs, and zeros.
+// Components of every magnitude that float32 has between 2^-140 (subnormal) and 2^100, both signs,
+// and zeros.
 inline Image random_image(int width, int height) {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> mantissa(-1, 1);
@@ -25,8 +26,9 @@ inline Image random_image(int width, int height) {
     return image;
 }
 
-// Calls read(path) with every shortened version of the file `bytes`, which must throw Error, and with one bit of every
-// byte inverted, which may throw Error and nothing else. Returns how many of the inverted ones were refused.
+// Calls read(path) with every shortened version of the file `bytes`, which must throw Error, and
+// with one bit of every byte inverted, which may throw Error and nothing else. Returns how many of
+// the inverted ones were refused.
 template <typename Read>
 int refusals_of_damaged(const std::string& bytes, const std::filesystem::path& path,
                         const Read& read) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Render targets: what one slab leaves in each, and both compositing orders.
+#include "base/error.h"
 #include "slicing_fixture.h"
 
 namespace lamina {

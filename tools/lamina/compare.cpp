@@ -73,8 +73,10 @@ int compare(const CompareOptions& options) {
     if (diff) {
         write_png(*diff, false_color(e, error.all.linf));
         diff->commit();
-        fmt::print(stderr, "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
-                   options.diff, error.all.linf, error.all.linf);
+        fmt::print(
+            stderr,
+            "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
+            options.diff, error.all.linf, error.all.linf);
     }
     fmt::print("{}", options.json ? json_text(error) : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
@@ -95,7 +97,8 @@ void add_compare(CLI::App& app, int& exit_code) {
     verb->add_option("B", options->b, "picture to measure against, of the same size")->required();
     verb->add_flag("--json", options->json, "print JSON instead of a table");
     verb->add_option("--diff", options->diff, "write the signed difference in false colour (.png)");
-    verb->add_option("--max-linf", options->max_linf, "exit with code 3 when Linf over all is larger");
+    verb->add_option("--max-linf", options->max_linf,
+                     "exit with code 3 when Linf over all is larger");
     verb->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 
