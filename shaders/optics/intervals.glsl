@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linear intervals of the transfer function over scalars normalised to [0, 1]; layout: slicing/shader_intervals.h.
 uniform sampler2D intervals;
 uniform sampler2D interval_starts;

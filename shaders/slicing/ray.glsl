@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The viewing ray of a fragment in the brick's index space: origin + depth * direction, where depth is eye-space depth
 // relative to the middle of the slabs. All coefficients come from the processor in double precision and near the box,
 // so that neither a far eye nor far world coordinates cost accuracy.

@@ -1,4 +1,5 @@
 #version 450 core
+// SPDX-License-Identifier: Apache-2.0
 // One slab of the slicing renderer: the part of the fragment's ray that lies inside the slab and inside the box, as
 // associated colour and opacity. Opacity comes from extinction and true length, never from an assumed step.
 #define SAMPLING_NONE 0

@@ -1,4 +1,5 @@
 #version 450 core
+// SPDX-License-Identifier: Apache-2.0
 // A corner of a slab's polygon (slicing/slab_polygons.h).
 layout(location = 0) in vec2 position;  // pixels from the image's left and top edge
 layout(location = 1) in vec2 depths;    // of the slab: front, back

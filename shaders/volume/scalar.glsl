@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scalar at a point of the brick in index space, normalised so that the volume's range is [0, 1].
 #if SAMPLING != SAMPLING_NONE
 uniform sampler3D volume;

@@ -9,15 +9,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "image/srgb.h"
+
 namespace lamina {
 
 namespace {
 
 using std::numbers::pi;
-
-double srgb_from_linear(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 // Columns: XYZ (white D65) of the linear primaries, IEC 61966-2-1.
 const glm::dmat3 xyz_from_linear(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192, 0.1805, 0.0722,
@@ -133,10 +131,6 @@ glm::dvec3 interpolate_diverging(const glm::dvec3& a, const glm::dvec3& b, doubl
 }
 
 }  // namespace
-
-double linear_from_srgb(double srgb) {
-    return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
 
 glm::dvec3 linear_from_srgb(const glm::dvec3& srgb) {
     return glm::dvec3(linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b));

@@ -11,7 +11,6 @@ namespace lamina {
 // Msh of CIELAB.
 enum class ColorSpace { rgb, hsv, hsv_wrapped, lab, diverging, step };
 
-double linear_from_srgb(double srgb);
 glm::dvec3 linear_from_srgb(const glm::dvec3& srgb);
 
 // The colour at `share` in [0, 1] of the way from `a` to `b`, in sRGB, clipped to its gamut.

@@ -51,7 +51,7 @@ TEST(SceneReader, PathsAreRelativeToTheScene) {
 TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "map.json",
-                   R"([{"Name": "two", "ColorSpace": "Step", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
+                   R"([{"Name": "two", "ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
     nlohmann::json document = minimal_scene();
     document["transfer_function"] = {{"colormap", "map.json"},
                                      {"colormap_range", {0, 255}},
@@ -59,7 +59,8 @@ TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
     const TransferFunction read = read_scene(document, folder / "scene.json").transfer_function;
     EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
     EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);
-    EXPECT_DOUBLE_EQ(read.at(1).color.g, 0);
+    // sRGB .5 in linear light (IEC 61966-2-1); the map is resampled to 5e-4.
+    EXPECT_NEAR(read.at(127.5).color.g, std::pow((.5 + .055) / 1.055, 2.4), 5e-4);
     EXPECT_DOUBLE_EQ(read.at(127.5).extinction, 1);
 }
 

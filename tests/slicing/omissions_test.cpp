@@ -24,7 +24,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 TEST_F(SlicingTest, EmptySpaceIsLeftOutBitForBit) {
     const Volume volume = gaussians(64);
     const TransferFunction top =
-        TransferFunction::linear({knot(.6, {.1, .5, .9}, 0), knot(.7, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
+        TransferFunction::linear({knot(.8, {.1, .5, .9}, 0), knot(.9, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
     for (const Classification classification : {Classification::post, Classification::preintegrated}) {
         for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
             Scene scene = unit_box_scene(top, projection);
