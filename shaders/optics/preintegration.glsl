@@ -71,36 +71,46 @@ void add_run(inout vec4 sum, vec2 nodes, float world_length) {
     sum.a += depth;
 }
 
-// Associated colour and optical depth (a) of a segment on which the scalar runs straight from `front` to `back`. The
-// table is smooth inside the transfer function's intervals and not across their ends: the run is cut at the first and
-// at the last of these.
-vec4 integrate_run(float front, float back, float world_length) {
-    vec4 sum = vec4(0.0);
-    int front_interval = find_interval(front);
-    int back_interval = find_interval(back);
-    vec4 front_place = interval_place(front_interval);
-    vec4 back_place = interval_place(back_interval);
-    float front_node = table_node(front_place, front);
-    float back_node = table_node(back_place, back);
-    if (front_interval == back_interval) {
-        add_run(sum, vec2(front_node, back_node), world_length);
-        return sum;
-    }
-    bool rising = front < back;
-    vec4 first = rising ? interval_place(front_interval + 1) : front_place;
-    vec4 last = rising ? back_place : interval_place(back_interval + 1);
-    float front_end = rising ? front_place.z + front_place.w : front_place.z;
-    float back_end = rising ? back_place.z : back_place.z + back_place.w;
-    float length_per_scalar = world_length / (back - front);
-    add_run(sum, vec2(front_node, front_end), (first.x - front) * length_per_scalar);
-    if (first.x != last.x) add_run(sum, vec2(first.z, back_end), (last.x - first.x) * length_per_scalar);
-    add_run(sum, vec2(back_end, back_node), (back - last.x) * length_per_scalar);
-    return sum;
-}
-
 // Whether a segment on which the scalar stays between two values shows nothing.
 bool is_transparent(float least, float largest) {
     vec2 nodes = vec2(table_node(interval_place(find_interval(least)), least),
                       table_node(interval_place(find_interval(largest)), largest));
     return mean_extinction(nodes) == 0.0;
+}
+
+// Associated colour and optical depth (a) of a segment on which the scalar runs straight from `front` to `back`. The
+// table is smooth inside the transfer function's intervals and not across their ends: the run is cut at the first and
+// at the last of these. A loop, and none for what is transparent: software rasterisers skip loops, not branches.
+vec4 integrate_run(float front, float back, float world_length, bool transparent) {
+    int front_interval = find_interval(front);
+    int back_interval = find_interval(back);
+    vec4 front_place = interval_place(front_interval);
+    vec4 back_place = interval_place(back_interval);
+    vec2 nodes = vec2(table_node(front_place, front), table_node(back_place, back));
+    float run_length = world_length;
+    int runs = transparent ? 0 : 1;
+
+    vec2 inner_nodes, back_nodes;
+    float inner_length, back_length;
+    if (front_interval != back_interval && !transparent) {
+        runs = 3;
+        bool rising = front < back;
+        vec4 first = interval_place(rising ? front_interval + 1 : front_interval);
+        vec4 last = interval_place(rising ? back_interval : back_interval + 1);
+        float back_end = rising ? back_place.z : back_place.z + back_place.w;
+        float length_per_scalar = world_length / (back - front);
+        back_nodes = vec2(back_end, nodes.y);
+        back_length = (back - last.x) * length_per_scalar;
+        inner_nodes = vec2(first.z, back_end);
+        inner_length = (last.x - first.x) * length_per_scalar;
+        nodes.y = rising ? front_place.z + front_place.w : front_place.z;
+        run_length = (first.x - front) * length_per_scalar;
+    }
+    vec4 sum = vec4(0.0);
+    for (int run = 0; run < runs; ++run) {
+        add_run(sum, nodes, run_length);
+        nodes = run == 0 ? inner_nodes : back_nodes;
+        run_length = run == 0 ? inner_length : back_length;
+    }
+    return sum;
 }

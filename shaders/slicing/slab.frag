@@ -43,12 +43,13 @@ vec4 integrate(Ray ray, vec2 depths, float world_length) {
     // What shows nothing between the least and the largest sample shows nothing: so empty space may be left out.
     float least = clamp(min(middle, min(front, back)), 0.0, 1.0);
     float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
-    if (is_transparent(least, largest)) discard;
+    bool transparent = is_transparent(least, largest);
     // The table knows straight runs of the scalar; the trilinear field bends. The run from front to back is moved so
     // that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of one
     // cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of second.
     float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
-    return integrate_run(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0), world_length);
+    return integrate_run(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0), world_length,
+                         transparent);
 }
 #else
 vec4 integrate(Ray ray, vec2 depths, float world_length) {

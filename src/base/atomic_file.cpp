@@ -44,7 +44,8 @@ void AtomicFile::close_stream() {
     if (stream_ == nullptr) return;
     std::FILE* const stream = stream_;
     stream_ = nullptr;
-    if (std::fclose(stream) != 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+    if (std::fclose(stream) != 0)
+        fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
 }
 
 void AtomicFile::commit() {

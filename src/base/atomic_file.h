@@ -7,11 +7,13 @@
 
 namespace lamina {
 
-// An output file that appears under its name only when it is complete: written beside it, then renamed. Made before
-// long work begins, so that a path that cannot be written fails at once; without commit() nothing is left behind.
+// An output file that appears under its name only when it is complete: written beside it, then
+// renamed. Made before long work begins, so that a path that cannot be written fails at once;
+// without commit() nothing is left behind.
 class AtomicFile {
   public:
-    explicit AtomicFile(std::filesystem::path path);  // throws Error when the folder cannot be written
+    explicit AtomicFile(
+        std::filesystem::path path);  // throws Error when the folder cannot be written
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;

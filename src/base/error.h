@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// Bad data, or a machine that cannot do what was asked: exit code 1. The message is one line that names the file, the
-// field or line, what was found and what was expected.
+// Bad data, or a machine that cannot do what was asked: exit code 1. The message is one line that
+// names the file, the field or line, what was found and what was expected.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

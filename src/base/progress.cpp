@@ -16,14 +16,17 @@ bool quiet_process = false;
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total)
-    : label_(std::move(label)), total_(std::max<std::int64_t>(total, 1)),
+    : label_(std::move(label)),
+      total_(std::max<std::int64_t>(total, 1)),
       visible_(!quiet_process && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
     if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::set_quiet(bool quiet) { quiet_process = quiet; }
+void Progress::set_quiet(bool quiet) {
+    quiet_process = quiet;
+}
 
 void Progress::advance(std::int64_t steps) {
     const std::int64_t done = done_ += steps;

@@ -10,8 +10,9 @@
 
 namespace lamina {
 
-// A line on stderr with the share done and the time left, for work that takes longer than a second or so. Drawn only
-// on a terminal, at most twice a second, and wiped when done; silent everywhere else.
+// A line on stderr with the share done and the time left, for work that takes longer than a second
+// or so. Drawn only on a terminal, at most twice a second, and wiped when done; silent everywhere
+// else.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);

@@ -7,9 +7,7 @@ namespace lamina {
 
 class Stopwatch {
   public:
-    double seconds() const {
-        return std::chrono::duration<double>(Clock::now() - start_).count();
-    }
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
     double milliseconds() const { return 1e3 * seconds(); }
 
   private:

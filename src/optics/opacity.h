@@ -6,10 +6,13 @@
 
 namespace lamina {
 
-// Extinction per world unit that stands for "opaque" (opacity 1 has no finite extinction): this over unit_length.
+// Extinction per world unit that stands for "opaque" (opacity 1 has no finite extinction): this
+// over unit_length.
 inline constexpr double opaque_optical_depth = 1e7;
 
-inline double opacity_from_depth(double optical_depth) { return -std::expm1(-optical_depth); }
+inline double opacity_from_depth(double optical_depth) {
+    return -std::expm1(-optical_depth);
+}
 
 // `opacity` in [0, 1] over `unit_length` > 0 world units, as extinction per world unit.
 inline double extinction_from_opacity(double opacity, double unit_length) {

@@ -14,12 +14,14 @@ struct SegmentIntegral {
     glm::dvec3 color{0};  // associated: seen from the front, attenuated by the segment itself
 };
 
-// The scalar runs linearly from `front` (towards the eye) to `back` over `length` >= 0 world units. Exact to about
-// 1e-13 relative in every component, for optical depths from 1e-300 to 1e300.
-SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front, double back, double length);
+// The scalar runs linearly from `front` (towards the eye) to `back` over `length` >= 0 world units.
+// Exact to about 1e-13 relative in every component, for optical depths from 1e-300 to 1e300.
+SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
+                                  double back, double length);
 
-// One linear piece with extinction * length = p at its front and q at its back (>= 0, finite): the associated colour
-// is front * c_front + back * c_back; both weights >= 0 and front + back = 1 - exp(-(p + q) / 2).
+// One linear piece with extinction * length = p at its front and q at its back (>= 0, finite): the
+// associated colour is front * c_front + back * c_back; both weights >= 0 and front + back = 1 -
+// exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;

@@ -18,25 +18,28 @@ struct TransferKnot {
     OpticalProperties optics;
 };
 
-// Scalar value to colour and extinction: linear between knots, constant outside them. Two knots at one value make a
-// step; at the step's very value the later knot counts. A palette (`nearest`) is the same thing with a step halfway
-// between neighbouring points, so nothing else needs to know about palettes.
+// Scalar value to colour and extinction: linear between knots, constant outside them. Two knots at
+// one value make a step; at the step's very value the later knot counts. A palette (`nearest`) is
+// the same thing with a step halfway between neighbouring points, so nothing else needs to know
+// about palettes.
 class TransferFunction {
   public:
-    // Knots in order of value, at least one, at most two at one value, all numbers finite, colour and extinction >= 0;
-    // else throws Error, naming the point by its index.
+    // Knots in order of value, at least one, at most two at one value, all numbers finite, colour
+    // and extinction >= 0; else throws Error, naming the point by its index.
     static TransferFunction linear(std::vector<TransferKnot> points);
     static TransferFunction nearest(const std::vector<TransferKnot>& points);
 
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
 
-    // Largest extinction and the range of colours met over the closed interval [lo, hi] (both sides of steps count).
+    // Largest extinction and the range of colours met over the closed interval [lo, hi] (both sides
+    // of steps count).
     double max_extinction(double lo, double hi) const;
     bool transparent(double lo, double hi) const { return max_extinction(lo, hi) == 0; }
-    bool constant(double lo, double hi) const;          // same colour and extinction everywhere
+    bool constant(double lo, double hi) const;  // same colour and extinction everywhere
     bool constant_extinction(double lo, double hi) const;
-    bool single_color(double lo, double hi) const;      // the colours of all parts with extinction > 0 are equal
+    bool single_color(double lo,
+                      double hi) const;  // the colours of all parts with extinction > 0 are equal
 
   private:
     explicit TransferFunction(std::vector<TransferKnot> knots) : knots_(std::move(knots)) {}

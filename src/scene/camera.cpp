@@ -13,7 +13,8 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
-// Unit vector of v, scaled first so that tiny and huge cameras neither underflow nor overflow; zero for zero.
+// Unit vector of v, scaled first so that tiny and huge cameras neither underflow nor overflow; zero
+// for zero.
 glm::dvec3 direction_of(const glm::dvec3& v) {
     const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     return scale > 0 ? glm::normalize(v / scale) : glm::dvec3(0);

@@ -12,15 +12,17 @@ struct Camera {
     glm::dvec3 eye{0, 0, 1};
     glm::dvec3 center{0};
     glm::dvec3 up{0, 1, 0};
-    double fov_y = 40;   // degrees, perspective
-    double height = 1;   // world units, orthographic
+    double fov_y = 40;  // degrees, perspective
+    double height = 1;  // world units, orthographic
 };
 
-// The viewing rays of an image: pixel (i, j), row 0 at the top, has its centre at image-plane coordinates x(i), y(j).
-// Along a ray the parameter is eye-space depth z (distance from the eye's plane), so the direction's forward component
-// is 1 and a ray's point is origin + z * direction. No near plane: z starts at 0.
+// The viewing rays of an image: pixel (i, j), row 0 at the top, has its centre at image-plane
+// coordinates x(i), y(j). Along a ray the parameter is eye-space depth z (distance from the eye's
+// plane), so the direction's forward component is 1 and a ray's point is origin + z * direction. No
+// near plane: z starts at 0.
 struct View {
-    View(const Camera& camera, int width_pixels, int height_pixels);  // throws Error when the camera is singular
+    View(const Camera& camera, int width_pixels,
+         int height_pixels);  // throws Error when the camera is singular
 
     struct Ray {
         glm::dvec3 origin, direction;  // |direction| >= 1: world length per unit of z
@@ -36,7 +38,8 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
-// The camera with its eye turned by `degrees` about the axis `up` through `center` (lamina render --frames).
+// The camera with its eye turned by `degrees` about the axis `up` through `center` (lamina render
+// --frames).
 Camera turned(const Camera& camera, double degrees);
 
 }  // namespace lamina

@@ -8,12 +8,14 @@ namespace lamina {
 
 // What the context that will draw can do: data for the plan, filled by gl::Context.
 struct Capabilities {
-    std::string renderer;         // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
-    bool software = true;         // no GPU behind it
+    std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
+    bool software = true;  // no GPU behind it
     int max_texture_size = 0;     // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;  // GL_MAX_3D_TEXTURE_SIZE
-    std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead
-    bool exact_float_filter = false;  // measured: linear filtering of R32F is good to 1e-6 (llvmpipe; not GPUs)
+    std::uint64_t max_texture_bytes =
+        std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead
+    bool exact_float_filter =
+        false;  // measured: linear filtering of R32F is good to 1e-6 (llvmpipe; not GPUs)
 };
 
 }  // namespace lamina

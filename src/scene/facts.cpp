@@ -11,8 +11,8 @@
 namespace lamina {
 namespace {
 
-// Interpolated and rescaled values may leave a brick's range by a rounding of float32: part of the range that is kept
-// on both sides when asking whether a brick can be seen.
+// Interpolated and rescaled values may leave a brick's range by a rounding of float32: part of the
+// range that is kept on both sides when asking whether a brick can be seen.
 constexpr double range_margin = 1e-6;
 
 void check_finite(const Scene& scene, const Facts& facts) {
@@ -20,13 +20,16 @@ void check_finite(const Scene& scene, const Facts& facts) {
     const std::int64_t samples = facts.grid.sample_count();
     if (facts.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
     if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
-        fail("{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" in the scene draws "
-             "their cells as transparent",
-             name, facts.non_finite, samples);
+        fail(
+            "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
+            "in the scene draws "
+            "their cells as transparent",
+            name, facts.non_finite, samples);
     }
 }
 
-void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks, Facts& facts) {
+void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                      Facts& facts) {
     const double margin = range_margin * (facts.range.hi - facts.range.lo);
     std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
     std::int64_t seen = 0;
@@ -34,7 +37,9 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
             for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
                 const ValueRange& range = bricks.at(x, y, z);
-                if (range.empty() || transfer_function.transparent(range.lo - margin, range.hi + margin)) continue;
+                if (range.empty() ||
+                    transfer_function.transparent(range.lo - margin, range.hi + margin))
+                    continue;
                 ++seen;
                 const std::array<std::int64_t, 3> brick{x, y, z};
                 for (std::size_t axis = 0; axis < 3; ++axis) {

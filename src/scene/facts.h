@@ -18,7 +18,8 @@ struct IndexBox {
     bool empty() const { return !(min.x < max.x && min.y < max.y && min.z < max.z); }
 };
 
-// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all behind the eye.
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all
+// behind the eye.
 struct DepthRange {
     double near = 0;
     double far = 0;
@@ -38,7 +39,8 @@ struct Facts {
     double max_extinction = 0;  // per world unit
     std::int64_t knots = 0;     // strictly inside the range
 
-    // The smallest box, made of whole min/max bricks, outside which the transfer function shows nothing.
+    // The smallest box, made of whole min/max bricks, outside which the transfer function shows
+    // nothing.
     IndexBox occupied;
     double occupied_share = 0;  // of the volume's box, by its bricks
 
@@ -46,13 +48,14 @@ struct Facts {
     bool orthographic = false;
     bool eye_inside = false;
     double near_depth = 0;
-    double far_depth = 0;           // <= near_depth: the whole box lies behind the eye
-    double voxels_along_view = 0;   // index-space length of the forward direction over that depth
-    double max_length_per_depth = 1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+    double far_depth = 0;          // <= near_depth: the whole box lies behind the eye
+    double voxels_along_view = 0;  // index-space length of the forward direction over that depth
+    double max_length_per_depth =
+        1;  // longest |direction| of a pixel's ray (1 for orthographic views)
 };
 
-// Throws Error when the volume has samples that are no finite numbers and the scene does not say what to do with them,
-// or has none but such.
+// Throws Error when the volume has samples that are no finite numbers and the scene does not say
+// what to do with them, or has none but such.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
 }  // namespace lamina

@@ -36,8 +36,7 @@ std::string nearest_of(const std::set<std::string>& words, const std::string& wo
 
 // The value as it stands in the file, cut where it is long.
 std::string shown(const nlohmann::json& value) {
-    const std::string text =
-        value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
@@ -65,8 +64,9 @@ std::string expand_data_folder(JsonReader& reader, const std::string& key, std::
     if (at == std::string::npos) return text;
     const char* const folder = std::getenv("LAMINA_DATA");
     if (folder == nullptr || *folder == '\0') {
-        reader.fail_at(key, "names ${LAMINA_DATA}, which is not set: set the environment variable "
-                            "LAMINA_DATA to the folder with the data sets");
+        reader.fail_at(key,
+                       "names ${LAMINA_DATA}, which is not set: set the environment variable "
+                       "LAMINA_DATA to the folder with the data sets");
     }
     return text.replace(at, variable.size(), folder);
 }
@@ -80,7 +80,8 @@ nlohmann::json load_json(const std::filesystem::path& file) {
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     if (error) fail("{}: cannot read: {}", file.string(), error.message());
     if (bytes > max_json_bytes) {
-        fail("{}: found {} bytes, expected at most {} in a JSON file", file.string(), bytes, max_json_bytes);
+        fail("{}: found {} bytes, expected at most {} in a JSON file", file.string(), bytes,
+             max_json_bytes);
     }
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail("{}: cannot read", file.string());
@@ -89,7 +90,8 @@ nlohmann::json load_json(const std::filesystem::path& file) {
     try {
         parsed = nlohmann::json::parse(stream, std::ref(keys));
     } catch (const nlohmann::json::exception& problem) {
-        std::string message = problem.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
+        std::string message =
+            problem.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
         message = message.substr(std::min(message.size(), message.find("] ") + 2));
         fail("{}: {}", file.string(), message);
     }
@@ -103,8 +105,9 @@ JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path
                        std::string path, std::set<std::string>* known)
     : object_(object), file_(file), path_(std::move(path)), known_(known) {
     if (!object_.is_object()) {
-        throw KeyError(path_, fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
-                                          path_.empty() ? "" : path_ + ": ", shown(object_)));
+        throw KeyError(path_,
+                       fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
+                                   path_.empty() ? "" : path_ + ": ", shown(object_)));
     }
 }
 
@@ -142,7 +145,8 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     std::vector<JsonReader> readers;
     readers.reserve(object_[key].size());
     for (const nlohmann::json& element : object_[key]) {
-        readers.emplace_back(element, file_, fmt::format("{}.{}", path_to(key), readers.size()), known_);
+        readers.emplace_back(element, file_, fmt::format("{}.{}", path_to(key), readers.size()),
+                             known_);
     }
     return readers;
 }
@@ -181,7 +185,8 @@ glm::dvec3 JsonReader::vector(const std::string& key) {
             return element.is_number() && std::isfinite(element.get<double>());
         });
     if (!three_numbers) reject(key, "three finite numbers [x, y, z]");
-    return {object_[key][0].get<double>(), object_[key][1].get<double>(), object_[key][2].get<double>()};
+    return {object_[key][0].get<double>(), object_[key][1].get<double>(),
+            object_[key][2].get<double>()};
 }
 
 glm::dvec3 JsonReader::vector_or(const std::string& key, const glm::dvec3& otherwise) {
@@ -198,7 +203,8 @@ void JsonReader::close() const {
     for (const auto& [key, ignored] : object_.items()) {
         if (asked_.contains(key)) continue;
         fail_at(key, asked_.empty() ? "unknown key"
-                                    : fmt::format("unknown key, did you mean \"{}\"?", nearest_of(asked_, key)));
+                                    : fmt::format("unknown key, did you mean \"{}\"?",
+                                                  nearest_of(asked_, key)));
     }
 }
 

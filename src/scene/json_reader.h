@@ -15,25 +15,28 @@
 
 namespace lamina {
 
-// A key of a JSON file that is missing, unknown or has a bad value. `key`: its path, "render.slice.samples".
+// A key of a JSON file that is missing, unknown or has a bad value. `key`: its path,
+// "render.slice.samples".
 class KeyError : public Error {
   public:
-    KeyError(std::string path, const std::string& message)
-        : Error(message), key(std::move(path)) {}
+    KeyError(std::string path, const std::string& message) : Error(message), key(std::move(path)) {}
     std::string key;
 };
 
-// Reads the file; syntax errors, repeated keys and files over 64 MiB are Errors with line and column.
+// Reads the file; syntax errors, repeated keys and files over 64 MiB are Errors with line and
+// column.
 nlohmann::json load_json(const std::filesystem::path& file);
 
-// Reads one JSON object key by key and remembers which keys it was asked for; close() then rejects all others, with
-// the nearest known key as a suggestion. Every error names the file, the path of the key, what was found and expected.
+// Reads one JSON object key by key and remembers which keys it was asked for; close() then rejects
+// all others, with the nearest known key as a suggestion. Every error names the file, the path of
+// the key, what was found and expected.
 class JsonReader {
   public:
-    // `file`: for messages and relative paths. `known`: collects the path of every key that is asked for (the test that
-    // keeps the schema in step with the reader), or null. All must outlive the reader.
-    JsonReader(const nlohmann::json& object, const std::filesystem::path& file, std::string path = "",
-               std::set<std::string>* known = nullptr);
+    // `file`: for messages and relative paths. `known`: collects the path of every key that is
+    // asked for (the test that keeps the schema in step with the reader), or null. All must outlive
+    // the reader.
+    JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
+               std::string path = "", std::set<std::string>* known = nullptr);
 
     bool has(const std::string& key);
     JsonReader object(const std::string& key);  // an empty object when absent
@@ -46,7 +49,8 @@ class JsonReader {
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
     glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise);
-    // A path of the file system: ${LAMINA_DATA} expanded, relative ones taken from the file's own folder.
+    // A path of the file system: ${LAMINA_DATA} expanded, relative ones taken from the file's own
+    // folder.
     std::filesystem::path path_of(const std::string& key);
 
     // One of the listed words; the first where the key is absent.

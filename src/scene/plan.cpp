@@ -12,21 +12,25 @@ namespace {
 constexpr double samples_per_voxel = 2;  // of "samples": "auto"
 constexpr int max_slabs = 65536;
 
-// A table that knows only the limit of short segments has at most this optical depth in one segment: then the colour
-// of a ray is off by less than depth / 12 of the colour's change within a segment, that is .5 / 255 (the front half of
-// a segment of depth D weighs 1/2 + D/12 + O(D^3)).
+// A table that knows only the limit of short segments has at most this optical depth in one
+// segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
+// segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
 constexpr double thin_depth = 0.02;
-// Above: layers so close that linear interpolation between them is good to .0025 (steps of depth 1 or less), as far
-// as that is affordable; deeper segments are nearly opaque and change little with length.
+// Above: layers so close that linear interpolation between them is good to .0025 (steps of depth 1
+// or less), as far as that is affordable; deeper segments are nearly opaque and change little with
+// length.
 constexpr int max_length_layers = 9;
 
-// A table's colours cost about nodes^2 * layers * knots segment integrals: at most this many, some seconds on two cores.
-// Palettes of hundreds of points get fewer layers, down to the limit alone, which has a fast way.
+// A table's colours cost about nodes^2 * layers * knots segment integrals: at most this many, some
+// seconds on two cores. Palettes of hundreds of points get fewer layers, down to the limit alone,
+// which has a fast way.
 constexpr double max_table_work = 5e7;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+std::string percent(double share) {
+    return fmt::format("{:.3g} %", 100 * share);
+}
 
 std::uint64_t bytes_of_brick(const TextureBrick& brick, std::uint64_t texel) {
     return static_cast<std::uint64_t>(brick.size[0]) * static_cast<std::uint64_t>(brick.size[1]) *
@@ -34,7 +38,8 @@ std::uint64_t bytes_of_brick(const TextureBrick& brick, std::uint64_t texel) {
 }
 
 // The fewest bricks that respect the context's limits: always the longest edge is cut once more.
-std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_bytes, const Capabilities& capabilities) {
+std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_bytes,
+                                          const Capabilities& capabilities) {
     std::array<std::int64_t, 3> parts{1, 1, 1}, cells{};
     TextureBrick largest;
     while (true) {
@@ -51,13 +56,16 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_
         }
         if (largest.size[longest] <= 2) {
             fail("volume: a brick of {} bytes does not fit a texture of {}: {}",
-                 bytes_of_brick(largest, texel_bytes), capabilities.max_texture_bytes, capabilities.renderer);
+                 bytes_of_brick(largest, texel_bytes), capabilities.max_texture_bytes,
+                 capabilities.renderer);
         }
         ++parts[longest];
     }
     std::vector<TextureBrick> bricks;
     std::array<std::int64_t, 3> at{};
-    const auto last_cell = [&](std::size_t axis) { return std::max<std::int64_t>(grid.size[axis] - 1, 1); };
+    const auto last_cell = [&](std::size_t axis) {
+        return std::max<std::int64_t>(grid.size[axis] - 1, 1);
+    };
     for (at[2] = 0; at[2] < last_cell(2); at[2] += cells[2]) {
         for (at[1] = 0; at[1] < last_cell(1); at[1] += cells[1]) {
             for (at[0] = 0; at[0] < last_cell(0); at[0] += cells[0]) {
@@ -75,13 +83,15 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_
 void check_limits(const Scene& scene, const Capabilities& capabilities) {
     const int edge = std::max(scene.width, scene.height);
     if (edge > capabilities.max_texture_size) {
-        fail("{}: image: found {} x {} pixels, expected at most {} along an edge: {}", scene.file.string(),
-             scene.width, scene.height, capabilities.max_texture_size, capabilities.renderer);
+        fail("{}: image: found {} x {} pixels, expected at most {} along an edge: {}",
+             scene.file.string(), scene.width, scene.height, capabilities.max_texture_size,
+             capabilities.renderer);
     }
-    const std::uint64_t bytes = 16 * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+    const std::uint64_t bytes =
+        16 * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
     if (bytes > capabilities.max_texture_bytes) {
-        fail("{}: image: found {} x {} pixels, expected at most {} in all: {}", scene.file.string(), scene.width,
-             scene.height, capabilities.max_texture_bytes / 16, capabilities.renderer);
+        fail("{}: image: found {} x {} pixels, expected at most {} in all: {}", scene.file.string(),
+             scene.width, scene.height, capabilities.max_texture_bytes / 16, capabilities.renderer);
     }
 }
 
@@ -105,7 +115,8 @@ class SlicePlanner {
         choose_sampling();
         choose_table();
         if (plan_.slice.sampling != VolumeSampling::none) {
-            slice.bricks = cut_into_bricks(facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
+            slice.bricks = cut_into_bricks(
+                facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
         } else {
             slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
         }
@@ -122,24 +133,26 @@ class SlicePlanner {
 
     void choose_slabs() {
         const double wanted = std::ceil(samples_per_voxel * facts_.voxels_along_view);
-        plan_.slice.slabs =
-            scene_.slice.samples.value_or(static_cast<int>(std::clamp(wanted, 1.0, double{max_slabs})));
+        plan_.slice.slabs = scene_.slice.samples.value_or(
+            static_cast<int>(std::clamp(wanted, 1.0, double{max_slabs})));
     }
 
     void choose_geometry() {
         SlicePlan& slice = plan_.slice;
-        slice.orthographic = leave_out(facts_.orthographic, "perspective",
-                                       "parallel rays: one direction and one length per depth for all fragments");
+        slice.orthographic =
+            leave_out(facts_.orthographic, "perspective",
+                      "parallel rays: one direction and one length per depth for all fragments");
         const IndexBox whole{facts_.grid.index_min(), facts_.grid.index_max()};
         slice.drawn = whole;
-        slice.nothing_visible =
-            leave_out(facts_.occupied.empty() || facts_.far_depth <= facts_.near_depth, "drawing",
-                      facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
-                                              : "the volume lies behind the eye");
+        slice.nothing_visible = leave_out(
+            facts_.occupied.empty() || facts_.far_depth <= facts_.near_depth, "drawing",
+            facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
+                                    : "the volume lies behind the eye");
         if (slice.nothing_visible) return;
         const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
         if (leave_out(smaller && !facts_.occupied.empty(), "empty_space",
-                      fmt::format("only {} of the bricks can be seen: slabs are drawn where the box around them is",
+                      fmt::format("only {} of the bricks can be seen: slabs are drawn where the "
+                                  "box around them is",
                                   percent(facts_.occupied_share)))) {
             slice.drawn = facts_.occupied;
         }
@@ -148,31 +161,37 @@ class SlicePlanner {
     void choose_sampling() {
         SlicePlan& slice = plan_.slice;
         if (leave_out(facts_.constant && facts_.non_finite == 0, "volume_texture",
-                      "the transfer function is constant over the volume's range: no scalar is fetched")) {
+                      "the transfer function is constant over the volume's range: no scalar is "
+                      "fetched")) {
             slice.sampling = VolumeSampling::none;
             return;
         }
-        const std::uint64_t float_bytes = 4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
+        const std::uint64_t float_bytes =
+            4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
         if (scene_.slice.filter == Filter::hardware) {
             slice.sampling = VolumeSampling::hardware;
         } else if (capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes) {
             slice.sampling = VolumeSampling::filtered;
         }
-        slice.float_texture = slice.sampling == VolumeSampling::filtered || facts_.type == SampleType::float32;
+        slice.float_texture =
+            slice.sampling == VolumeSampling::filtered || facts_.type == SampleType::float32;
     }
 
     void choose_table() {
         SlicePlan& slice = plan_.slice;
         slice.single_color =
-            leave_out(facts_.single_color, "color", "one colour in all that can be seen: only extinction is looked up");
+            leave_out(facts_.single_color, "color",
+                      "one colour in all that can be seen: only extinction is looked up");
         if (slice.classification != Classification::preintegrated) return;
         if (slice.sampling == VolumeSampling::none) {
-            leave_out(true, "table", "the transfer function is constant: opacity has a closed form");
+            leave_out(true, "table",
+                      "the transfer function is constant: opacity has a closed form");
             return;
         }
         TablePlan& table = slice.table;
         table.colored = !slice.single_color;
-        table.max_length = (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
+        table.max_length =
+            (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
         if (!table.colored) return;
         const double depth = facts_.max_extinction * table.max_length;
         const double knots = static_cast<double>(facts_.knots);
@@ -181,7 +200,8 @@ class SlicePlanner {
         table.length_layers = static_cast<int>(
             std::clamp(std::min(std::ceil(depth) + 1, affordable), 1.0, double{max_length_layers}));
         if (leave_out(depth < thin_depth, "length_layers",
-                      fmt::format("a segment's optical depth is at most {:.3g}: its colour does not depend on its length",
+                      fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
+                                  "not depend on its length",
                                   depth))) {
             table.length_layers = 1;
         }
@@ -196,25 +216,32 @@ class SlicePlanner {
 
 const char* text_of(VolumeSampling sampling) {
     switch (sampling) {
-        case VolumeSampling::none: return "none";
-        case VolumeSampling::fetch: return "8 fetches, float arithmetic";
-        case VolumeSampling::filtered: return "linear filter of a float texture (measured exact)";
-        default: return "hardware linear filter";
+        case VolumeSampling::none:
+            return "none";
+        case VolumeSampling::fetch:
+            return "8 fetches, float arithmetic";
+        case VolumeSampling::filtered:
+            return "linear filter of a float texture (measured exact)";
+        default:
+            return "hardware linear filter";
     }
 }
 
 }  // namespace
 
 std::vector<std::string> omission_names() {
-    return {"color", "drawing", "empty_space", "length_layers", "perspective", "table", "volume_texture"};
+    return {"color",       "drawing", "empty_space",   "length_layers",
+            "perspective", "table",   "volume_texture"};
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions) {
-    if (scene.method == Method::slice) return SlicePlanner(scene, facts, capabilities, omissions).make();
+    if (scene.method == Method::slice)
+        return SlicePlanner(scene, facts, capabilities, omissions).make();
     Plan plan;
     plan.method = scene.method;
-    plan.omitted.push_back({"context", "the tracer runs on the processor: no OpenGL context is made"});
+    plan.omitted.push_back(
+        {"context", "the tracer runs on the processor: no OpenGL context is made"});
     return plan;
 }
 
@@ -228,17 +255,20 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
     if (plan.method == Method::slice) {
         const SlicePlan& slice = plan.slice;
         row("context", capabilities.renderer);
-        row("slabs", fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs, facts.near_depth,
-                                 facts.far_depth, facts.voxels_along_view / slice.slabs));
+        row("slabs",
+            fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
+                        facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
         row("target", name_of(slice.target));
         row("classification", name_of(slice.classification));
         row("order", name_of(slice.order));
         row("scalar", text_of(slice.sampling));
         row("textures", fmt::format("{} of {}", slice.bricks.size(),
                                     slice.float_texture ? "float" : name_of(facts.type)));
-        if (slice.classification == Classification::preintegrated && slice.sampling != VolumeSampling::none) {
-            row("table", fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
-                                     slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
+        if (slice.classification == Classification::preintegrated &&
+            slice.sampling != VolumeSampling::none) {
+            row("table",
+                fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
+                            slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
         }
     }
     text += "left out\n";

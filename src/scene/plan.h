@@ -21,7 +21,7 @@ struct Omission {
 
 // Which omissions the user has switched off.
 struct OmissionSwitch {
-    bool none = false;  // --no-omit: leave out nothing
+    bool none = false;           // --no-omit: leave out nothing
     std::set<std::string> kept;  // --no-omit=NAME
     bool allows(const std::string& name) const { return !none && !kept.contains(name); }
 };
@@ -35,7 +35,8 @@ enum class VolumeSampling {
     hardware,  // linear filter of a texture in the file's own type, with the hardware's weights
 };
 
-// A part of the volume that one texture holds: samples first .. first + size - 1; neighbours share a layer of samples.
+// A part of the volume that one texture holds: samples first .. first + size - 1; neighbours share
+// a layer of samples.
 struct TextureBrick {
     std::array<std::int64_t, 3> first{0, 0, 0};
     std::array<std::int64_t, 3> size{1, 1, 1};
@@ -54,14 +55,14 @@ struct SlicePlan {
     Classification classification = Classification::post;
     Order order = Order::back_to_front;
     VolumeSampling sampling = VolumeSampling::fetch;
-    bool float_texture = false;     // samples normalised to their range and stored as R32F
-    bool table_filtered = false;    // tables go through the texture unit's filter instead of fetches
-    bool orthographic = false;      // rays are parallel: one direction, one length per depth
-    bool single_color = false;      // colour is a constant of the program
-    bool nan_transparent = false;   // samples may be NaN
-    bool nothing_visible = false;   // no slab is drawn
-    TablePlan table;                // for Classification::preintegrated
-    IndexBox drawn;                 // polygons cover this part of the box (segments are those of the whole box)
+    bool float_texture = false;    // samples normalised to their range and stored as R32F
+    bool table_filtered = false;   // tables go through the texture unit's filter instead of fetches
+    bool orthographic = false;     // rays are parallel: one direction, one length per depth
+    bool single_color = false;     // colour is a constant of the program
+    bool nan_transparent = false;  // samples may be NaN
+    bool nothing_visible = false;  // no slab is drawn
+    TablePlan table;               // for Classification::preintegrated
+    IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
     std::vector<TextureBrick> bricks;
 };
 

@@ -5,14 +5,20 @@
 
 namespace lamina {
 
-const char* name_of(Method method) { return method == Method::slice ? "slice" : "trace"; }
+const char* name_of(Method method) {
+    return method == Method::slice ? "slice" : "trace";
+}
 
 const char* name_of(Target target) {
     switch (target) {
-        case Target::float32: return "float32";
-        case Target::float16: return "float16";
-        case Target::fixed16: return "fixed16";
-        default: return "fixed8";
+        case Target::float32:
+            return "float32";
+        case Target::float16:
+            return "float16";
+        case Target::fixed16:
+            return "fixed16";
+        default:
+            return "fixed8";
     }
 }
 
@@ -24,7 +30,9 @@ const char* name_of(Order order) {
     return order == Order::back_to_front ? "back_to_front" : "front_to_back";
 }
 
-const char* name_of(Filter filter) { return filter == Filter::exact ? "exact" : "hardware"; }
+const char* name_of(Filter filter) {
+    return filter == Filter::exact ? "exact" : "hardware";
+}
 
 Volume load_volume(const Scene& scene) {
     return scene.volume_request ? generate(*scene.volume_request) : read_nrrd(scene.volume_file);

@@ -31,7 +31,7 @@ struct SliceSettings {
 // A scene file as read (DESIGN section 4): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
-    std::filesystem::path volume_file;              // or
+    std::filesystem::path volume_file;               // or
     std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_reader.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "image/image_limits.h"
 #include "scene/json_reader.h"
 #include "scene/transfer_function_json.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::int64_t max_image_edge = 65536;
-constexpr std::int64_t max_image_pixels = std::int64_t{1} << 27;  // 2 GiB of float RGBA
 constexpr std::int64_t max_slabs = 65536;
-
 
 GeneratorRequest read_generator(JsonReader reader) {
     GeneratorRequest request;
@@ -25,9 +24,11 @@ GeneratorRequest read_generator(JsonReader reader) {
                                      edge.get<std::int64_t>() <= largest_generated_axis;
                           });
         if (!good) {
-            reader.reject("size", fmt::format("three whole numbers from 1 to {}", largest_generated_axis));
+            reader.reject("size",
+                          fmt::format("three whole numbers from 1 to {}", largest_generated_axis));
         }
-        request.size = {{size[0].get<std::int64_t>(), size[1].get<std::int64_t>(), size[2].get<std::int64_t>()}};
+        request.size = {{size[0].get<std::int64_t>(), size[1].get<std::int64_t>(),
+                         size[2].get<std::int64_t>()}};
     }
     request.type = reader.choice<SampleType>("type", {{"uint8", SampleType::uint8},
                                                       {"uint16", SampleType::uint16},
@@ -53,27 +54,30 @@ void read_volume(JsonReader& reader, Scene& scene) {
 
 Camera read_camera(JsonReader reader) {
     Camera camera;
-    camera.projection = reader.choice<Projection>("projection",
-                                                  {{"perspective", Projection::perspective},
-                                                   {"orthographic", Projection::orthographic}});
+    camera.projection = reader.choice<Projection>(
+        "projection",
+        {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
     camera.eye = reader.vector("eye");
     camera.center = reader.vector("center");
     camera.up = reader.vector_or("up", camera.up);
     camera.fov_y = reader.number_or("fov_y", camera.fov_y);
-    if (!(camera.fov_y > 0 && camera.fov_y < 180)) reader.reject("fov_y", "degrees between 0 and 180");
-    if (camera.projection == Projection::orthographic) camera.height = reader.number("height");
-    else camera.height = reader.number_or("height", camera.height);
+    if (!(camera.fov_y > 0 && camera.fov_y < 180))
+        reader.reject("fov_y", "degrees between 0 and 180");
+    if (camera.projection == Projection::orthographic)
+        camera.height = reader.number("height");
+    else
+        camera.height = reader.number_or("height", camera.height);
     if (!(camera.height > 0)) reader.reject("height", "world units > 0");
     reader.close();
     return camera;
 }
 
 void read_image(JsonReader reader, Scene& scene) {
-    const std::int64_t width = reader.whole("width", 1, max_image_edge);
-    const std::int64_t height = reader.whole("height", 1, max_image_edge);
+    const std::int64_t width = reader.whole("width", 1, max_image_side);
+    const std::int64_t height = reader.whole("height", 1, max_image_side);
     if (width * height > max_image_pixels) {
-        reader.fail_at("width", fmt::format("found {} x {} pixels, expected at most {} in all", width, height,
-                                            max_image_pixels));
+        reader.fail_at("width", fmt::format("found {} x {} pixels, expected at most {} in all",
+                                            width, height, max_image_pixels));
     }
     scene.width = static_cast<int>(width);
     scene.height = static_cast<int>(height);
@@ -85,23 +89,24 @@ SliceSettings read_slice(JsonReader reader) {
     SliceSettings slice;
     if (reader.has("samples") && reader.value("samples") != "auto") {
         if (!reader.value("samples").is_number()) {
-            reader.reject("samples", fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs));
+            reader.reject("samples",
+                          fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs));
         }
         slice.samples = static_cast<int>(reader.whole("samples", 1, max_slabs));
     }
     slice.classification = reader.choice<Classification>(
         "classification",
         {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}});
-    slice.order = reader.choice<Order>(
-        "order", {{"back_to_front", Order::back_to_front}, {"front_to_back", Order::front_to_back}});
-    slice.filter = reader.choice<Filter>(
-        "filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
+    slice.order = reader.choice<Order>("order", {{"back_to_front", Order::back_to_front},
+                                                 {"front_to_back", Order::front_to_back}});
+    slice.filter =
+        reader.choice<Filter>("filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
     reader.close();
     return slice;
 }
 
-// The settings of the method "project" belong to the format: a scene for it and for slicing has them. They are checked
-// here, so that a slip does not wait, and used by no method of this version.
+// The settings of the method "project" belong to the format: a scene for it and for slicing has
+// them. They are checked here, so that a slip does not wait, and used by no method of this version.
 void check_project(JsonReader reader) {
     const auto check = [&](const char* key, const std::vector<std::pair<const char*, int>>& words) {
         reader.choice<int>(key, words);
@@ -167,12 +172,16 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
     while (true) {
         const std::size_t dot = key.find('.', start);
         const std::string part = key.substr(start, dot == std::string::npos ? dot : dot - start);
-        if (part.empty()) throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
+        if (part.empty())
+            throw UsageError(
+                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
         if (node->is_array()) {
-            const bool number = part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
+            const bool number =
+                part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
             if (!number || std::stoul(part) >= node->size()) {
-                throw UsageError(fmt::format("--set {}: found \"{}\", expected the number of one of {} elements", key,
-                                             part, node->size()));
+                throw UsageError(
+                    fmt::format("--set {}: found \"{}\", expected the number of one of {} elements",
+                                key, part, node->size()));
             }
             node = &(*node)[std::stoul(part)];
         } else if (node->is_object()) {

@@ -12,13 +12,14 @@
 
 namespace lamina {
 
-// The scene in `document`; `file` is for messages and relative paths. Throws KeyError (scene/json_reader.h).
-// `known`: collects the path of every key that the reader asks for, or null.
+// The scene in `document`; `file` is for messages and relative paths. Throws KeyError
+// (scene/json_reader.h). `known`: collects the path of every key that the reader asks for, or null.
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  std::set<std::string>* known = nullptr);
 
-// Sets `key` ("render.slice.samples", list elements by number) to `value`: JSON where it parses as JSON, else a string.
-// Throws UsageError when the path leads through something that is no object or list.
+// Sets `key` ("render.slice.samples", list elements by number) to `value`: JSON where it parses as
+// JSON, else a string. Throws UsageError when the path leads through something that is no object or
+// list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
 }  // namespace lamina

@@ -22,8 +22,9 @@ glm::dvec3 read_color(JsonReader& point) {
 
 double read_extinction(JsonReader& point, double unit_length, bool& opaque) {
     if (point.has("extinction") == point.has("opacity")) {
-        point.fail_at("extinction", point.has("opacity") ? "stands beside opacity, expected one of the two"
-                                                         : "is missing, expected extinction or opacity");
+        point.fail_at("extinction", point.has("opacity")
+                                        ? "stands beside opacity, expected one of the two"
+                                        : "is missing, expected extinction or opacity");
     }
     if (point.has("extinction")) {
         const double extinction = point.number("extinction");
@@ -36,14 +37,16 @@ double read_extinction(JsonReader& point, double unit_length, bool& opaque) {
     return extinction_from_opacity(opacity, unit_length);
 }
 
-// Interpolating towards opacity 1 means towards an arbitrary large extinction: the user should know.
+// Interpolating towards opacity 1 means towards an arbitrary large extinction: the user should
+// know.
 void warn_of_opaque_ramp(const std::vector<TransferKnot>& points, const std::vector<bool>& opaque,
                          const JsonReader& reader, std::vector<std::string>* warnings) {
     if (warnings == nullptr) return;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         if (opaque[i] == opaque[i + 1] || points[i].value == points[i + 1].value) continue;
         warnings->push_back(fmt::format(
-            "{}: transfer_function: linear interpolation from value {} to {} runs to opacity 1, taken as an optical "
+            "{}: transfer_function: linear interpolation from value {} to {} runs to opacity 1, "
+            "taken as an optical "
             "depth of {:g} per unit_length",
             reader.file().string(), points[i].value, points[i + 1].value, opaque_optical_depth));
         return;
@@ -60,8 +63,11 @@ void stretch(Colormap& colormap, JsonReader& reader) {
     }
     const double lo = range[0].get<double>(), hi = range[1].get<double>();
     const double from = colormap.colors.front().value, to = colormap.colors.back().value;
-    if (from == to) reader.fail_at("colormap_range", "cannot stretch a colour map that has a single value");
-    const auto stretched = [&](double value) { return lo + (hi - lo) * ((value - from) / (to - from)); };
+    if (from == to)
+        reader.fail_at("colormap_range", "cannot stretch a colour map that has a single value");
+    const auto stretched = [&](double value) {
+        return lo + (hi - lo) * ((value - from) / (to - from));
+    };
     for (ColorPoint& point : colormap.colors) point.value = stretched(point.value);
     for (OpacityPoint& point : colormap.opacities) point.value = stretched(point.value);
 }
@@ -75,15 +81,18 @@ Points read_points(JsonReader& reader, double unit_length, bool colored) {
     Points points;
     std::vector<JsonReader> elements = reader.objects("points");
     if (elements.size() > max_points) {
-        reader.fail_at("points", fmt::format("found {} points, expected at most {}", elements.size(), max_points));
+        reader.fail_at("points", fmt::format("found {} points, expected at most {}",
+                                             elements.size(), max_points));
     }
     for (JsonReader& element : elements) {
         bool opaque = false;
         TransferKnot knot;
         knot.value = element.number("value");
         if (!points.knots.empty() && knot.value < points.knots.back().value) {
-            element.reject("value", fmt::format("at least {}, the value before it (points go in order of value)",
-                                                points.knots.back().value));
+            element.reject(
+                "value",
+                fmt::format("at least {}, the value before it (points go in order of value)",
+                            points.knots.back().value));
         }
         if (colored) knot.optics.color = read_color(element);
         knot.optics.extinction = read_extinction(element, unit_length, opaque);

@@ -9,8 +9,10 @@
 
 namespace lamina {
 
-// The object "transfer_function" of scene files and of `lamina integrate` (DESIGN section 4); closes the reader.
-// `warnings` collects what the user should know and that is no error, or is null.
-TransferFunction read_transfer_function(JsonReader reader, std::vector<std::string>* warnings = nullptr);
+// The object "transfer_function" of scene files and of `lamina integrate` (DESIGN section 4);
+// closes the reader. `warnings` collects what the user should know and that is no error, or is
+// null.
+TransferFunction read_transfer_function(JsonReader reader,
+                                        std::vector<std::string>* warnings = nullptr);
 
 }  // namespace lamina

@@ -12,8 +12,8 @@
 #include "gl/check.h"
 #include "gl/query.h"
 #include "optics/preintegration_table.h"
-#include "slicing/texture_bricks.h"
 #include "slicing/shader_intervals.h"
+#include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
@@ -22,26 +22,35 @@ enum TextureUnit { volume_unit, intervals_unit, interval_starts_unit, preintegra
 
 gl::TextureFormat format_of(Target target) {
     switch (target) {
-        case Target::float32: return gl::TextureFormat::rgba32f;
-        case Target::float16: return gl::TextureFormat::rgba16f;
-        case Target::fixed16: return gl::TextureFormat::rgba16;
-        default: return gl::TextureFormat::rgba8;
+        case Target::float32:
+            return gl::TextureFormat::rgba32f;
+        case Target::float16:
+            return gl::TextureFormat::rgba16f;
+        case Target::fixed16:
+            return gl::TextureFormat::rgba16;
+        default:
+            return gl::TextureFormat::rgba8;
     }
 }
 
 int sampling_define(VolumeSampling sampling) {
     switch (sampling) {
-        case VolumeSampling::none: return 0;
-        case VolumeSampling::fetch: return 1;
-        default: return 2;
+        case VolumeSampling::none:
+            return 0;
+        case VolumeSampling::fetch:
+            return 1;
+        default:
+            return 2;
     }
 }
 
 bool uses_table(const SlicePlan& plan) {
-    return plan.classification == Classification::preintegrated && plan.sampling != VolumeSampling::none;
+    return plan.classification == Classification::preintegrated &&
+           plan.sampling != VolumeSampling::none;
 }
 
-// rgba of a coloured table: emission and mean extinction, one layer a length; a single channel without colour.
+// rgba of a coloured table: emission and mean extinction, one layer a length; a single channel
+// without colour.
 gl::Texture upload_table(const PreintegrationTable& table) {
     const std::size_t nodes = table.nodes.size();
     const int size = static_cast<int>(nodes);
@@ -54,7 +63,8 @@ gl::Texture upload_table(const PreintegrationTable& table) {
     gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::rgba32f, size, size, layers);
     std::vector<float> texels(4 * nodes * nodes);
     for (int layer = 0; layer < layers; ++layer) {
-        const float* const emission = table.emission.data() + 3 * nodes * nodes * static_cast<std::size_t>(layer);
+        const float* const emission =
+            table.emission.data() + 3 * nodes * nodes * static_cast<std::size_t>(layer);
         for (std::size_t i = 0; i < nodes * nodes; ++i) {
             std::copy_n(emission + 3 * i, 3, texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
             texels[4 * i + 3] = table.mean_extinction[i];
@@ -64,9 +74,11 @@ gl::Texture upload_table(const PreintegrationTable& table) {
     return texture;
 }
 
-// Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it has a width.
+// Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it
+// has a width.
 ValueRange shader_range(const ValueRange& range) {
-    return range.hi > range.lo ? range : ValueRange{range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
+    return range.hi > range.lo ? range
+                               : ValueRange{range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
 }
 
 }  // namespace
@@ -89,9 +101,11 @@ gl::Defines slab_defines(const SlicePlan& plan, int intervals, int table_nodes) 
     return defines;
 }
 
-GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function, const Facts& facts,
-                                 const SlicePlan& plan, int width, int height)
-    : facts_(facts), plan_(plan), range_(shader_range(facts.range)),
+GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
+                                 const Facts& facts, const SlicePlan& plan, int width, int height)
+    : facts_(facts),
+      plan_(plan),
+      range_(shader_range(facts.range)),
       target_(gl::Texture::make_2d(format_of(plan.target), width, height)) {
     if (plan_.nothing_visible) return;
     const Stopwatch table_watch;
@@ -107,28 +121,31 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
 void GlSliceRenderer::make_tables(const TransferFunction& transfer_function) {
     PreintegrationTable table;
     if (uses_table(plan_)) {
-        table = build_preintegration_table(transfer_function,
-                                           {range_.lo, range_.hi, plan_.table.max_length,
-                                            plan_.table.scalar_nodes, plan_.table.length_layers, plan_.table.colored});
+        table = build_preintegration_table(
+            transfer_function,
+            {range_.lo, range_.hi, plan_.table.max_length, plan_.table.scalar_nodes,
+             plan_.table.length_layers, plan_.table.colored});
         preintegration_ = upload_table(table);
         if (plan_.table_filtered) preintegration_.set_filter(gl::TextureFilter::linear);
         preintegration_.bind(preintegration_unit);
     }
     const ShaderIntervals intervals = make_intervals(transfer_function, range_, table.anchors);
     program_.emplace("slicing/slab.vert", "slicing/slab.frag",
-                          slab_defines(plan_, intervals.count, static_cast<int>(table.nodes.size())));
+                     slab_defines(plan_, intervals.count, static_cast<int>(table.nodes.size())));
     gl::Program& program = *program_;
     const glm::vec3 color(first_color(transfer_function, range_));
     program.set("single_color", color);
     if (plan_.sampling == VolumeSampling::none) {
         const OpticalProperties optics = transfer_function.at(range_.lo);
-        program.set("constant_optics", glm::vec4(glm::vec3(optics.color), static_cast<float>(optics.extinction)));
+        program.set("constant_optics",
+                    glm::vec4(glm::vec3(optics.color), static_cast<float>(optics.extinction)));
         return;
     }
     intervals_ = gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, 3);
     intervals_.upload({0, 0, 0, intervals.count, 3, 1}, std::span<const float>(intervals.texels));
     intervals_.bind(intervals_unit);
-    interval_starts_ = gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
+    interval_starts_ =
+        gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
     interval_starts_.upload({0, 0, 0, ShaderIntervals::start_count, 1, 1},
                             std::span<const float>(intervals.starts));
     interval_starts_.bind(interval_starts_unit);
@@ -155,7 +172,8 @@ void GlSliceRenderer::make_geometry(const View& view) {
         if (box.empty()) continue;
         const std::size_t first = triangles_.size();
         append_slab_polygons(view, facts_.grid, box, slabs_, plan_.order, triangles_);
-        draws_.push_back({brick, static_cast<int>(first), static_cast<int>(triangles_.size() - first)});
+        draws_.push_back(
+            {brick, static_cast<int>(first), static_cast<int>(triangles_.size() - first)});
     }
     const std::span<const SlabVertex> vertices(triangles_);
     if (vertices.size_bytes() > vertices_.byte_count()) {
@@ -169,8 +187,10 @@ void GlSliceRenderer::make_geometry(const View& view) {
 
 void GlSliceRenderer::set_view(const View& view) {
     gl::Program& program = *program_;
-    program.set("image_size", glm::vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
-    program.set("image_middle", glm::vec2(0.5f * static_cast<float>(view.width), 0.5f * static_cast<float>(view.height)));
+    program.set("image_size",
+                glm::vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
+    program.set("image_middle", glm::vec2(0.5f * static_cast<float>(view.width),
+                                          0.5f * static_cast<float>(view.height)));
     program.set("pixel_size", static_cast<float>(view.pixel));
     program.set("normalisation", volume_.normalisation);
     // Depth in the shader is relative to the middle of the slabs.
@@ -191,10 +211,12 @@ void GlSliceRenderer::set_brick(const View& view, std::size_t brick) {
     const TextureBrick& texture = plan_.bricks[brick];
     const glm::dvec3 first{texture.first[0], texture.first[1], texture.first[2]};
     const IndexBox box = box_of(texture, facts_.grid);
-    program.set("origin_middle", glm::vec3(facts_.grid.to_index(view.eye + slabs_.middle() * view.forward) - first));
+    program.set("origin_middle",
+                glm::vec3(facts_.grid.to_index(view.eye + slabs_.middle() * view.forward) - first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
-    program.set("last_sample", glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
+    program.set("last_sample",
+                glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
     if (!volume_.bricks.empty()) volume_.bricks[brick].bind(volume_unit);
 }
 
@@ -209,8 +231,10 @@ void GlSliceRenderer::draw(const View& view) {
     geometry_ms_ = geometry_watch.milliseconds();
     const Stopwatch draw_watch;
     glEnable(GL_BLEND);
-    if (plan_.order == Order::back_to_front) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    else glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    if (plan_.order == Order::back_to_front)
+        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    else
+        glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
     program_->use();
     vertex_array_.bind();
     for (const BrickDraw& draw : draws_) {

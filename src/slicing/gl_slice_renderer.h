@@ -20,15 +20,16 @@
 
 namespace lamina {
 
-// What a program of the slicing renderer is specialised by; the plan and the sizes of its tables decide.
+// What a program of the slicing renderer is specialised by; the plan and the sizes of its tables
+// decide.
 gl::Defines slab_defines(const SlicePlan& plan, int intervals, int table_nodes);
 
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive it.
 class GlSliceRenderer {
   public:
     // Uploads the volume, builds the tables and compiles the program; errors of OpenGL are Errors.
-    GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function, const Facts& facts,
-                    const SlicePlan& plan, int width, int height);
+    GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
+                    const Facts& facts, const SlicePlan& plan, int width, int height);
 
     void draw(const View& view);  // complete when it returns
     Image read() const { return target_.read_back(); }

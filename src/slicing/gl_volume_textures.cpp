@@ -11,18 +11,22 @@ namespace lamina {
 namespace {
 
 gl::TexelBox layer_of(const TextureBrick& brick, std::int64_t z) {
-    return {0, 0, static_cast<int>(z), static_cast<int>(brick.size[0]), static_cast<int>(brick.size[1]), 1};
+    return {
+        0, 0, static_cast<int>(z), static_cast<int>(brick.size[0]), static_cast<int>(brick.size[1]),
+        1};
 }
 
-std::size_t first_sample(const Grid& grid, const TextureBrick& brick, std::int64_t y, std::int64_t z) {
-    return static_cast<std::size_t>(((brick.first[2] + z) * grid.size[1] + brick.first[1] + y) * grid.size[0] +
-                                    brick.first[0]);
+std::size_t first_sample(const Grid& grid, const TextureBrick& brick, std::int64_t y,
+                         std::int64_t z) {
+    return static_cast<std::size_t>(
+        ((brick.first[2] + z) * grid.size[1] + brick.first[1] + y) * grid.size[0] + brick.first[0]);
 }
 
-// Uploads the brick layer by layer after converting each sample; the layer is the only copy in memory.
+// Uploads the brick layer by layer after converting each sample; the layer is the only copy in
+// memory.
 template <typename Texel, typename Sample, typename Convert>
-void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample* samples, const Convert& convert,
-                      gl::Texture& texture, Progress& progress) {
+void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample* samples,
+                      const Convert& convert, gl::Texture& texture, Progress& progress) {
     std::vector<Texel> layer(static_cast<std::size_t>(brick.size[0] * brick.size[1]));
     for (std::int64_t z = 0; z < brick.size[2]; ++z) {
         parallel_for(brick.size[1], 64, [&](std::int64_t y) {
@@ -37,20 +41,22 @@ void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample*
 
 // Uploads the samples as they lie in memory.
 template <typename Texel>
-void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* samples, gl::Texture& texture,
-                     Progress& progress) {
+void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* samples,
+                     gl::Texture& texture, Progress& progress) {
     const gl::PixelStore store{static_cast<int>(grid.size[0]), static_cast<int>(grid.size[1])};
-    const std::size_t count = static_cast<std::size_t>((brick.size[1] - 1) * grid.size[0] + brick.size[0]);
+    const std::size_t count =
+        static_cast<std::size_t>((brick.size[1] - 1) * grid.size[0] + brick.size[0]);
     for (std::int64_t z = 0; z < brick.size[2]; ++z) {
         check_interrupt();
-        texture.upload(layer_of(brick, z), std::span<const Texel>(samples + first_sample(grid, brick, 0, z), count),
+        texture.upload(layer_of(brick, z),
+                       std::span<const Texel>(samples + first_sample(grid, brick, 0, z), count),
                        store);
         progress.advance();
     }
 }
 
-void upload_brick(const Volume& volume, const ValueRange& range, bool as_float, const TextureBrick& brick,
-                  gl::Texture& texture, Progress& progress) {
+void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
+                  const TextureBrick& brick, gl::Texture& texture, Progress& progress) {
     const Grid& grid = volume.grid();
     if (as_float) {
         const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
@@ -63,13 +69,17 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float, 
             upload_converted<float>(grid, brick, samples, normalise, texture, progress);
         });
     } else if (volume.type() == SampleType::int16) {
-        const auto shift = [](std::int16_t sample) { return static_cast<std::uint16_t>(sample + 32768); };
-        upload_converted<std::uint16_t>(grid, brick, static_cast<const std::int16_t*>(volume.data()), shift, texture,
-                                        progress);
+        const auto shift = [](std::int16_t sample) {
+            return static_cast<std::uint16_t>(sample + 32768);
+        };
+        upload_converted<std::uint16_t>(
+            grid, brick, static_cast<const std::int16_t*>(volume.data()), shift, texture, progress);
     } else if (volume.type() == SampleType::uint16) {
-        upload_in_place(grid, brick, static_cast<const std::uint16_t*>(volume.data()), texture, progress);
+        upload_in_place(grid, brick, static_cast<const std::uint16_t*>(volume.data()), texture,
+                        progress);
     } else {
-        upload_in_place(grid, brick, static_cast<const std::uint8_t*>(volume.data()), texture, progress);
+        upload_in_place(grid, brick, static_cast<const std::uint8_t*>(volume.data()), texture,
+                        progress);
     }
 }
 
@@ -95,8 +105,8 @@ VolumeTextures upload_volume(const Volume& volume, const ValueRange& range, cons
     if (!plan.float_texture) textures.normalisation = normalisation_of(volume.type(), range);
     for (const TextureBrick& brick : plan.bricks) {
         gl::Texture texture =
-            gl::Texture::make_3d(format, static_cast<int>(brick.size[0]), static_cast<int>(brick.size[1]),
-                                 static_cast<int>(brick.size[2]));
+            gl::Texture::make_3d(format, static_cast<int>(brick.size[0]),
+                                 static_cast<int>(brick.size[1]), static_cast<int>(brick.size[2]));
         if (plan.sampling != VolumeSampling::fetch) texture.set_filter(gl::TextureFilter::linear);
         upload_brick(volume, range, plan.float_texture, brick, texture, progress);
         textures.bricks.push_back(std::move(texture));

@@ -13,38 +13,48 @@ constexpr double max_shader_extinction = 1e30;
 constexpr double max_inverse_width = 1e30;
 
 void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
-    for (int channel = 0; channel < 3; ++channel) row.push_back(static_cast<float>(optics.color[channel]));
+    for (int channel = 0; channel < 3; ++channel)
+        row.push_back(static_cast<float>(optics.color[channel]));
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
 }
 
 }  // namespace
 
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                                 const std::vector<PreintegrationTable::Anchor>& anchors) {
+                               const std::vector<PreintegrationTable::Anchor>& anchors) {
     ShaderIntervals intervals;
     const double width = range.hi - range.lo;
-    const auto normalised = [&](double value) { return width > 0 ? (value - range.lo) / width : 0.0; };
+    const auto normalised = [&](double value) {
+        return width > 0 ? (value - range.lo) / width : 0.0;
+    };
     std::vector<float> places, left, right;
     std::size_t anchor = 0;
-    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
-        const double piece_width = normalised(piece.to) - normalised(piece.from);
-        places.push_back(static_cast<float>(normalised(piece.from)));
-        places.push_back(piece_width > 0 ? static_cast<float>(std::min(1 / piece_width, max_inverse_width)) : 0.0f);
-        // A step is two anchors at one value: pieces lie between anchors of different value.
-        while (anchor + 2 < anchors.size() && anchors[anchor].value == anchors[anchor + 1].value) ++anchor;
-        const bool has_table = anchor + 1 < anchors.size();
-        const int node = has_table ? anchors[anchor].node : 0;
-        places.push_back(static_cast<float>(node));
-        places.push_back(has_table ? static_cast<float>(anchors[anchor + 1].node - node) : 0.0f);
-        append_optics(piece.at_from, left);
-        append_optics(piece.at_to, right);
-        ++anchor;
-    });
+    for_each_linear_piece(
+        transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
+            const double piece_width = normalised(piece.to) - normalised(piece.from);
+            places.push_back(static_cast<float>(normalised(piece.from)));
+            places.push_back(piece_width > 0
+                                 ? static_cast<float>(std::min(1 / piece_width, max_inverse_width))
+                                 : 0.0f);
+            // A step is two anchors at one value: pieces lie between anchors of different value.
+            while (anchor + 2 < anchors.size() &&
+                   anchors[anchor].value == anchors[anchor + 1].value)
+                ++anchor;
+            const bool has_table = anchor + 1 < anchors.size();
+            const int node = has_table ? anchors[anchor].node : 0;
+            places.push_back(static_cast<float>(node));
+            places.push_back(has_table ? static_cast<float>(anchors[anchor + 1].node - node)
+                                       : 0.0f);
+            append_optics(piece.at_from, left);
+            append_optics(piece.at_to, right);
+            ++anchor;
+        });
     intervals.count = static_cast<int>(places.size() / 4);
     int interval = 0;
     for (int i = 0; i < ShaderIntervals::start_count; ++i) {
         const float start = static_cast<float>(i) / ShaderIntervals::start_count;
-        while (interval + 1 < intervals.count && places[4 * static_cast<std::size_t>(interval + 1)] <= start) {
+        while (interval + 1 < intervals.count &&
+               places[4 * static_cast<std::size_t>(interval + 1)] <= start) {
             ++interval;
         }
         intervals.starts[static_cast<std::size_t>(i)] = static_cast<float>(interval);
@@ -58,11 +68,12 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
 glm::dvec3 first_color(const TransferFunction& transfer_function, const ValueRange& range) {
     glm::dvec3 color{0};
     bool found = false;
-    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
-        if (found) return;
-        found = piece.at_from.extinction > 0 || piece.at_to.extinction > 0;
-        if (found) color = piece.at_from.color;
-    });
+    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
+                          [&](const LinearPiece& piece) {
+                              if (found) return;
+                              found = piece.at_from.extinction > 0 || piece.at_to.extinction > 0;
+                              if (found) color = piece.at_from.color;
+                          });
     return color;
 }
 

@@ -10,21 +10,23 @@
 
 namespace lamina {
 
-// The transfer function over a volume's range as shaders read it (shaders/optics/intervals.glsl): intervals on which it
-// is linear, over scalars normalised so that the range is [0, 1]. Laid out as a texture of 3 rows, one column an
-// interval, RGBA: (left end, 1 / width, table node at the left end, table nodes to the right end), (colour, extinction)
-// at the left end, the same at the right end.
+// The transfer function over a volume's range as shaders read it (shaders/optics/intervals.glsl):
+// intervals on which it is linear, over scalars normalised so that the range is [0, 1]. Laid out as
+// a texture of 3 rows, one column an interval, RGBA: (left end, 1 / width, table node at the left
+// end, table nodes to the right end), (colour, extinction) at the left end, the same at the right
+// end.
 struct ShaderIntervals {
     static constexpr int start_count = 1024;
 
     int count = 0;
-    std::vector<float> texels;                 // 3 * count * 4
-    std::array<float, start_count> starts{};   // the interval in which each 1024th of [0, 1] begins: where to search from
+    std::vector<float> texels;  // 3 * count * 4
+    std::array<float, start_count>
+        starts{};  // the interval in which each 1024th of [0, 1] begins: where to search from
 };
 
 // `anchors`: of the pre-integration table that goes with it, or empty.
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                                 const std::vector<PreintegrationTable::Anchor>& anchors);
+                               const std::vector<PreintegrationTable::Anchor>& anchors);
 
 // The colour of the first part of [lo, hi] with extinction > 0; black where there is none.
 glm::dvec3 first_color(const TransferFunction& transfer_function, const ValueRange& range);

@@ -10,15 +10,18 @@
 namespace lamina {
 namespace {
 
-// Rasterisers snap vertices to 1/256 pixel and float32 rounds them: polygons are drawn this much larger, in pixels.
+// Rasterisers snap vertices to 1/256 pixel and float32 rounds them: polygons are drawn this much
+// larger, in pixels.
 constexpr double margin_pixels = 1.0 / 16;
-// A slab that begins nearer to the eye's plane than this part of its far depth is drawn over the whole image: points
-// in the eye's plane project to infinity.
+// A slab that begins nearer to the eye's plane than this part of its far depth is drawn over the
+// whole image: points in the eye's plane project to infinity.
 constexpr double near_share = 1e-6;
 
 using Polygon = std::vector<glm::dvec2>;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 // Andrew's monotone chain; `points` are sorted in place.
 void convex_hull(Polygon& points, Polygon& hull) {
@@ -68,8 +71,8 @@ class SlabCutter {
         }
     }
 
-    // The convex polygon, in pixels and inside the image, that covers the box between two depths; empty where there is
-    // nothing.
+    // The convex polygon, in pixels and inside the image, that covers the box between two depths;
+    // empty where there is nothing.
     const Polygon& cut(double front, double back) {
         polygon_.clear();
         collect_points(front, back);
@@ -84,7 +87,8 @@ class SlabCutter {
         points_.clear();
         for (const glm::dvec2& point : polygon_) {
             for (const double x : {-margin_pixels, margin_pixels}) {
-                for (const double y : {-margin_pixels, margin_pixels}) points_.push_back(point + glm::dvec2(x, y));
+                for (const double y : {-margin_pixels, margin_pixels})
+                    points_.push_back(point + glm::dvec2(x, y));
             }
         }
         convex_hull(points_, polygon_);
@@ -121,8 +125,10 @@ class SlabCutter {
     void project_points() {
         for (std::size_t i = 0; i < space_.size(); ++i) {
             const double scale =
-                1 / (view_.pixel * (view_.projection == Projection::perspective ? space_[i].z : 1.0));
-            points_[i] = {0.5 * view_.width + scale * space_[i].x, 0.5 * view_.height - scale * space_[i].y};
+                1 /
+                (view_.pixel * (view_.projection == Projection::perspective ? space_[i].z : 1.0));
+            points_[i] = {0.5 * view_.width + scale * space_[i].x,
+                          0.5 * view_.height - scale * space_[i].y};
         }
     }
 
@@ -134,16 +140,18 @@ class SlabCutter {
 
 }  // namespace
 
-void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box, const Slabs& slabs, Order order,
-                          std::vector<SlabVertex>& triangles) {
+void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
+                          const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles) {
     SlabCutter cutter(view, grid, box);
     for (int i = 0; i < slabs.count; ++i) {
         const int slab = order == Order::front_to_back ? i : slabs.count - 1 - i;
         const double front = slabs.depth(slab), back = slabs.depth(slab + 1);
         const Polygon& polygon = cutter.cut(front, back);
         const auto vertex = [&](std::size_t corner) {
-            return SlabVertex{static_cast<float>(polygon[corner].x), static_cast<float>(polygon[corner].y),
-                              static_cast<float>(front - slabs.middle()), static_cast<float>(back - slabs.middle())};
+            return SlabVertex{static_cast<float>(polygon[corner].x),
+                              static_cast<float>(polygon[corner].y),
+                              static_cast<float>(front - slabs.middle()),
+                              static_cast<float>(back - slabs.middle())};
         };
         for (std::size_t corner = 2; corner < polygon.size(); ++corner) {
             triangles.insert(triangles.end(), {vertex(0), vertex(corner - 1), vertex(corner)});

@@ -10,11 +10,12 @@
 
 namespace lamina {
 
-// The brick's part of the volume's box: its samples, and at the volume's own border what lies beyond them.
+// The brick's part of the volume's box: its samples, and at the volume's own border what lies
+// beyond them.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
 
 // Numbers of the bricks of plan.bricks, so that along every ray they come in the plan's order.
-std::vector<std::size_t> visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid, const View& view,
-                                          Order order);
+std::vector<std::size_t> visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
+                                          const View& view, Order order);
 
 }  // namespace lamina

@@ -55,7 +55,8 @@ TEST(Facts, NonFiniteSamplesAreCountedAndNeedAWord) {
     samples[0] = INFINITY;
     const Volume volume = reference_test::make_volume(grid, samples);
     Scene scene = read_scene(minimal_scene(), "s");
-    expect_error([&] { measure(scene, volume, measure_bricks(volume)); }, {"2 NaN", "of 27", "transparent"});
+    expect_error([&] { measure(scene, volume, measure_bricks(volume)); },
+                 {"2 NaN", "of 27", "transparent"});
     scene.nan = NanPolicy::transparent;
     EXPECT_EQ(measure(scene, volume, measure_bricks(volume)).non_finite, 2);
     const Volume nothing = reference_test::make_volume(grid, std::vector<float>(27, NAN));

@@ -41,10 +41,12 @@ TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
 TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {
     Capabilities capabilities = usual();
     capabilities.max_texture_size = 16;
-    expect_error([&] { plan_of(minimal_scene(), capabilities); }, {"32 x 24", "at most 16", "test"});
+    expect_error([&] { plan_of(minimal_scene(), capabilities); },
+                 {"32 x 24", "at most 16", "test"});
     capabilities = usual();
     capabilities.max_texture_bytes = 16 * 100;
-    expect_error([&] { plan_of(minimal_scene(), capabilities); }, {"32 x 24", "at most 100", "test"});
+    expect_error([&] { plan_of(minimal_scene(), capabilities); },
+                 {"32 x 24", "at most 100", "test"});
 }
 
 TEST(Plan, TracingMakesNoContext) {
@@ -61,7 +63,8 @@ TEST(Plan, EveryOmissionCanBeSwitchedOffByItsName) {
     const Plan plan = make_plan(scene, facts, usual(), {});
     ASSERT_FALSE(plan.omitted.empty());
     for (const Omission& omission : plan.omitted) {
-        EXPECT_NE(std::find(names.begin(), names.end(), omission.name), names.end()) << omission.name;
+        EXPECT_NE(std::find(names.begin(), names.end(), omission.name), names.end())
+            << omission.name;
         EXPECT_FALSE(omission.reason.empty());
         OmissionSwitch without;
         without.kept = {omission.name};

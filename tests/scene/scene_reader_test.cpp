@@ -43,19 +43,22 @@ TEST(SceneReader, PathsAreRelativeToTheScene) {
     EXPECT_EQ(read_scene(with("/volume", "a/b.nrrd"), "/x/scene.json").volume_file, "/x/a/b.nrrd");
     EXPECT_EQ(read_scene(with("/volume", "/a/b.nrrd"), "/x/scene.json").volume_file, "/a/b.nrrd");
     setenv("LAMINA_DATA", "/data", 1);
-    EXPECT_EQ(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file, "/data/b.nrrd");
+    EXPECT_EQ(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file,
+              "/data/b.nrrd");
     unsetenv("LAMINA_DATA");
     EXPECT_THROW(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json"), KeyError);
 }
 
 TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
     const TemporaryFolder folder;
-    write_bytes_to(folder / "map.json",
-                   R"([{"Name": "two", "ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
+    write_bytes_to(
+        folder / "map.json",
+        R"([{"Name": "two", "ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
     nlohmann::json document = minimal_scene();
-    document["transfer_function"] = {{"colormap", "map.json"},
-                                     {"colormap_range", {0, 255}},
-                                     {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 2}}}}};
+    document["transfer_function"] = {
+        {"colormap", "map.json"},
+        {"colormap_range", {0, 255}},
+        {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 2}}}}};
     const TransferFunction read = read_scene(document, folder / "scene.json").transfer_function;
     EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
     EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);

@@ -28,7 +28,8 @@ std::set<std::string> asked_for(const nlohmann::json& document) {
         read_scene(document, "s", &asked);
     } catch (const Error&) {  // the colour map that is asked for below does not exist
     }
-    for (const std::string& key : asked) keys.insert(std::regex_replace(key, std::regex("\\.[0-9]+"), ""));
+    for (const std::string& key : asked)
+        keys.insert(std::regex_replace(key, std::regex("\\.[0-9]+"), ""));
     return keys;
 }
 
@@ -46,7 +47,8 @@ TEST(Schema, NamesTheKeysOfTheReader) {
 TEST(Schema, EverySceneThatShipsIsRead) {
     setenv("LAMINA_DATA", "data", 1);
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(LAMINA_SOURCE_DIR "/data/scenes")) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(LAMINA_SOURCE_DIR "/data/scenes")) {
         EXPECT_NO_THROW(read_scene(load_json(entry.path()), entry.path())) << entry.path();
         ++count;
     }

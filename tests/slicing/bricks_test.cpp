@@ -12,19 +12,24 @@ Capabilities with_small_textures(Capabilities capabilities, std::uint64_t bytes)
     return capabilities;
 }
 
-std::vector<TextureBrick> bricks_of(const Volume& volume, const Scene& scene, const Capabilities& capabilities) {
+std::vector<TextureBrick> bricks_of(const Volume& volume, const Scene& scene,
+                                    const Capabilities& capabilities) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     return make_plan(scene, facts, capabilities, {}).slice.bricks;
 }
 
 TEST_F(SlicingTest, BricksCoverEveryCellOnce) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{37, 20, 53}, SampleType::uint8});
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(255, {1, 1, 1}, 1)}),
-                                 Projection::perspective, 8, 8);
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{37, 20, 53}, SampleType::uint8});
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(255, {1, 1, 1}, 1)}),
+                       Projection::perspective, 8, 8);
     OmissionSwitch nothing;
     nothing.none = true;
     const Facts facts = measure(scene, volume, measure_bricks(volume));
-    const auto bricks = make_plan(scene, facts, with_small_textures(capabilities(), 4 * 3000), nothing).slice.bricks;
+    const auto bricks =
+        make_plan(scene, facts, with_small_textures(capabilities(), 4 * 3000), nothing)
+            .slice.bricks;
     ASSERT_GT(bricks.size(), 8u);
     std::vector<int> times(36 * 19 * 52);
     for (const TextureBrick& brick : bricks) {
@@ -46,8 +51,9 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-1, 2);
     for (int trial = 0; trial < 60; ++trial) {
-        Scene scene = unit_box_scene(smooth_transfer_function(),
-                                     trial % 2 == 0 ? Projection::perspective : Projection::orthographic, 16, 16);
+        Scene scene = unit_box_scene(
+            smooth_transfer_function(),
+            trial % 2 == 0 ? Projection::perspective : Projection::orthographic, 16, 16);
         scene.camera.eye = {place(random), place(random), place(random)};
         scene.camera.fov_y = 120;
         const View view(scene.camera, scene.width, scene.height);
@@ -58,9 +64,11 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
             const View::Ray ray = view.ray(row, (row * 5) % 16);
             double last = 0;
             for (const std::size_t brick : order) {
-                // Where the ray is inside this brick: by bisection-free slab clipping in index space, in double.
+                // Where the ray is inside this brick: by bisection-free slab clipping in index
+                // space, in double.
                 const IndexBox box = box_of(bricks[brick], grid);
-                const glm::dvec3 origin = grid.to_index(ray.origin), direction = grid.direction_to_index(ray.direction);
+                const glm::dvec3 origin = grid.to_index(ray.origin),
+                                 direction = grid.direction_to_index(ray.direction);
                 double enter = 0, leave = INFINITY;
                 for (int axis = 0; axis < 3; ++axis) {
                     const double a = (box.min[axis] - origin[axis]) / direction[axis];
@@ -76,29 +84,35 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
     }
 }
 
-// Cutting shortens segments at the bricks' faces and changes nothing else: both pictures have the same second-order
-// error, here below .2 of 255; a seam (a layer twice or not at all) would cost a whole segment, over 1 of 255.
+// Cutting shortens segments at the bricks' faces and changes nothing else: both pictures have the
+// same second-order error, here below .2 of 255; a seam (a layer twice or not at all) would cost a
+// whole segment, over 1 of 255.
 TEST_F(SlicingTest, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
-    for (const Classification classification : {Classification::post, Classification::preintegrated}) {
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
         for (const Order order : {Order::back_to_front, Order::front_to_back}) {
             Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
             scene.slice.samples = 200;
             scene.slice.classification = classification;
             scene.slice.order = order;
             const Image whole = render(volume, scene, capabilities());
-            const Image cut = render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000));
+            const Image cut =
+                render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000));
             EXPECT_LE(image_error(whole, cut).all.linf, .2);
         }
     }
 }
 
 TEST_F(SlicingTest, BricksOfAHomogeneousBoxGiveTheExactChord) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{20, 30, 25}, SampleType::uint8});
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 3)}), Projection::perspective);
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{20, 30, 25}, SampleType::uint8});
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 3)}), Projection::perspective);
     scene.slice.samples = 40;
     const Image image =
-        render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000), leave_nothing_out());
+        render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000),
+               leave_nothing_out());
     const View view(scene.camera, scene.width, scene.height);
     double worst = 0;
     for (int row = 0; row < view.height; ++row) {
@@ -107,7 +121,9 @@ TEST_F(SlicingTest, BricksOfAHomogeneousBoxGiveTheExactChord) {
             worst = std::max(worst, std::abs(image.pixel(column, row)[3] + std::expm1(-3 * chord)));
         }
     }
-    EXPECT_LE(worst, 3e-5);  // depth up to 5, float32 lengths good to 1e-6 of the box over some 70 segments
+    EXPECT_LE(
+        worst,
+        3e-5);  // depth up to 5, float32 lengths good to 1e-6 of the box over some 70 segments
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ Scene scene_for(Classification classification) {
 
 TEST(SlicingContexts, OsmesaRepeatsItselfBitForBit) {
     const Volume volume = gaussians(32);
-    for (const Classification classification : {Classification::post, Classification::preintegrated}) {
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
         const Scene scene = scene_for(classification);
         const Image first = render_in(gl::ContextKind::osmesa, volume, scene);
         EXPECT_EQ(first.rgba, render_in(gl::ContextKind::osmesa, volume, scene).rgba);
@@ -29,11 +30,13 @@ TEST(SlicingContexts, OsmesaRepeatsItselfBitForBit) {
 TEST(SlicingContexts, EglAgreesWithOsmesa) {
     if (!gl::has_egl()) GTEST_SKIP() << "no libEGL.so.1";
     const Volume volume = gaussians(32);
-    for (const Classification classification : {Classification::post, Classification::preintegrated}) {
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
         const Scene scene = scene_for(classification);
         const Image osmesa = render_in(gl::ContextKind::osmesa, volume, scene);
         // The bound of the project's first issue, of full scale.
-        EXPECT_LE(image_error(osmesa, render_in(gl::ContextKind::egl, volume, scene)).all.linf, 255 * 1e-4);
+        EXPECT_LE(image_error(osmesa, render_in(gl::ContextKind::egl, volume, scene)).all.linf,
+                  255 * 1e-4);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer's pictures run towards the reference tracer's, at the order that mathematics promises.
+// The renderer's pictures run towards the reference tracer's, at the order that mathematics
+// promises.
 #include <cmath>
 
 #include "slicing_fixture.h"
@@ -33,7 +34,8 @@ TEST_F(SlicingTest, ErrorOfMidpointSamplesFallsAtSecondOrder) {
         for (const int n : samples) {
             errors.push_back(l2_against(reference, volume, scene, n, capabilities()));
         }
-        // Midpoint rule on a continuous integrand with kinks: order 2. 1.7 leaves room for kinks and for the silhouette.
+        // Midpoint rule on a continuous integrand with kinks: order 2. 1.7 leaves room for kinks
+        // and for the silhouette.
         EXPECT_GE(order_of(samples, errors), 1.7);
         EXPECT_LT(errors.back(), .05);  // of 255, at 256 slabs
     }
@@ -42,7 +44,8 @@ TEST_F(SlicingTest, ErrorOfMidpointSamplesFallsAtSecondOrder) {
 TEST_F(SlicingTest, NarrowPeaksNeedFewerSlabsWithPreintegration) {
     const Volume volume = gaussians(64);
     Scene scene = unit_box_scene(
-        TransferFunction::linear({knot(.48, {.1, .5, 1}, 0), knot(.5, {1, .8, .2}, 40), knot(.52, {.9, .1, .1}, 0)}),
+        TransferFunction::linear(
+            {knot(.48, {.1, .5, 1}, 0), knot(.5, {1, .8, .2}, 40), knot(.52, {.9, .1, .1}, 0)}),
         Projection::perspective);
     const Image reference = trace(volume, scene, 1e-6);
     const double post = l2_against(reference, volume, scene, 512, capabilities());
@@ -52,13 +55,14 @@ TEST_F(SlicingTest, NarrowPeaksNeedFewerSlabsWithPreintegration) {
     EXPECT_LT(preintegrated, .5);
 }
 
-// Two slabs a voxel, a transfer function with a smooth surface, fetches and filters: the picture is the reference's to
-// the issue's own bound for real volumes, Linf 2 and L2 .25.
+// Two slabs a voxel, a transfer function with a smooth surface, fetches and filters: the picture is
+// the reference's to the issue's own bound for real volumes, Linf 2 and L2 .25.
 TEST_F(SlicingTest, TwoSlabsAVoxelMeetTheReference) {
-    const Volume volume = generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});
+    const Volume volume =
+        generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});
     Scene scene = unit_box_scene(
-        TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(100, {.1, .4, .8}, 0), knot(160, {.9, .6, .1}, 8),
-                                  knot(255, {1, 1, .9}, 30)}),
+        TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(100, {.1, .4, .8}, 0),
+                                  knot(160, {.9, .6, .1}, 8), knot(255, {1, 1, .9}, 30)}),
         Projection::perspective);
     scene.slice.classification = Classification::preintegrated;
     const Image reference = trace(volume, scene, 1e-6);
@@ -71,18 +75,21 @@ TEST_F(SlicingTest, TwoSlabsAVoxelMeetTheReference) {
     }
 }
 
-// The texture unit's 8-bit weights: at most 1/256 of the difference between neighbouring samples on each axis, and
-// seen as a difference from exact arithmetic, else this test would not notice a filter that is not the hardware's.
+// The texture unit's 8-bit weights: at most 1/256 of the difference between neighbouring samples on
+// each axis, and seen as a difference from exact arithmetic, else this test would not notice a
+// filter that is not the hardware's.
 TEST_F(SlicingTest, HardwareFilterHasAnErrorOfItsOwn) {
-    const Volume volume = generate({"marschner-lobb", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint8});
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(255, {1, 1, 1}, 3)}),
-                                 Projection::orthographic);
+    const Volume volume =
+        generate({"marschner-lobb", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint8});
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({knot(0, {0, 0, 0}, 0), knot(255, {1, 1, 1}, 3)}),
+                       Projection::orthographic);
     scene.slice.samples = 100;
     const Image exact = render(volume, scene, capabilities());
     scene.slice.filter = Filter::hardware;
     const double error = image_error(render(volume, scene, capabilities()), exact).all.linf;
-    // The scalar is off by at most 3/256 + half an 8-bit code of the range, extinction by 3 times that over a chord of
-    // at most sqrt(3), and opacity by no more than optical depth.
+    // The scalar is off by at most 3/256 + half an 8-bit code of the range, extinction by 3 times
+    // that over a chord of at most sqrt(3), and opacity by no more than optical depth.
     EXPECT_LE(error, 255 * 3 * std::sqrt(3.) * (3. / 256 + .5 / 255));
     EXPECT_GT(error, 0);
 }

@@ -31,9 +31,11 @@ double longest_chord(const Grid& grid, const View& view) {
     return longest;
 }
 
-// The bound of the project's first issue: relative 1e-4 for faint, 1e-5 of full scale for others, growing with depth
-// because the chord's own float32 rounding is multiplied by it.
-double bound(double depth) { return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth)); }
+// The bound of the project's first issue: relative 1e-4 for faint, 1e-5 of full scale for others,
+// growing with depth because the chord's own float32 rounding is multiplied by it.
+double bound(double depth) {
+    return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
+}
 
 void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilities& capabilities,
                          const OmissionSwitch& omissions) {
@@ -61,28 +63,32 @@ void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilit
                         worst = std::max(worst, std::abs(alpha + std::expm1(-extinction * chord)));
                     }
                 }
-                EXPECT_LE(worst, bound(depth)) << pose.name << ", depth " << depth << ", " << samples
-                                               << " slabs, " << name_of(order);
+                EXPECT_LE(worst, bound(depth)) << pose.name << ", depth " << depth << ", "
+                                               << samples << " slabs, " << name_of(order);
             }
         }
     }
 }
 
 TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacity) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     for (const Pose& pose : poses) expect_exact_chords(volume, pose, capabilities(), {});
 }
 
 TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacityWithNothingLeftOut) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     for (const Pose& pose : {poses[1], poses[2]}) {
         expect_exact_chords(volume, pose, capabilities(), leave_nothing_out());
     }
 }
 
 TEST_F(SlicingTest, EveryClassificationGivesTheSameHomogeneousBox) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{8, 8, 8}, SampleType::uint8});
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.3, .6, .9}, 2)}), Projection::perspective);
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{8, 8, 8}, SampleType::uint8});
+    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.3, .6, .9}, 2)}),
+                                 Projection::perspective);
     scene.slice.samples = 20;
     const Image post = render(volume, scene, capabilities(), leave_nothing_out());
     scene.slice.classification = Classification::preintegrated;

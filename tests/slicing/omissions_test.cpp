@@ -5,15 +5,18 @@
 namespace lamina {
 namespace {
 
-std::vector<std::string> omitted_in(const Volume& volume, const Scene& scene, const Capabilities& capabilities) {
+std::vector<std::string> omitted_in(const Volume& volume, const Scene& scene,
+                                    const Capabilities& capabilities) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     std::vector<std::string> names;
-    for (const Omission& omission : make_plan(scene, facts, capabilities, {}).omitted) names.push_back(omission.name);
+    for (const Omission& omission : make_plan(scene, facts, capabilities, {}).omitted)
+        names.push_back(omission.name);
     return names;
 }
 
 double change(const Volume& volume, const Scene& scene, const Capabilities& capabilities) {
-    return image_error(render(volume, scene, capabilities), render(volume, scene, capabilities, leave_nothing_out()))
+    return image_error(render(volume, scene, capabilities),
+                       render(volume, scene, capabilities, leave_nothing_out()))
         .all.linf;
 }
 
@@ -23,9 +26,10 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 TEST_F(SlicingTest, EmptySpaceIsLeftOutBitForBit) {
     const Volume volume = gaussians(64);
-    const TransferFunction top =
-        TransferFunction::linear({knot(.8, {.1, .5, .9}, 0), knot(.9, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
-    for (const Classification classification : {Classification::post, Classification::preintegrated}) {
+    const TransferFunction top = TransferFunction::linear(
+        {knot(.8, {.1, .5, .9}, 0), knot(.9, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
         for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
             Scene scene = unit_box_scene(top, projection);
             scene.slice.classification = classification;
@@ -39,14 +43,16 @@ TEST_F(SlicingTest, EmptySpaceIsLeftOutBitForBit) {
     }
 }
 
-// One visible sample in an otherwise transparent volume must be drawn: the bricks around it are not empty.
+// One visible sample in an otherwise transparent volume must be drawn: the bricks around it are not
+// empty.
 TEST_F(SlicingTest, OneVisibleSampleIsDrawn) {
     Grid grid = reference_test::make_grid({70, 70, 70}, Centering::node, glm::dvec3(1. / 69));
     std::vector<std::uint8_t> samples(70 * 70 * 70, 10);
     samples[48 * 4900 + 48 * 70 + 48] = 12;
     const Volume volume = reference_test::make_volume(grid, samples);
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(11, {1, 1, 1}, 0), knot(12, {1, 1, 1}, 300)}),
-                                 Projection::orthographic, 200, 150);
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({knot(11, {1, 1, 1}, 0), knot(12, {1, 1, 1}, 300)}),
+                       Projection::orthographic, 200, 150);
     scene.slice.samples = 300;
     ASSERT_TRUE(has(omitted_in(volume, scene, capabilities()), "empty_space"));
     const Image image = render(volume, scene, capabilities());
@@ -56,7 +62,8 @@ TEST_F(SlicingTest, OneVisibleSampleIsDrawn) {
 
 TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
     const Volume volume = gaussians(32);
-    const TransferFunction grey = TransferFunction::linear({knot(0, {.7, .7, .7}, 0), knot(1, {.7, .7, .7}, 5)});
+    const TransferFunction grey =
+        TransferFunction::linear({knot(0, {.7, .7, .7}, 0), knot(1, {.7, .7, .7}, 5)});
     Scene scene = unit_box_scene(grey, Projection::orthographic);
     scene.slice.samples = 400;
     scene.slice.classification = Classification::preintegrated;
@@ -66,16 +73,20 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
     // The same sums in another order of float32 operations: 400 of them.
     EXPECT_LE(change(volume, scene, capabilities()), 255 * 400 * 1.2e-7);
 
-    // Faint colours: a segment's depth is below .02, so its colour is off by at most .02/12 of the colour's range.
-    scene.transfer_function = TransferFunction::linear({knot(0, {0, 0, 1}, 0), knot(1, {1, 0, 0}, 3)});
+    // Faint colours: a segment's depth is below .02, so its colour is off by at most .02/12 of the
+    // colour's range.
+    scene.transfer_function =
+        TransferFunction::linear({knot(0, {0, 0, 1}, 0), knot(1, {1, 0, 0}, 3)});
     EXPECT_TRUE(has(omitted_in(volume, scene, capabilities()), "length_layers"));
     EXPECT_LE(change(volume, scene, capabilities()), 255 * .02 / 12);
 
-    scene.transfer_function = TransferFunction::linear({knot(0, {.2, .3, .4}, 2), knot(1, {.2, .3, .4}, 2)});
+    scene.transfer_function =
+        TransferFunction::linear({knot(0, {.2, .3, .4}, 2), knot(1, {.2, .3, .4}, 2)});
     EXPECT_TRUE(has(omitted_in(volume, scene, capabilities()), "volume_texture"));
     EXPECT_LE(change(volume, scene, capabilities()), 255 * 400 * 1.2e-7);
 
-    scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(2, {1, 1, 1}, 0)});
+    scene.transfer_function =
+        TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(2, {1, 1, 1}, 0)});
     EXPECT_TRUE(has(omitted_in(volume, scene, capabilities()), "drawing"));
     EXPECT_EQ(change(volume, scene, capabilities()), 0);
 }
@@ -83,12 +94,14 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
 // Almost, but not: these must not be left out.
 TEST_F(SlicingTest, WhatAlmostAppliesIsNotLeftOut) {
     const Volume volume = gaussians(32);
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.5, .5, .5}, 0), knot(1, {.5, .5, .500001}, 5)}),
-                                 Projection::perspective);
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(0, {.5, .5, .5}, 0), knot(1, {.5, .5, .500001}, 5)}),
+        Projection::perspective);
     auto names = omitted_in(volume, scene, capabilities());
     EXPECT_FALSE(has(names, "color"));
     EXPECT_FALSE(has(names, "perspective"));
-    scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(1, {1, 1, 1}, 1e-12)});
+    scene.transfer_function =
+        TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(1, {1, 1, 1}, 1e-12)});
     names = omitted_in(volume, scene, capabilities());
     EXPECT_FALSE(has(names, "drawing"));
     EXPECT_FALSE(has(names, "volume_texture"));

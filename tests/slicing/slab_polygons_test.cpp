@@ -15,9 +15,11 @@ double side(const SlabVertex& a, const SlabVertex& b, double x, double y) {
     return (double{b.column} - a.column) * (y - a.row) - (double{b.row} - a.row) * (x - a.column);
 }
 
-// Strictly inside: pixel centres on an edge belong to one of its two triangles, by the rasteriser's rule.
+// Strictly inside: pixel centres on an edge belong to one of its two triangles, by the rasteriser's
+// rule.
 bool inside(const SlabVertex* triangle, double x, double y) {
-    const double one = side(triangle[0], triangle[1], x, y), two = side(triangle[1], triangle[2], x, y),
+    const double one = side(triangle[0], triangle[1], x, y),
+                 two = side(triangle[1], triangle[2], x, y),
                  three = side(triangle[2], triangle[0], x, y);
     return (one > 0 && two > 0 && three > 0) || (one < 0 && two < 0 && three < 0);
 }
@@ -56,13 +58,15 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
         const View view(camera, 24, 18);
         const DepthRange depth = depth_range(grid, view);
         const Slabs slabs{depth.near, depth.far, 1 + trial % 9};
-        const IndexBox box{{low(random), low(random), low(random)}, {high(random), high(random), high(random)}};
+        const IndexBox box{{low(random), low(random), low(random)},
+                           {high(random), high(random), high(random)}};
         for (int slab = 0; slab < slabs.count; ++slab) {
             std::vector<SlabVertex> all, triangles;
             append_slab_polygons(view, grid, box, slabs, Order::front_to_back, all);
             const float front = static_cast<float>(slabs.depth(slab) - slabs.middle());
             for (std::size_t i = 0; i < all.size(); i += 3) {
-                if (all[i].front == front) triangles.insert(triangles.end(), all.begin() + i, all.begin() + i + 3);
+                if (all[i].front == front)
+                    triangles.insert(triangles.end(), all.begin() + i, all.begin() + i + 3);
             }
             for (int row = 0; row < view.height; ++row) {
                 for (int column = 0; column < view.width; ++column) {
@@ -73,8 +77,8 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
                         edge = edge || on_edge(&triangles[i], column + .5, row + .5);
                     }
                     EXPECT_LE(times, 1);
-                    const bool met =
-                        overlap(view.ray(column, row), box, slabs.depth(slab), slabs.depth(slab + 1)) > 1e-9;
+                    const bool met = overlap(view.ray(column, row), box, slabs.depth(slab),
+                                             slabs.depth(slab + 1)) > 1e-9;
                     if (met && !edge) {
                         EXPECT_EQ(times, 1) << "trial " << trial << ", slab " << slab;
                     }
@@ -88,12 +92,14 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
 
 TEST(SlabPolygons, ComeInTheOrderAskedFor) {
     const Grid grid = reference_test::make_grid({5, 5, 5}, Centering::node);
-    const View view(reference_test::camera_at(grid, Projection::perspective, {1, .3, .5}, 1.5), 32, 32);
+    const View view(reference_test::camera_at(grid, Projection::perspective, {1, .3, .5}, 1.5), 32,
+                    32);
     const DepthRange depth = depth_range(grid, view);
     const Slabs slabs{depth.near, depth.far, 12};
     for (const Order order : {Order::back_to_front, Order::front_to_back}) {
         std::vector<SlabVertex> triangles;
-        append_slab_polygons(view, grid, {grid.index_min(), grid.index_max()}, slabs, order, triangles);
+        append_slab_polygons(view, grid, {grid.index_min(), grid.index_max()}, slabs, order,
+                             triangles);
         for (std::size_t i = 3; i < triangles.size(); i += 3) {
             const float step = triangles[i].front - triangles[i - 3].front;
             EXPECT_GE(order == Order::front_to_back ? step : -step, 0);

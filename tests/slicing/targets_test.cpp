@@ -8,8 +8,9 @@ namespace {
 
 // One slab of an orthographic view of a constant volume: every pixel inside has the same opacity.
 Scene one_slab(Target target, double opacity) {
-    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.25, .5, 1}, -std::log1p(-opacity))}),
-                                 Projection::orthographic, 8, 8);
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({knot(0, {.25, .5, 1}, -std::log1p(-opacity))}),
+                       Projection::orthographic, 8, 8);
     scene.camera.eye = {.5, .5, 3};
     scene.camera.up = {0, 1, 0};
     scene.camera.height = .5;
@@ -19,9 +20,11 @@ Scene one_slab(Target target, double opacity) {
 }
 
 TEST_F(SlicingTest, FixedTargetsHoldTheNearestCode) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{4, 4, 4}, SampleType::uint8});
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{4, 4, 4}, SampleType::uint8});
     for (const double opacity : {.002, .01, .3, .5, .73, .999}) {
-        for (const auto& [target, codes] : {std::pair{Target::fixed8, 255.}, std::pair{Target::fixed16, 65535.}}) {
+        for (const auto& [target, codes] :
+             {std::pair{Target::fixed8, 255.}, std::pair{Target::fixed16, 65535.}}) {
             const Image image = render(volume, one_slab(target, opacity), capabilities());
             const double expected[] = {.25 * opacity, .5 * opacity, opacity, opacity};
             for (std::size_t channel = 0; channel < 4; ++channel) {
@@ -35,9 +38,11 @@ TEST_F(SlicingTest, FixedTargetsHoldTheNearestCode) {
 }
 
 TEST_F(SlicingTest, Float16TargetIsGoodToElevenBits) {
-    const Volume volume = generate({"constant", std::array<std::int64_t, 3>{4, 4, 4}, SampleType::uint8});
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{4, 4, 4}, SampleType::uint8});
     const Image image = render(volume, one_slab(Target::float16, .3), capabilities());
-    EXPECT_NEAR(image.pixel(2, 2)[3], .3, .3 / 1024);  // drivers may truncate: one unit in the last place
+    EXPECT_NEAR(image.pixel(2, 2)[3], .3,
+                .3 / 1024);  // drivers may truncate: one unit in the last place
     EXPECT_NE(image.pixel(2, 2)[3], .3f);
 }
 
@@ -48,7 +53,8 @@ TEST_F(SlicingTest, BothOrdersGiveTheSamePicture) {
     const Image back_to_front = render(volume, scene, capabilities());
     scene.slice.order = Order::front_to_back;
     // 150 roundings of float32 in each.
-    EXPECT_LE(image_error(back_to_front, render(volume, scene, capabilities())).all.linf, 255 * 150 * 1.2e-7);
+    EXPECT_LE(image_error(back_to_front, render(volume, scene, capabilities())).all.linf,
+              255 * 150 * 1.2e-7);
 }
 
 TEST_F(SlicingTest, NanCellsAreTransparentWhereAskedFor) {
@@ -64,12 +70,14 @@ TEST_F(SlicingTest, NanCellsAreTransparentWhereAskedFor) {
     const Image reference = trace(volume, scene, 1e-6);
     Capabilities fetching = capabilities();
     fetching.exact_float_filter = false;
-    for (const Classification classification : {Classification::post, Classification::preintegrated}) {
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
         for (const Capabilities& can : {capabilities(), fetching}) {
             scene.slice.classification = classification;
-            // A segment that straddles the border of a transparent cell is off by its own opacity: at most extinction 6
-            // over two segments of 1.8/800.
-            EXPECT_LE(image_error(render(volume, scene, can), reference).all.linf, 255 * 6 * 4 * 1.8 / 800);
+            // A segment that straddles the border of a transparent cell is off by its own opacity:
+            // at most extinction 6 over two segments of 1.8/800.
+            EXPECT_LE(image_error(render(volume, scene, can), reference).all.linf,
+                      255 * 6 * 4 * 1.8 / 800);
         }
     }
     scene.nan = NanPolicy::error;

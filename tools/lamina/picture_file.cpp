@@ -12,12 +12,14 @@ namespace {
 std::string checked_suffix(const std::filesystem::path& path, bool precise) {
     const std::string suffix = path.extension().string();
     if (suffix == ".npy" && !precise) {
-        throw UsageError(fmt::format("-o {}: .npy holds double precision, which only the method trace gives; expected "
-                                     ".exr or .png",
-                                     path.string()));
+        throw UsageError(fmt::format(
+            "-o {}: .npy holds double precision, which only the method trace gives; expected "
+            ".exr or .png",
+            path.string()));
     }
     if (suffix != ".exr" && suffix != ".png" && suffix != ".npy") {
-        throw UsageError(fmt::format("-o {}: found the suffix \"{}\", expected .exr, .png or .npy", path.string(), suffix));
+        throw UsageError(fmt::format("-o {}: found the suffix \"{}\", expected .exr, .png or .npy",
+                                     path.string(), suffix));
     }
     return suffix;
 }
@@ -30,8 +32,10 @@ PictureFile::PictureFile(const std::filesystem::path& path, bool precise)
 std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
                                const std::map<std::string, std::string>& attributes) {
     std::size_t clamped = 0;
-    if (suffix_ == ".png") clamped = write_png(file_, image, background);
-    else write_exr(file_, image, attributes);
+    if (suffix_ == ".png")
+        clamped = write_png(file_, image, background);
+    else
+        write_exr(file_, image, attributes);
     file_.commit();
     return clamped;
 }

@@ -11,11 +11,12 @@
 
 namespace lamina {
 
-// The picture that `render -o` writes: .exr, .png or .npy by the file's suffix. Made before rendering begins, so that a
-// path that cannot be written fails at once.
+// The picture that `render -o` writes: .exr, .png or .npy by the file's suffix. Made before
+// rendering begins, so that a path that cannot be written fails at once.
 class PictureFile {
   public:
-    // `precise`: a double-precision image will come, which .npy needs. Throws UsageError for a bad suffix.
+    // `precise`: a double-precision image will come, which .npy needs. Throws UsageError for a bad
+    // suffix.
     PictureFile(const std::filesystem::path& path, bool precise);
 
     // Returns how many pixels had to be clamped (PNG).

@@ -44,7 +44,8 @@ Scene load_scene(const RenderOptions& options, std::string& document_text) {
     for (const std::string& setting : options.settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) {
-            throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", setting));
+            throw UsageError(
+                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", setting));
         }
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }
@@ -54,7 +55,8 @@ Scene load_scene(const RenderOptions& options, std::string& document_text) {
         return read_scene(document, options.scene);
     } catch (const KeyError& error) {
         for (const std::string& key : keys) {
-            if (error.key == key || key.starts_with(error.key + ".") || error.key.starts_with(key + ".")) {
+            if (error.key == key || key.starts_with(error.key + ".") ||
+                error.key.starts_with(key + ".")) {
                 throw UsageError(error.what());
             }
         }
@@ -71,7 +73,8 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
         } else if (std::find(names.begin(), names.end(), name) != names.end()) {
             omissions.kept.insert(name);
         } else {
-            throw UsageError(fmt::format("--no-omit={}: expected one of {}", name, fmt::join(names, ", ")));
+            throw UsageError(
+                fmt::format("--no-omit={}: expected one of {}", name, fmt::join(names, ", ")));
         }
     }
     return omissions;
@@ -110,7 +113,8 @@ void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw&
 // One `lamina render`: from the files to the picture and what it cost.
 class RenderRun {
   public:
-    explicit RenderRun(const RenderOptions& options) : options_(options), scene_(load_scene(options, scene_text_)) {}
+    explicit RenderRun(const RenderOptions& options)
+        : options_(options), scene_(load_scene(options, scene_text_)) {}
 
     void run() {
         for (const std::string& warning : scene_.warnings) message(options_, warning);
@@ -127,14 +131,17 @@ class RenderRun {
         plan_ = make_plan(scene_, facts_, capabilities, omissions);
         if (options_.explain) fmt::print("{}", explain(plan_, facts_, capabilities));
         if (!picture) return;
-        if (tracing) trace(*picture);
-        else slice(*picture);
+        if (tracing)
+            trace(*picture);
+        else
+            slice(*picture);
         if (stats_file) {
             stats_file->write(to_json(stats_, plan_).dump(2) + "\n");
             stats_file->commit();
         }
-        message(options_, fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options_.output, scene_.width,
-                                      scene_.height, stats_.context, stats_.frames_ms.back()));
+        message(options_,
+                fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options_.output,
+                            scene_.width, scene_.height, stats_.context, stats_.frames_ms.back()));
     }
 
   private:
@@ -147,8 +154,9 @@ class RenderRun {
         stats_.stages_ms["measure"] = measure_watch.milliseconds();
         stats_.counts["non_finite_samples"] = facts_.non_finite;
         if (facts_.non_finite > 0) {
-            message(options_, fmt::format("{} samples are NaN or infinite: their cells are drawn transparent",
-                                          facts_.non_finite));
+            message(options_,
+                    fmt::format("{} samples are NaN or infinite: their cells are drawn transparent",
+                                facts_.non_finite));
         }
     }
 
@@ -162,10 +170,14 @@ class RenderRun {
     void slice(PictureFile& picture) {
         stats_.counts["clamped_colors"] = count_clamped_colors(scene_);
         if (stats_.counts["clamped_colors"] > 0) {
-            message(options_, fmt::format("{} transfer-function points have a colour above 1, which the target {} clamps",
-                                          stats_.counts["clamped_colors"], name_of(scene_.target)));
+            message(
+                options_,
+                fmt::format(
+                    "{} transfer-function points have a colour above 1, which the target {} clamps",
+                    stats_.counts["clamped_colors"], name_of(scene_.target)));
         }
-        GlSliceRenderer renderer(*volume_, scene_.transfer_function, facts_, plan_.slice, scene_.width, scene_.height);
+        GlSliceRenderer renderer(*volume_, scene_.transfer_function, facts_, plan_.slice,
+                                 scene_.width, scene_.height);
         const View view(scene_.camera, scene_.width, scene_.height);
         const Stopwatch frame_watch;
         renderer.draw(view);
@@ -177,7 +189,8 @@ class RenderRun {
         const Stopwatch read_watch;
         const Image image = renderer.read();
         stats_.stages_ms["read"] = read_watch.milliseconds();
-        time_frames(scene_, options_.frames, stats_, [&](const View& turned_view) { renderer.draw(turned_view); });
+        time_frames(scene_, options_.frames, stats_,
+                    [&](const View& turned_view) { renderer.draw(turned_view); });
         stats_.samples = plan_.slice.slabs;
         if (!options_.stats.empty()) stats_.fragments = renderer.count_fragments(view);
         stats_.bytes_gpu = gl::bytes_allocated();
@@ -203,15 +216,15 @@ class RenderRun {
     void write(PictureFile& picture, const AnyImage& image) {
         const Capabilities capabilities = context_ ? context_->capabilities() : Capabilities{};
         const Stopwatch watch;
-        const std::size_t clamped =
-            picture.write(image, scene_.background,
-                          {{"scene", scene_text_},
-                           {"plan", explain(plan_, facts_, capabilities)},
-                           {"renderer", stats_.context},
-                           {"software", "lamina " LAMINA_VERSION}});
+        const std::size_t clamped = picture.write(image, scene_.background,
+                                                  {{"scene", scene_text_},
+                                                   {"plan", explain(plan_, facts_, capabilities)},
+                                                   {"renderer", stats_.context},
+                                                   {"software", "lamina " LAMINA_VERSION}});
         stats_.stages_ms["write"] = watch.milliseconds();
         stats_.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
-        if (clamped > 0) message(options_, fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
+        if (clamped > 0)
+            message(options_, fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     }
 
     const RenderOptions& options_;
@@ -230,18 +243,25 @@ void add_render(CLI::App& app, int&) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* const verb = app.add_subcommand("render", "Render a scene to a picture");
     verb->add_option("SCENE", options->scene, "Scene file (JSON)")->required();
-    verb->add_option("-o,--output", options->output, "Picture to write: .exr, .png, or .npy (trace only)");
+    verb->add_option("-o,--output", options->output,
+                     "Picture to write: .exr, .png, or .npy (trace only)");
     verb->add_option("--method", options->method, "slice or trace; as --set render.method=...");
-    verb->add_option("--set", options->settings, "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
+    verb->add_option("--set", options->settings,
+                     "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
         ->allow_extra_args(false);
-    verb->add_option("--frames", options->frames, "Time this many frames, the camera turning a little")
+    verb->add_option("--frames", options->frames,
+                     "Time this many frames, the camera turning a little")
         ->check(CLI::Range(1, 1000000));
-    verb->add_option("--stats", options->stats, "Write times, counts and the plan to this JSON file");
+    verb->add_option("--stats", options->stats,
+                     "Write times, counts and the plan to this JSON file");
     verb->add_flag("--explain", options->explain, "Print what runs and what is left out, and why");
-    verb->add_flag("--no-omit{all}", options->kept, "Leave out nothing, or with =NAME keep one thing in");
+    verb->add_flag("--no-omit{all}", options->kept,
+                   "Leave out nothing, or with =NAME keep one thing in");
     verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, gl::ContextKind>{
-            {"auto", gl::ContextKind::automatic}, {"osmesa", gl::ContextKind::osmesa}, {"egl", gl::ContextKind::egl}}));
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, gl::ContextKind>{{"auto", gl::ContextKind::automatic},
+                                                   {"osmesa", gl::ContextKind::osmesa},
+                                                   {"egl", gl::ContextKind::egl}}));
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         if (options->output.empty() && !options->explain) {

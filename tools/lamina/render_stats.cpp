@@ -24,10 +24,14 @@ double peak_rss_mb() {
 
 const char* word_of(VolumeSampling sampling) {
     switch (sampling) {
-        case VolumeSampling::none: return "none";
-        case VolumeSampling::fetch: return "fetch";
-        case VolumeSampling::filtered: return "filtered";
-        default: return "hardware";
+        case VolumeSampling::none:
+            return "none";
+        case VolumeSampling::fetch:
+            return "fetch";
+        case VolumeSampling::filtered:
+            return "filtered";
+        default:
+            return "hardware";
     }
 }
 
@@ -41,7 +45,8 @@ Json plan_to_json(const Plan& plan) {
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
     json["bricks"] = slice.bricks.size();
-    if (slice.classification == Classification::preintegrated && slice.sampling != VolumeSampling::none) {
+    if (slice.classification == Classification::preintegrated &&
+        slice.sampling != VolumeSampling::none) {
         json["table"] = {{"scalars", slice.table.scalar_nodes},
                          {"lengths", slice.table.length_layers},
                          {"colored", slice.table.colored}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the program, one file each. add_X() declares the verb's options; its callback does the work and throws
-// Error (exit 1) or UsageError (exit 2), or sets the exit code for an outcome that is neither (compare: 3).
+// The verbs of the program, one file each. add_X() declares the verb's options; its callback does
+// the work and throws Error (exit 1) or UsageError (exit 2), or sets the exit code for an outcome
+// that is neither (compare: 3).
 #pragma once
 
 #include <CLI/CLI.hpp>

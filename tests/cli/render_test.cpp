@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// lamina render, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "image/exr.h"
+#include "image/metrics.h"
+#include "image/npy.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class Render : public testing::Test {
+  protected:
+    void SetUp() override {
+        scene = json::parse(R"({
+            "version": 1,
+            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
+            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
+                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
+            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
+            "image": {"width": 40, "height": 30},
+            "render": {"slice": {"samples": 60}}})");
+        write("scene.json", scene);
+    }
+
+    void write(const std::string& name, const json& document) {
+        write_bytes_to(folder / name, document.dump());
+    }
+
+    ProgramResult render(const std::vector<std::string>& options,
+                         const std::string& scene_name = "scene.json") {
+        std::vector<std::string> arguments{LAMINA_BINARY, "render", folder / scene_name};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_program(arguments);
+    }
+
+    // One line on stderr that names all of `parts`, exit code `code`, and no new file.
+    void expect_failure(const json& bad, const std::vector<std::string>& parts, int code = 1,
+                        const std::vector<std::string>& more = {}) {
+        write("bad.json", bad);
+        const auto files = [&] {
+            return std::distance(std::filesystem::directory_iterator(folder.path()), {});
+        };
+        const auto before = files();
+        std::vector<std::string> options{"-o", folder / "bad.exr"};
+        options.insert(options.end(), more.begin(), more.end());
+        const ProgramResult result = render(options, "bad.json");
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        for (const std::string& part : parts)
+            EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+        EXPECT_EQ(files(), before);
+    }
+
+    json with(const std::string& pointer, json value) {
+        json changed = scene;
+        changed[json::json_pointer(pointer)] = std::move(value);
+        return changed;
+    }
+
+    TemporaryFolder folder;
+    json scene;
+};
+
+TEST_F(Render, SliceAndTraceAgree) {
+    ASSERT_EQ(render({"-o", folder / "slice.exr", "--quiet"}).exit_code, 0);
+    ASSERT_EQ(render({"-o", folder / "trace.exr", "--method", "trace"}).exit_code, 0);
+    ASSERT_EQ(render({"-o", folder / "trace.npy", "--method", "trace"}).exit_code, 0);
+    const Image slice = read_exr(folder / "slice.exr"), trace = read_exr(folder / "trace.exr");
+    EXPECT_LT(image_error(slice, trace).all.linf, 1);
+    // Float32 against float64 of the same trace.
+    EXPECT_LT(image_error(trace, read_npy(folder / "trace.npy")).all.linf, 255 * 6e-8);
+}
+
+TEST_F(Render, TwiceGivesIdenticalFiles) {
+    for (const char* name : {"a.exr", "b.exr"}) {
+        ASSERT_EQ(render({"-o", folder / name, "--context", "osmesa"}).exit_code, 0);
+    }
+    EXPECT_EQ(read_bytes_of(folder / "a.exr"), read_bytes_of(folder / "b.exr"));
+}
+
+TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
+    ASSERT_EQ(
+        render({"-o", folder / "a.png", "--stats", folder / "s.json", "--frames", "3"}).exit_code,
+        0);
+    const json stats = json::parse(read_bytes_of(folder / "s.json"));
+    for (const char* key : {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu",
+                            "peak_rss_mb", "context", "plan", "omitted", "counts"}) {
+        EXPECT_TRUE(stats.contains(key)) << key;
+    }
+    EXPECT_EQ(stats["frame_ms"]["n"], 3);
+    EXPECT_LE(stats["frame_ms"]["min"], stats["frame_ms"]["median"]);
+    EXPECT_LE(stats["frame_ms"]["median"], stats["frame_ms"]["max"]);
+    EXPECT_EQ(stats["samples"], 60);
+    EXPECT_GT(stats["fragments"], 1000);
+    EXPECT_GT(stats["bytes_gpu"], 40 * 30 * 16);
+    ASSERT_EQ(render({"-o", folder / "t.png", "--stats", folder / "t.json", "--method", "trace"})
+                  .exit_code,
+              0);
+    const json trace = json::parse(read_bytes_of(folder / "t.json"));
+    EXPECT_GT(trace["error_estimate"], 0);
+    EXPECT_LE(trace["error_estimate"], 1e-5);
+}
+
+TEST_F(Render, FramesDoNotChangeTheWrittenPicture) {
+    ASSERT_EQ(render({"-o", folder / "a.exr"}).exit_code, 0);
+    ASSERT_EQ(render({"-o", folder / "b.exr", "--frames", "2"}).exit_code, 0);
+    EXPECT_EQ(read_bytes_of(folder / "a.exr"), read_bytes_of(folder / "b.exr"));
+}
+
+TEST_F(Render, ExplainSaysWhatIsLeftOut) {
+    const ProgramResult result = render(
+        {"--explain", "--set", "camera.projection=orthographic", "--set", "camera.height=2"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("perspective"), std::string::npos) << result.out;
+    EXPECT_NE(render({"--explain", "--no-omit"}).out.find("nothing"), std::string::npos);
+    EXPECT_EQ(render({"--explain", "--no-omit=perspective"}).exit_code, 0);
+}
+
+TEST_F(Render, QuietMeansQuiet) {
+    const ProgramResult result = render({"-o", folder / "a.exr", "--quiet"});
+    EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Render, MistakesOfUsageAreExitTwo) {
+    const std::vector<std::vector<std::string>> mistakes = {
+        {"-o", folder / "a.exr", "--set", "render.slice.sampels=8"},
+        {"-o", folder / "a.exr", "--set", "render.slice.samples=-8"},
+        {"-o", folder / "a.exr", "--set", "nonsense"},
+        {"-o", folder / "a.exr", "--method", "paint"},
+        {"-o", folder / "a.exr", "--context", "directx"},
+        {"-o", folder / "a.exr", "--no-omit=nothing"},
+        {"-o", folder / "a.exr", "--frames", "0"},
+        {"-o", folder / "a.jpeg"},
+        {"-o", folder / "a.npy"},
+        {},
+        {"--bogus"},
+    };
+    for (const auto& options : mistakes) {
+        const ProgramResult result = render(options);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    }
+}
+
+TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
+    expect_failure(with("/colour", 1), {"bad.json", "colour", "unknown key"});
+    expect_failure(with("/image/width", 0), {"image.width", "found 0"});
+    expect_failure(with("/image", {{"width", 1000000}, {"height", 1000000}}),
+                   {"image.width", "1000000"});
+    expect_failure(with("/camera/eye", {0.5, 0.5, 0.5}), {"camera"});
+    expect_failure(with("/transfer_function/points/1/extinction", -1), {"extinction", "found -1"});
+    expect_failure(with("/transfer_function/points/1/value", -1), {"points.1.value", "found -1"});
+    expect_failure(with("/volume", "none.nrrd"), {"none.nrrd", "no such file"});
+    expect_failure(with("/volume/generate", "teapot"), {"teapot"});
+    const ProgramResult unwritable = render({"-o", "/nowhere/at/all.exr"});
+    EXPECT_EQ(unwritable.exit_code, 1);
+    EXPECT_NE(unwritable.err.find("/nowhere/at/all.exr"), std::string::npos);
+}
+
+TEST_F(Render, BadVolumesAreOneLineAndLeaveNothing) {
+    write_bytes_to(
+        folder / "huge.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 16384 16384 4096\nencoding: raw\n\nabc");
+    expect_failure(with("/volume", "huge.nrrd"), {"huge.nrrd"});
+    write_bytes_to(folder / "cut.nrrd",
+                   std::string("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: "
+                               "gzip\n\n\x1f\x8b\x08\0\0\0\0\0\0\x03",
+                               80));
+    expect_failure(with("/volume", "cut.nrrd"), {"cut.nrrd"});
+    std::string floats =
+        "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: text\n\n0 1 0.5 nan 1 0 0 "
+        "0.2\n";
+    write_bytes_to(folder / "nan.nrrd", floats);
+    expect_failure(with("/volume", "nan.nrrd"), {"nan.nrrd", "1 NaN", "of 8", "transparent"});
+    json transparent = with("/volume", "nan.nrrd");
+    transparent["nan"] = "transparent";
+    write("nan.json", transparent);
+    EXPECT_EQ(render({"-o", folder / "nan.exr"}, "nan.json").exit_code, 0);
+    EXPECT_NO_THROW(read_exr(folder / "nan.exr"));  // which refuses NaN
+}
+
+}  // namespace
+}  // namespace lamina
