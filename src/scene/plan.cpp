@@ -9,6 +9,10 @@
 namespace lamina {
 namespace {
 
+// A software frame may take a minute: it is drawn in so many parts, at no cost that could be
+// measured.
+constexpr int software_batches = 64;
+
 constexpr double samples_per_voxel = 2;  // of "samples": "auto"
 constexpr int max_slabs = 65536;
 
@@ -107,6 +111,7 @@ class SlicePlanner {
         slice.target = scene_.target;
         slice.classification = scene_.slice.classification;
         slice.order = scene_.slice.order;
+        slice.batches = capabilities_.software ? software_batches : 1;
         slice.nan_transparent = facts_.non_finite > 0;
         slice.table_filtered =
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;

@@ -60,6 +60,7 @@ struct SlicePlan {
     bool orthographic = false;     // rays are parallel: one direction, one length per depth
     bool single_color = false;     // colour is a constant of the program
     bool nan_transparent = false;  // samples may be NaN
+    int batches = 1;               // draws of a frame, each waited for: progress, and Ctrl-C
     bool nothing_visible = false;  // no slab is drawn
     TablePlan table;               // for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)

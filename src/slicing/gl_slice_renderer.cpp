@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 
+#include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "gl/check.h"
 #include "gl/query.h"
@@ -172,8 +173,7 @@ void GlSliceRenderer::make_geometry(const View& view) {
         if (box.empty()) continue;
         const std::size_t first = triangles_.size();
         append_slab_polygons(view, facts_.grid, box, slabs_, plan_.order, triangles_);
-        draws_.push_back(
-            {brick, static_cast<int>(first), static_cast<int>(triangles_.size() - first)});
+        if (triangles_.size() > first) draws_.push_back({brick, first, triangles_.size()});
     }
     const std::span<const SlabVertex> vertices(triangles_);
     if (vertices.size_bytes() > vertices_.byte_count()) {
@@ -220,7 +220,7 @@ void GlSliceRenderer::set_brick(const View& view, std::size_t brick) {
     if (!volume_.bricks.empty()) volume_.bricks[brick].bind(volume_unit);
 }
 
-void GlSliceRenderer::draw(const View& view) {
+void GlSliceRenderer::draw(const View& view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));
     geometry_ms_ = draw_ms_ = 0;
@@ -231,20 +231,39 @@ void GlSliceRenderer::draw(const View& view) {
     geometry_ms_ = geometry_watch.milliseconds();
     const Stopwatch draw_watch;
     glEnable(GL_BLEND);
-    if (plan_.order == Order::back_to_front)
+    if (plan_.order == Order::back_to_front) {
         glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    else
+    } else {
         glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    }
     program_->use();
     vertex_array_.bind();
-    for (const BrickDraw& draw : draws_) {
-        set_brick(view, draw.brick);
-        glDrawArrays(GL_TRIANGLES, draw.first_vertex, draw.vertex_count);
-    }
+    draw_batches(view, progress);
     glDisable(GL_BLEND);
-    glFinish();
     draw_ms_ = draw_watch.milliseconds();
     gl::check("drawing the slabs");
+}
+
+// All triangles in order, in plan_.batches parts of equal size; a part may end in one brick and go
+// on in the next.
+void GlSliceRenderer::draw_batches(const View& view, Progress* progress) {
+    const std::size_t count = triangles_.size() / 3;
+    std::size_t drawn = 0, brick = 0;
+    for (int batch = 1; batch <= plan_.batches; ++batch) {
+        const std::size_t end =
+            3 * (count * static_cast<std::size_t>(batch) / static_cast<std::size_t>(plan_.batches));
+        while (drawn < end) {
+            const BrickDraw& draw = draws_[brick];
+            if (drawn == draw.first_vertex) set_brick(view, draw.brick);
+            const std::size_t part = std::min(end, draw.end_vertex) - drawn;
+            glDrawArrays(GL_TRIANGLES, static_cast<int>(drawn), static_cast<int>(part));
+            drawn += part;
+            while (brick < draws_.size() && drawn >= draws_[brick].end_vertex) ++brick;
+        }
+        glFinish();
+        check_interrupt();
+        if (progress != nullptr) progress->advance();
+    }
 }
 
 std::uint64_t GlSliceRenderer::count_fragments(const View& view) {

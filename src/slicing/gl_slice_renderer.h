@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/progress.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
@@ -31,7 +32,10 @@ class GlSliceRenderer {
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                     const Facts& facts, const SlicePlan& plan, int width, int height);
 
-    void draw(const View& view);  // complete when it returns
+    // Complete when it returns. Ctrl-C ends it between batches of slabs; `progress` advances by
+    // batch_count in all.
+    void draw(const View& view, Progress* progress = nullptr);
+    int batch_count() const { return plan_.nothing_visible ? 0 : plan_.batches; }
     Image read() const { return target_.read_back(); }
     std::uint64_t count_fragments(const View& view);  // of one frame; draws it
 
@@ -43,12 +47,13 @@ class GlSliceRenderer {
   private:
     struct BrickDraw {
         std::size_t brick;
-        int first_vertex, vertex_count;
+        std::size_t first_vertex, end_vertex;
     };
 
     void make_tables(const TransferFunction& transfer_function);
     void make_geometry(const View& view);
     void set_view(const View& view);
+    void draw_batches(const View& view, Progress* progress);
     void set_brick(const View& view, std::size_t brick);
 
     Facts facts_;

@@ -180,7 +180,10 @@ class RenderRun {
                                  scene_.width, scene_.height);
         const View view(scene_.camera, scene_.width, scene_.height);
         const Stopwatch frame_watch;
-        renderer.draw(view);
+        {
+            Progress progress("slicing", renderer.batch_count());
+            renderer.draw(view, &progress);
+        }
         stats_.frames_ms = {frame_watch.milliseconds()};
         stats_.stages_ms["tables"] = renderer.table_ms();
         stats_.stages_ms["upload"] = renderer.upload_ms();
