@@ -2,7 +2,7 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Twin of PreintegrationTable::lookup_split (optics/preintegration_table.h). Texel (front node, back node): mean extinction in
+// Twin of PreintegrationTable::lookup (optics/preintegration_table.h). Texel (front node, back node): mean extinction in
 // the last component; with colour, emission in rgb and one layer a length.
 #ifdef TABLE_COLORED
 uniform sampler3D preintegration;

@@ -103,10 +103,6 @@ double PreintegrationTable::coordinate(double value) const {
 }
 
 SegmentIntegral PreintegrationTable::lookup(double front, double back, double length) const {
-    return sample(*this, coordinate(front), coordinate(back), length);
-}
-
-SegmentIntegral PreintegrationTable::lookup_split(double front, double back, double length) const {
     std::array<Part, 3> parts = split(*this, std::min(front, back), std::max(front, back));
     if (front > back) {
         std::ranges::reverse(parts);

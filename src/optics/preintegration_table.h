@@ -48,16 +48,12 @@ struct PreintegrationTable {
     // right node.
     double coordinate(double value) const;
 
-    // One look-up: bilinear between nodes, linear in length (clamped to max_length), alpha =
-    // -expm1(-tbar * length), C = alpha * E / tbar. Smooth only within a linear piece: where front
-    // and back lie on both sides of a knot, and as close to it as a cell, tbar and E are no smooth
-    // functions, at any resolution.
+    // What shaders do (optics/preintegration.glsl): between nodes bilinear in the scalars and
+    // linear in length (clamped to max_length), alpha = -expm1(-tbar * length), C = alpha * E /
+    // tbar. tbar and E are smooth only within a linear piece: a segment is cut at the first and at
+    // the last anchor between its ends and composed of at most three look-ups, each within smooth
+    // cells or, between anchors, exact in the scalars.
     SegmentIntegral lookup(double front, double back, double length) const;
-
-    // At most three look-ups, composed with OVER: from the front to the next anchor, between
-    // anchors (exact in the scalars), from the last anchor to the back. Each stays within smooth
-    // cells.
-    SegmentIntegral lookup_split(double front, double back, double length) const;
 };
 
 // In parallel. The table has at most 1.5 * scalar_nodes + 3 * (knots in (lo, hi) + 1) nodes. Throws

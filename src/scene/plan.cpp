@@ -269,8 +269,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("scalar", text_of(slice.sampling));
         row("textures", fmt::format("{} of {}", slice.bricks.size(),
                                     slice.float_texture ? "float" : name_of(facts.type)));
-        if (slice.classification == Classification::preintegrated &&
-            slice.sampling != VolumeSampling::none) {
+        if (slice.uses_table()) {
             row("table",
                 fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));

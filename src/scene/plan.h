@@ -65,6 +65,10 @@ struct SlicePlan {
     TablePlan table;               // for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
     std::vector<TextureBrick> bricks;
+
+    bool uses_table() const {
+        return classification == Classification::preintegrated && sampling != VolumeSampling::none;
+    }
 };
 
 // What will run: a pure function of scene, facts and capabilities, printable.

@@ -12,14 +12,11 @@
 #include "base/stopwatch.h"
 #include "gl/check.h"
 #include "gl/query.h"
-#include "optics/preintegration_table.h"
 #include "slicing/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
-
-enum TextureUnit { volume_unit, intervals_unit, interval_starts_unit, preintegration_unit };
 
 gl::TextureFormat format_of(Target target) {
     switch (target) {
@@ -45,36 +42,6 @@ int sampling_define(VolumeSampling sampling) {
     }
 }
 
-bool uses_table(const SlicePlan& plan) {
-    return plan.classification == Classification::preintegrated &&
-           plan.sampling != VolumeSampling::none;
-}
-
-// rgba of a coloured table: emission and mean extinction, one layer a length; a single channel
-// without colour.
-gl::Texture upload_table(const PreintegrationTable& table) {
-    const std::size_t nodes = table.nodes.size();
-    const int size = static_cast<int>(nodes);
-    if (!table.colored) {
-        gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::r32f, size, size);
-        texture.upload({0, 0, 0, size, size, 1}, std::span<const float>(table.mean_extinction));
-        return texture;
-    }
-    const int layers = static_cast<int>(table.lengths.size());
-    gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::rgba32f, size, size, layers);
-    std::vector<float> texels(4 * nodes * nodes);
-    for (int layer = 0; layer < layers; ++layer) {
-        const float* const emission =
-            table.emission.data() + 3 * nodes * nodes * static_cast<std::size_t>(layer);
-        for (std::size_t i = 0; i < nodes * nodes; ++i) {
-            std::copy_n(emission + 3 * i, 3, texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
-            texels[4 * i + 3] = table.mean_extinction[i];
-        }
-        texture.upload({0, 0, layer, size, size, 1}, std::span<const float>(texels));
-    }
-    return texture;
-}
-
 // Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it
 // has a width.
 ValueRange shader_range(const ValueRange& range) {
@@ -92,7 +59,7 @@ gl::Defines slab_defines(const SlicePlan& plan, int intervals, int table_nodes) 
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
     defines.set("INTERVALS", intervals);
-    if (!uses_table(plan)) return defines;
+    if (!plan.uses_table()) return defines;
     defines.set("PREINTEGRATED", 1);
     defines.set("TABLE_NODES", table_nodes);
     if (plan.table_filtered) defines.set("TABLE_FILTERED", 1);
@@ -110,7 +77,7 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
       target_(gl::Texture::make_2d(format_of(plan.target), width, height)) {
     if (plan_.nothing_visible) return;
     const Stopwatch table_watch;
-    make_tables(transfer_function);
+    make_program(transfer_function);
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;
     volume_ = upload_volume(volume, range_, plan);
@@ -119,44 +86,21 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     gl::check("uploading the volume");
 }
 
-void GlSliceRenderer::make_tables(const TransferFunction& transfer_function) {
-    PreintegrationTable table;
-    if (uses_table(plan_)) {
-        table = build_preintegration_table(
-            transfer_function,
-            {range_.lo, range_.hi, plan_.table.max_length, plan_.table.scalar_nodes,
-             plan_.table.length_layers, plan_.table.colored});
-        preintegration_ = upload_table(table);
-        if (plan_.table_filtered) preintegration_.set_filter(gl::TextureFilter::linear);
-        preintegration_.bind(preintegration_unit);
-    }
-    const ShaderIntervals intervals = make_intervals(transfer_function, range_, table.anchors);
+void GlSliceRenderer::make_program(const TransferFunction& transfer_function) {
+    const bool has_scalars = plan_.sampling != VolumeSampling::none;
+    if (has_scalars) tables_.emplace(transfer_function, range_, plan_);
     program_.emplace("slicing/slab.vert", "slicing/slab.frag",
-                     slab_defines(plan_, intervals.count, static_cast<int>(table.nodes.size())));
-    gl::Program& program = *program_;
-    const glm::vec3 color(first_color(transfer_function, range_));
-    program.set("single_color", color);
-    if (plan_.sampling == VolumeSampling::none) {
+                     has_scalars ? slab_defines(plan_, tables_->intervals(), tables_->nodes())
+                                 : slab_defines(plan_, 0, 0));
+    program_->set("single_color", glm::vec3(first_color(transfer_function, range_)));
+    if (has_scalars) {
+        tables_->bind(*program_);
+        program_->set("volume", GlTransferTables::first_free_unit);
+    } else {
         const OpticalProperties optics = transfer_function.at(range_.lo);
-        program.set("constant_optics",
-                    glm::vec4(glm::vec3(optics.color), static_cast<float>(optics.extinction)));
-        return;
-    }
-    intervals_ = gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, 3);
-    intervals_.upload({0, 0, 0, intervals.count, 3, 1}, std::span<const float>(intervals.texels));
-    intervals_.bind(intervals_unit);
-    interval_starts_ =
-        gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
-    interval_starts_.upload({0, 0, 0, ShaderIntervals::start_count, 1, 1},
-                            std::span<const float>(intervals.starts));
-    interval_starts_.bind(interval_starts_unit);
-    program.set("volume", volume_unit);
-    program.set("intervals", intervals_unit);
-    program.set("interval_starts", interval_starts_unit);
-    program.set("preintegration", preintegration_unit);
-    if (plan_.table.max_length > 0) {
-        program.set("layers_per_length",
-                    static_cast<float>((plan_.table.length_layers - 1) / plan_.table.max_length));
+        const double extinction = std::min(optics.extinction, max_shader_extinction);
+        program_->set("constant_optics",
+                      glm::vec4(glm::vec3(optics.color), static_cast<float>(extinction)));
     }
 }
 
@@ -217,7 +161,7 @@ void GlSliceRenderer::set_brick(const View& view, std::size_t brick) {
     program.set("box_max", glm::vec3(box.max - first));
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
-    if (!volume_.bricks.empty()) volume_.bricks[brick].bind(volume_unit);
+    if (!volume_.bricks.empty()) volume_.bricks[brick].bind(GlTransferTables::first_free_unit);
 }
 
 void GlSliceRenderer::draw(const View& view, Progress* progress) {

@@ -9,13 +9,13 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/texture.h"
 #include "gl/vertex_array.h"
 #include "image/image.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
 #include "scene/facts.h"
 #include "scene/plan.h"
+#include "slicing/gl_transfer_tables.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/slab_polygons.h"
 
@@ -50,7 +50,7 @@ class GlSliceRenderer {
         std::size_t first_vertex, end_vertex;
     };
 
-    void make_tables(const TransferFunction& transfer_function);
+    void make_program(const TransferFunction& transfer_function);
     void make_geometry(const View& view);
     void set_view(const View& view);
     void draw_batches(const View& view, Progress* progress);
@@ -61,8 +61,8 @@ class GlSliceRenderer {
     ValueRange range_;  // of scalars, as [0, 1] in shaders
     gl::Framebuffer target_;
     VolumeTextures volume_;
-    gl::Texture intervals_, interval_starts_, preintegration_;
-    std::optional<gl::Program> program_;  // none where nothing is visible
+    std::optional<GlTransferTables> tables_;  // none where no scalar is fetched
+    std::optional<gl::Program> program_;      // none where nothing is visible
     gl::VertexArray vertex_array_;
     gl::Buffer vertices_;
     Slabs slabs_;

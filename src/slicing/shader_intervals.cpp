@@ -8,8 +8,6 @@
 namespace lamina {
 namespace {
 
-// Extinction times length must stay finite in float32; at this extinction everything is opaque.
-constexpr double max_shader_extinction = 1e30;
 constexpr double max_inverse_width = 1e30;
 
 void append_optics(const OpticalProperties& optics, std::vector<float>& row) {

@@ -10,6 +10,9 @@
 
 namespace lamina {
 
+// Extinction times length must stay finite in float32; at this extinction everything is opaque.
+inline constexpr double max_shader_extinction = 1e30;
+
 // The transfer function over a volume's range as shaders read it (shaders/optics/intervals.glsl):
 // intervals on which it is linear, over scalars normalised so that the range is [0, 1]. Laid out as
 // a texture of 3 rows, one column an interval, RGBA: (left end, 1 / width, table node at the left

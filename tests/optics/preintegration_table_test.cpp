@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "optics/opacity.h"
 
 namespace lamina {
 namespace {
@@ -45,21 +46,50 @@ double color_error(const SegmentIntegral& a, const SegmentIntegral& b) {
     return worst;
 }
 
+// What the table stores for two of its nodes and one of its lengths.
+SegmentIntegral entry(const PreintegrationTable& table, std::size_t front, std::size_t back,
+                      std::size_t layer) {
+    const std::size_t count = table.nodes.size(), i = back * count + front;
+    SegmentIntegral result;
+    result.optical_depth = double{table.mean_extinction[i]} * table.lengths[layer];
+    result.alpha = opacity_from_depth(result.optical_depth);
+    if (table.mean_extinction[i] == 0) return result;
+    const float* const emission = &table.emission[(layer * count * count + i) * 3];
+    result.color = glm::dvec3(emission[0], emission[1], emission[2]) *
+                   (result.alpha / table.mean_extinction[i]);
+    return result;
+}
+
 TEST(PreintegrationTable, IsExactAtItsNodes) {
     for (const auto& f : {smooth(), narrow_peak(), step()}) {
         const auto table = build_preintegration_table(f, {-0.25, 1.25, 3.0, 24, 4, true});
-        for (const double front : table.nodes) {
-            for (const double back : table.nodes) {
-                for (const double length : table.lengths) {
-                    const auto found = table.lookup(front, back, length);
-                    const auto expected = integrate_segment(f, front, back, length);
-                    // Two floats of 6e-8 each and a few roundings; equal scalars at a step are the
-                    // later side's.
-                    EXPECT_NEAR(found.alpha, expected.alpha, 2e-7 * std::max(1.0, expected.alpha));
+        const std::size_t count = table.nodes.size();
+        for (std::size_t front = 0; front < count; ++front) {
+            for (std::size_t back = 0; back < count; ++back) {
+                // The two nodes of a step stand for its sides, a segment between them for neither.
+                if (table.nodes[front] == table.nodes[back]) continue;
+                for (std::size_t layer = 0; layer < table.lengths.size(); ++layer) {
+                    const auto found = entry(table, front, back, layer);
+                    const auto expected = integrate_segment(
+                        f, table.nodes[front], table.nodes[back], table.lengths[layer]);
+                    // Two floats of 6e-8 each and a few roundings.
+                    EXPECT_NEAR(found.alpha, expected.alpha, 2e-7);
                     EXPECT_LE(color_error(found, expected), 5e-7)
-                        << front << " " << back << " " << length;
+                        << table.nodes[front] << " " << table.nodes[back] << " " << layer;
                 }
             }
+        }
+    }
+}
+
+TEST(PreintegrationTable, LookUpOnEqualScalarsIsTheHomogeneousSegment) {
+    for (const auto& f : {smooth(), narrow_peak(), step()}) {
+        const auto table = build_preintegration_table(f, {-0.25, 1.25, 3.0, 24, 4, true});
+        for (const double value : table.nodes) {  // at a step: the later side's
+            const auto found = table.lookup(value, value, 3);
+            const auto expected = integrate_segment(f, value, value, 3);
+            EXPECT_NEAR(found.alpha, expected.alpha, 2e-7);
+            EXPECT_LE(color_error(found, expected), 5e-7) << value;
         }
     }
 }
@@ -140,8 +170,7 @@ TEST(PreintegrationTable, NoRangeOfScalarsNoLengthAndOneColor) {
 
 // Largest errors over random segments that are short in scalars, as slabs have them, in 1/255.
 struct WorstErrors {
-    double alpha = 0, color = 0;  // one look-up
-    double split_alpha = 0, split_color = 0;
+    double alpha = 0, color = 0;
 };
 
 WorstErrors worst_errors(const TransferFunction& f) {
@@ -155,34 +184,25 @@ WorstErrors worst_errors(const TransferFunction& f) {
         const double back = std::clamp(front + 0.2 * (unit(random) - 0.5), 0.0, 1.0);
         const auto expected = integrate_segment(f, front, back, length);
         const auto found = table.lookup(front, back, length);
-        const auto split = table.lookup_split(front, back, length);
         worst.alpha = std::max(worst.alpha, 255 * std::abs(found.alpha - expected.alpha));
         worst.color = std::max(worst.color, 255 * color_error(found, expected));
-        worst.split_alpha =
-            std::max(worst.split_alpha, 255 * std::abs(split.alpha - expected.alpha));
-        worst.split_color = std::max(worst.split_color, 255 * color_error(split, expected));
     }
     return worst;
 }
 
-TEST(PreintegrationTable, OneLookUpIsGoodForSmoothFunctionsAndSplitOnesForAll) {
+TEST(PreintegrationTable, IsGoodAcrossKnotsToo) {
     const WorstErrors of_smooth = worst_errors(smooth());
     const WorstErrors of_peak = worst_errors(narrow_peak());
     const WorstErrors of_step = worst_errors(step());
-    // Split, opacity has only the floats' errors: three relative errors of 6e-8 of depth *
-    // exp(-depth) <= 0.37.
+    // Opacity has only the floats' errors: three relative errors of 6e-8 of depth * exp(-depth) <=
+    // 0.37.
     for (const auto& worst : {of_smooth, of_peak, of_step}) {
-        EXPECT_LE(worst.split_alpha, 255 * 3 * 6e-8 * 0.37);
+        EXPECT_LE(worst.alpha, 255 * 3 * 6e-8 * 0.37);
     }
     // Measured, doubled: interpolation between nodes and between lengths.
-    EXPECT_LE(of_smooth.alpha, 0.005);
-    EXPECT_LE(of_smooth.color, 0.016);
-    EXPECT_LE(of_smooth.split_color, 0.0015);
-    EXPECT_LE(of_step.split_color, 0.001);
-    EXPECT_LE(of_peak.split_color, 0.25);
-    // What one look-up cannot do: segments across a narrow peak or a step, as short as a cell.
-    EXPECT_GT(of_peak.alpha, 1);
-    EXPECT_GT(of_step.color, 0.1);
+    EXPECT_LE(of_smooth.color, 0.0015);
+    EXPECT_LE(of_step.color, 0.001);
+    EXPECT_LE(of_peak.color, 0.25);
 }
 
 TEST(PreintegrationTable, RefusesTooManyPointsAndTooManyBytes) {

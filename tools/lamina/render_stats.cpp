@@ -45,8 +45,7 @@ Json plan_to_json(const Plan& plan) {
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
     json["bricks"] = slice.bricks.size();
-    if (slice.classification == Classification::preintegrated &&
-        slice.sampling != VolumeSampling::none) {
+    if (slice.uses_table()) {
         json["table"] = {{"scalars", slice.table.scalar_nodes},
                          {"lengths", slice.table.length_layers},
                          {"colored", slice.table.colored}};

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "optics/preintegration_table.h"
+#include "optics/transfer_function.h"
+#include "scene/plan.h"
+#include "slicing/shader_intervals.h"
+
+namespace lamina {
+
+// The transfer function, and its pre-integration table where the plan uses one, as the textures
+// that shaders/optics/intervals.glsl and preintegration.glsl read.
+class GlTransferTables {
+  public:
+    static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
+
+    // `range`: the scalars that shaders see as [0, 1]; lo < hi.
+    GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
+                     const SlicePlan& plan);
+
+    int intervals() const { return interval_count_; }
+    int nodes() const { return node_count_; }  // along an axis of the table; 0 without
+    void bind(gl::Program& program) const;     // textures and uniforms
+
+  private:
+    int interval_count_ = 0, node_count_ = 0;
+    float layers_per_length_ = 0;
+    gl::Texture intervals_, interval_starts_, preintegration_;
+};
+
+}  // namespace lamina
