@@ -35,6 +35,18 @@ void with_stderr(int descriptor, const Action& action) {
     close(saved);
 }
 
+// A bare chroot has no pseudo terminals.
+bool has_terminals() {
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+    if (terminal < 0) return false;
+    grantpt(terminal);
+    unlockpt(terminal);
+    const int device = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+    if (device >= 0) close(device);
+    close(terminal);
+    return device >= 0;
+}
+
 // What arrives at a terminal while work() runs.
 std::string seen_on_terminal() {
     const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
@@ -61,12 +73,14 @@ TEST(Progress, IsSilentWhereThereIsNoTerminal) {
 }
 
 TEST(Progress, DrawsOnATerminalAndWipesItsLine) {
+    if (!has_terminals()) GTEST_SKIP() << "no pseudo terminals";
     const std::string seen = seen_on_terminal();
     EXPECT_NE(seen.find("slicing  50 %"), std::string::npos) << seen;
     EXPECT_TRUE(seen.ends_with("\r\033[K.")) << seen;
 }
 
 TEST(Progress, IsSilentWhenQuiet) {
+    if (!has_terminals()) GTEST_SKIP() << "no pseudo terminals";
     Progress::set_quiet(true);
     EXPECT_EQ(seen_on_terminal(), ".");
     Progress::set_quiet(false);

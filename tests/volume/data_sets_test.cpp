@@ -17,6 +17,8 @@ struct DataSet {
     SampleType type;
     glm::dvec3 spacing;
     double hi;
+
+    friend void PrintTo(const DataSet& set, std::ostream* stream) { *stream << set.name; }
 };
 
 std::filesystem::path data_folder() {
