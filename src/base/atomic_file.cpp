@@ -14,8 +14,13 @@ namespace lamina {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path_, ignored)) {
-        fail("{}: cannot write: it is a directory", path_.string());
+    // A link stays a link: what it leads to is replaced.
+    if (std::filesystem::is_symlink(path_, ignored))
+        path_ = std::filesystem::weakly_canonical(path_, ignored);
+    const auto status = std::filesystem::status(path_, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        fail("{}: cannot write: it is {}, expected a regular file", path_.string(),
+             std::filesystem::is_directory(status) ? "a directory" : "a device, pipe or socket");
     }
     temporary_ = path_;
     temporary_ += fmt::format(".{}.part", getpid());

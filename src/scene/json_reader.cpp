@@ -11,6 +11,7 @@ namespace lamina {
 namespace {
 
 constexpr std::uintmax_t max_json_bytes = 64u << 20;
+constexpr int max_json_depth = 64;
 const nlohmann::json empty_object = nlohmann::json::object();
 
 // Levenshtein distance, for suggestions.
@@ -28,10 +29,15 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-std::string nearest_of(const std::set<std::string>& words, const std::string& word) {
-    return *std::min_element(words.begin(), words.end(), [&](const auto& a, const auto& b) {
-        return edit_distance(a, word) < edit_distance(b, word);
-    });
+// The nearest of the known words where it is likely to be meant, else all of them.
+std::string suggestion(const std::set<std::string>& words, const std::string& word) {
+    if (words.empty()) return "";
+    const auto distance = [&](const std::string& known) { return edit_distance(known, word); };
+    const std::string& nearest = *std::ranges::min_element(words, {}, distance);
+    if (distance(nearest) <= std::max<std::size_t>(2, word.size() / 3)) {
+        return fmt::format(", did you mean \"{}\"?", nearest);
+    }
+    return fmt::format(", expected one of {}", fmt::join(words, ", "));
 }
 
 // The value as it stands in the file, cut where it is long.
@@ -43,7 +49,8 @@ std::string shown(const nlohmann::json& value) {
 // nlohmann::json keeps the last of two equal keys without a word; a scene file must not have two.
 class RepeatedKeys {
   public:
-    bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        if (depth > max_json_depth) fail("nested more than {} deep", max_json_depth);
         using Event = nlohmann::json::parse_event_t;
         if (event == Event::object_start) open_.emplace_back();
         if (event == Event::object_end) open_.pop_back();
@@ -94,6 +101,8 @@ nlohmann::json load_json(const std::filesystem::path& file) {
             problem.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
         message = message.substr(std::min(message.size(), message.find("] ") + 2));
         fail("{}: {}", file.string(), message);
+    } catch (const Error& problem) {
+        fail("{}: {}", file.string(), problem.what());
     }
     if (!keys.repeated.empty()) {
         fail("{}: the key \"{}\" stands twice in one object", file.string(), keys.repeated);
@@ -202,9 +211,7 @@ std::filesystem::path JsonReader::path_of(const std::string& key) {
 void JsonReader::close() const {
     for (const auto& [key, ignored] : object_.items()) {
         if (asked_.contains(key)) continue;
-        fail_at(key, asked_.empty() ? "unknown key"
-                                    : fmt::format("unknown key, did you mean \"{}\"?",
-                                                  nearest_of(asked_, key)));
+        fail_at(key, "unknown key" + suggestion(asked_, key));
     }
 }
 

@@ -2,6 +2,7 @@
 #include "scene/scene_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "image/image_limits.h"
@@ -52,6 +53,9 @@ void read_volume(JsonReader& reader, Scene& scene) {
         "nan", {{"error", NanPolicy::error}, {"transparent", NanPolicy::transparent}});
 }
 
+// Far beyond, squares of distances are no longer numbers.
+constexpr double max_coordinate = 1e100;
+
 Camera read_camera(JsonReader reader) {
     Camera camera;
     camera.projection = reader.choice<Projection>(
@@ -68,6 +72,14 @@ Camera read_camera(JsonReader reader) {
     else
         camera.height = reader.number_or("height", camera.height);
     if (!(camera.height > 0)) reader.reject("height", "world units > 0");
+    for (const char* key : {"eye", "center", "up"}) {
+        const glm::dvec3 place = reader.vector_or(key, camera.up);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(place[axis]) > max_coordinate)
+                reader.reject(key, "coordinates up to 1e100");
+        }
+    }
+    if (camera.height > max_coordinate) reader.reject("height", "at most 1e100 world units");
     reader.close();
     return camera;
 }

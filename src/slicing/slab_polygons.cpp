@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 namespace lamina {
 namespace {
 
-// Rasterisers snap vertices to 1/256 pixel and float32 rounds them: polygons are drawn this much
-// larger, in pixels.
+// Rasterisers snap vertices to a grid (llvmpipe and most GPUs: 1/256 pixel), which can turn a
+// convex polygon into one whose triangles overlap, so that a pixel gets its slab twice: the corners
+// are put on that grid here, and the polygon is the convex hull of what comes out. It is drawn a
+// margin larger than needed; snapping takes 1/512 of a pixel of it.
+constexpr double grid_per_pixel = 256;
 constexpr double margin_pixels = 1.0 / 16;
 // A slab that begins nearer to the eye's plane than this part of its far depth is drawn over the
 // whole image: points in the eye's plane project to infinity.
@@ -96,7 +100,7 @@ class SlabCutter {
         clip_side(polygon_, points_, 0, -1, width);
         clip_side(polygon_, points_, 1, 1, 0);
         clip_side(polygon_, points_, 1, -1, height);
-        if (polygon_.size() < 3) polygon_.clear();
+        snap_to_grid();
         return polygon_;
     }
 
@@ -120,6 +124,17 @@ class SlabCutter {
             }
         }
         points_.resize(space_.size());
+    }
+
+    // Cross products of grid numbers are exact in double: the hull is strictly convex.
+    void snap_to_grid() {
+        points_.clear();
+        for (const glm::dvec2& point : polygon_)
+            points_.push_back(glm::round(point * grid_per_pixel));
+        polygon_.clear();
+        if (points_.size() >= 3) convex_hull(points_, polygon_);
+        if (polygon_.size() < 3) polygon_.clear();
+        for (glm::dvec2& point : polygon_) point /= grid_per_pixel;
     }
 
     void project_points() {

@@ -138,6 +138,8 @@ TEST_F(Render, MistakesOfUsageAreExitTwo) {
         {"-o", folder / "a.exr", "--context", "directx"},
         {"-o", folder / "a.exr", "--no-omit=nothing"},
         {"-o", folder / "a.exr", "--frames", "0"},
+        {"-o", folder / "a.exr", "--stats", folder / "." / "a.exr"},
+        {"-o", folder / "a.exr", "--stats", folder / "scene.json"},
         {"-o", folder / "a.jpeg"},
         {"-o", folder / "a.npy"},
         {},
@@ -160,9 +162,23 @@ TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
     expect_failure(with("/transfer_function/points/1/value", -1), {"points.1.value", "found -1"});
     expect_failure(with("/volume", "none.nrrd"), {"none.nrrd", "no such file"});
     expect_failure(with("/volume/generate", "teapot"), {"teapot"});
+    expect_failure(with("/camera/eye", {1e300, 0, 0}), {"camera.eye", "1e100"});
     const ProgramResult unwritable = render({"-o", "/nowhere/at/all.exr"});
     EXPECT_EQ(unwritable.exit_code, 1);
     EXPECT_NE(unwritable.err.find("/nowhere/at/all.exr"), std::string::npos);
+}
+
+TEST_F(Render, OutputsAreRegularFilesAndLinksStayLinks) {
+    write_bytes_to(folder / "target.json", "old");
+    std::filesystem::create_symlink(folder / "target.json", folder / "link.json");
+    ASSERT_EQ(render({"-o", folder / "a.exr", "--stats", folder / "link.json"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.json"));
+    EXPECT_NE(read_bytes_of(folder / "target.json"), "old");
+    const ProgramResult device = render({"-o", folder / "b.exr", "--stats", "/dev/null"});
+    EXPECT_EQ(device.exit_code, 1);
+    EXPECT_NE(device.err.find("/dev/null"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
 }
 
 TEST_F(Render, BadVolumesAreOneLineAndLeaveNothing) {

@@ -28,10 +28,19 @@ TEST(Verbs, HelpGoesToStdoutAndNamesTheUsage) {
     }
 }
 
-TEST(Verbs, VersionIsOneLine) {
-    const ProgramResult result = lamina_run({"--version"});
-    EXPECT_EQ(result.exit_code, 0);
-    EXPECT_EQ(result.out.find("lamina "), 0u);
+TEST(Verbs, VersionIsOneLineEverywhere) {
+    for (const char* verb : {"", "render", "compare", "generate", "info", "integrate"}) {
+        const ProgramResult result =
+            std::string(verb).empty() ? lamina_run({"--version"}) : lamina_run({verb, "--version"});
+        EXPECT_EQ(result.exit_code, 0) << verb;
+        EXPECT_EQ(result.out.find("lamina "), 0u) << verb;
+    }
+}
+
+TEST(Verbs, ResultsThatDoNotReachStdoutAreAFailure) {
+    const std::string command =
+        std::string("'") + LAMINA_BINARY + "' generate --help > /dev/full 2> /dev/null";
+    EXPECT_EQ(run_program({"sh", "-c", command}).exit_code, 1);
 }
 
 TEST(Verbs, UnknownVerbsAndOptionsAreExitTwo) {

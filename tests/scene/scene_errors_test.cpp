@@ -16,7 +16,7 @@ struct BadScene {
 TEST(SceneErrors, NameFileKeyFoundAndExpected) {
     const std::vector<BadScene> cases = {
         {"/version", 2, {"version", "found 2", "from 1 to 1"}},
-        {"/colour", 1, {"colour: unknown key", "did you mean"}},
+        {"/colour", 1, {"colour: unknown key", "expected one of camera"}},
         {"/render/slice/sample", 8, {"render.slice.sample: unknown key", "\"samples\""}},
         {"/render/slice/samples", 0, {"render.slice.samples: found 0", "from 1 to 65536"}},
         {"/render/slice/samples", "many", {"found \"many\"", "auto"}},
@@ -83,6 +83,8 @@ TEST(SceneErrors, FilesThatAreNoScenes) {
     expect_error([&] { load_json(folder / "syntax.json"); }, {"syntax.json", "line 2", "column"});
     write_bytes_to(folder / "twice.json", R"({"version": 1, "a": {"b": 1, "b": 2}})");
     expect_error([&] { load_json(folder / "twice.json"); }, {"twice.json", "\"b\"", "twice"});
+    write_bytes_to(folder / "deep.json", std::string(100000, '[') + std::string(100000, ']'));
+    expect_error([&] { load_json(folder / "deep.json"); }, {"deep.json", "nested more than 64"});
     write_bytes_to(folder / "list.json", "[1]");
     expect_error([&] { read_scene(load_json(folder / "list.json"), folder / "list.json"); },
                  {"list.json", "object"});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "reference/fixtures.h"
@@ -88,6 +89,37 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
         }
     }
     EXPECT_GT(covered, 10000);
+}
+
+// Corners on the rasteriser's grid of 1/256 pixel, in strictly convex order: it neither moves them
+// nor makes triangles overlap.
+TEST(SlabPolygons, AreStrictlyConvexOnTheRasterisersGrid) {
+    const Grid grid = reference_test::make_grid({40, 35, 11}, Centering::cell, {.3, .3, 1.1});
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-1, 1);
+    for (int trial = 0; trial < 200; ++trial) {
+        const auto projection = trial % 2 == 0 ? Projection::orthographic : Projection::perspective;
+        const View view(reference_test::camera_at(
+                            grid, projection, {place(random), place(random), place(random)}, 1.3),
+                        160, 120);
+        const DepthRange depth = depth_range(grid, view);
+        std::vector<SlabVertex> triangles;
+        append_slab_polygons(view, grid, {grid.index_min(), grid.index_max()},
+                             {depth.near, depth.far, 301}, Order::front_to_back, triangles);
+        ASSERT_FALSE(triangles.empty());
+        for (std::size_t i = 0; i < triangles.size(); i += 3) {
+            const SlabVertex *const a = &triangles[i], *const b = a + 1, *const c = a + 2;
+            EXPECT_GT(side(*a, *b, c->column, c->row), 0);
+            const bool same_fan = i > 0 && a->front == triangles[i - 3].front;
+            if (same_fan) {
+                EXPECT_GT(side(triangles[i - 2], *b, c->column, c->row), 0);  // the turn at b
+            }
+            for (const SlabVertex* const corner : {a, b, c}) {
+                EXPECT_EQ(corner->column * 256, std::round(corner->column * 256));
+                EXPECT_EQ(corner->row * 256, std::round(corner->row * 256));
+            }
+        }
+    }
 }
 
 TEST(SlabPolygons, ComeInTheOrderAskedFor) {

@@ -98,7 +98,8 @@ void add_compare(CLI::App& app, int& exit_code) {
     verb->add_flag("--json", options->json, "print JSON instead of a table");
     verb->add_option("--diff", options->diff, "write the signed difference in false colour (.png)");
     verb->add_option("--max-linf", options->max_linf,
-                     "exit with code 3 when Linf over all is larger");
+                     "exit with code 3 when Linf over all is larger")
+        ->check([](const std::string& text) { return text.empty() ? "expected a number" : ""; });
     verb->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 

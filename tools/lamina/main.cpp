@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "base/error.h"
@@ -16,19 +17,39 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
+constexpr const char* version = "lamina " LAMINA_VERSION;
+
+// A word that is no verb: CLI11 would only say that a subcommand is missing.
+void check_verb(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::string verbs;
+    for (const CLI::App* const verb : app.get_subcommands({})) {
+        if (verb->get_name() == argv[1]) return;
+        verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    }
+    throw lamina::UsageError(fmt::format(
+        "{}: unknown verb, expected one of {} (lamina --help shows the usage)", argv[1], verbs));
+}
+
 int run(int argc, char** argv) {
     int exit_code = 0;
     CLI::App app("lamina: volume rendering by slicing, with the error of each picture", "lamina");
-    app.set_version_flag("--version", "lamina " LAMINA_VERSION);
+    app.set_version_flag("--version", version);
     app.require_subcommand(1);
     lamina::add_verbs(app, exit_code);
+    for (CLI::App* const verb : app.get_subcommands({}))
+        verb->set_version_flag("--version", version);
+    check_verb(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-        return app.exit(success);
+        exit_code = app.exit(success);
     } catch (const CLI::ParseError& error) {
         return report(std::string(error.what()) + " (lamina --help shows the usage)", 2);
     }
+    // Results that did not reach stdout (a full disk behind it) are a failure.
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0) return report("cannot write to stdout", 1);
     return exit_code;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <glm/vector_relational.hpp>
 #include <memory>
 #include <optional>
@@ -29,7 +30,7 @@ struct RenderOptions {
     std::string scene, output, method, stats;
     std::vector<std::string> settings, kept;
     int frames = 0;
-    gl::ContextKind context = gl::ContextKind::automatic;
+    std::string context = "auto";
     bool explain = false, quiet = false;
 };
 
@@ -80,6 +81,30 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
     return omissions;
 }
 
+gl::ContextKind context_kind(const std::string& word) {
+    if (word == "auto") return gl::ContextKind::automatic;
+    if (word == "osmesa") return gl::ContextKind::osmesa;
+    if (word == "egl") return gl::ContextKind::egl;
+    throw UsageError(fmt::format("--context {}: expected auto, osmesa or egl", word));
+}
+
+// Scene, picture and statistics are three files.
+void check_paths(const RenderOptions& options) {
+    const auto same = [](const std::string& a, const std::string& b) {
+        std::error_code ignored;
+        return !a.empty() && !b.empty() &&
+               std::filesystem::weakly_canonical(a, ignored) ==
+                   std::filesystem::weakly_canonical(b, ignored);
+    };
+    for (const auto& [a, b] : {std::pair(options.output, options.stats),
+                               {options.output, options.scene},
+                               {options.stats, options.scene}}) {
+        if (same(a, b))
+            throw UsageError(
+                fmt::format("{}: expected different files for scene, -o and --stats", a));
+    }
+}
+
 void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) fmt::print(stderr, "lamina: {}\n", text);
 }
@@ -119,6 +144,7 @@ class RenderRun {
     void run() {
         for (const std::string& warning : scene_.warnings) message(options_, warning);
         const OmissionSwitch omissions = omission_switch(options_);
+        context_kind(options_.context);  // a bad word fails before any work
         const bool tracing = scene_.method == Method::trace;
         std::optional<PictureFile> picture;
         if (!options_.output.empty()) picture.emplace(options_.output, tracing);
@@ -162,7 +188,7 @@ class RenderRun {
 
     void make_context() {
         const Stopwatch watch;
-        context_ = gl::Context::create(options_.context);
+        context_ = gl::Context::create(context_kind(options_.context));
         stats_.stages_ms["context"] = watch.milliseconds();
         stats_.context = context_->capabilities().renderer;
     }
@@ -260,16 +286,13 @@ void add_render(CLI::App& app, int&) {
     verb->add_flag("--explain", options->explain, "Print what runs and what is left out, and why");
     verb->add_flag("--no-omit{all}", options->kept,
                    "Leave out nothing, or with =NAME keep one thing in");
-    verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, gl::ContextKind>{{"auto", gl::ContextKind::automatic},
-                                                   {"osmesa", gl::ContextKind::osmesa},
-                                                   {"egl", gl::ContextKind::egl}}));
+    verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         if (options->output.empty() && !options->explain) {
             throw UsageError("render: expected -o FILE (only --explain works without a picture)");
         }
+        check_paths(*options);
         Progress::set_quiet(options->quiet);
         RenderRun(*options).run();
     });
