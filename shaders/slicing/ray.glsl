@@ -1,45 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewing ray of a fragment in the brick's index space: origin + depth * direction, where depth is eye-space depth
-// relative to the middle of the slabs. All coefficients come from the processor in double precision and near the box,
-// so that neither a far eye nor far world coordinates cost accuracy.
+// from the nearest slab's front on. All coefficients come from the processor in double precision and near the box, so
+// that neither a far eye nor far world coordinates cost accuracy. With PRECISE_RAYS they stay double until a length has
+// been taken: rays that graze a face, and boxes much thinner than long, lose several digits in float.
+#ifdef PRECISE_RAYS
+#define REAL double
+#define REAL2 dvec2
+#define REAL3 dvec3
+#else
+#define REAL float
+#define REAL2 vec2
+#define REAL3 vec3
+#endif
+
 uniform vec2 image_middle;      // in pixels
-uniform vec3 origin_middle;     // of the ray through the image's middle
-uniform vec3 origin_column;     // change per pixel to the right
-uniform vec3 origin_row;        // and downwards
-uniform vec3 direction_middle;
+uniform REAL3 origin_middle;    // of the ray through the image's middle
+uniform REAL3 origin_column;    // change per pixel to the right
+uniform REAL3 origin_row;       // and downwards
+uniform REAL3 direction_middle;
 #ifndef ORTHOGRAPHIC
-uniform vec3 direction_column;
-uniform vec3 direction_row;
+uniform REAL3 direction_column;
+uniform REAL3 direction_row;
 uniform float pixel_size;       // at depth 1
 #endif
 
 struct Ray {
-    vec3 origin;
-    vec3 direction;
+    REAL3 origin;
+    REAL3 direction;
     float length_per_depth;  // world units
 };
 
 Ray view_ray(vec2 fragment) {
-    vec2 pixel = (fragment - image_middle) * vec2(1.0, -1.0);
+    vec2 from_middle = (fragment - image_middle) * vec2(1.0, -1.0);  // exact
+    REAL2 pixel = REAL2(from_middle);
     Ray ray;
     ray.origin = origin_middle + pixel.x * origin_column + pixel.y * origin_row;
     ray.direction = direction_middle;
     ray.length_per_depth = 1.0;
 #ifndef ORTHOGRAPHIC
     ray.direction += pixel.x * direction_column + pixel.y * direction_row;
-    ray.length_per_depth = sqrt(1.0 + dot(pixel, pixel) * pixel_size * pixel_size);
+    ray.length_per_depth = sqrt(1.0 + dot(from_middle, from_middle) * pixel_size * pixel_size);
 #endif
     return ray;
 }
 
+vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direction); }
+
 // The depths between which the ray is inside the box and inside the slab; y <= x where it is not.
-vec2 clip_to_box(Ray ray, vec2 slab, vec3 box_min, vec3 box_max) {
-    vec3 direction = mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
-    vec3 inverse = 1.0 / direction;
-    vec3 one = (box_min - ray.origin) * inverse;
-    vec3 other = (box_max - ray.origin) * inverse;
-    vec3 enter = min(one, other);
-    vec3 leave = max(one, other);
-    return vec2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
-                min(slab.y, min(leave.x, min(leave.y, leave.z))));
+REAL2 clip_to_box(Ray ray, vec2 slab, vec3 box_min, vec3 box_max) {
+    const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
+    REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
+    REAL3 inverse = REAL3(1.0) / direction;
+    REAL3 one = (REAL3(box_min) - ray.origin) * inverse;
+    REAL3 other = (REAL3(box_max) - ray.origin) * inverse;
+    REAL3 enter = min(one, other);
+    REAL3 leave = max(one, other);
+    return REAL2(max(REAL(slab.x), max(enter.x, max(enter.y, enter.z))),
+                 min(REAL(slab.y), min(leave.x, min(leave.y, leave.z))));
 }

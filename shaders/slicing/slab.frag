@@ -28,15 +28,15 @@ layout(location = 0) out vec4 associated;
 
 // Associated colour and optical depth (a) of the ray between two depths.
 #if SAMPLING == SAMPLING_NONE
-vec4 integrate(Ray ray, vec2 depths, float world_length) {
+vec4 integrate(Ray ray, REAL2 depths, float world_length) {
     float depth = constant_optics.a * world_length;
     return vec4(constant_optics.rgb * opacity_from_depth(depth), depth);
 }
 #elif defined(PREINTEGRATED)
-vec4 integrate(Ray ray, vec2 depths, float world_length) {
-    float front = sample_scalar(ray.origin + depths.x * ray.direction);
-    float middle = sample_scalar(ray.origin + 0.5 * (depths.x + depths.y) * ray.direction);
-    float back = sample_scalar(ray.origin + depths.y * ray.direction);
+vec4 integrate(Ray ray, REAL2 depths, float world_length) {
+    float front = sample_scalar(point_at(ray, depths.x));
+    float middle = sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y)));
+    float back = sample_scalar(point_at(ray, depths.y));
 #ifdef NAN_TRANSPARENT
     if (is_nan(front) || is_nan(middle) || is_nan(back)) discard;
 #endif
@@ -52,8 +52,8 @@ vec4 integrate(Ray ray, vec2 depths, float world_length) {
                          transparent);
 }
 #else
-vec4 integrate(Ray ray, vec2 depths, float world_length) {
-    float scalar = sample_scalar(ray.origin + 0.5 * (depths.x + depths.y) * ray.direction);
+vec4 integrate(Ray ray, REAL2 depths, float world_length) {
+    float scalar = sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y)));
 #ifdef NAN_TRANSPARENT
     if (is_nan(scalar)) discard;
 #endif
@@ -65,9 +65,9 @@ vec4 integrate(Ray ray, vec2 depths, float world_length) {
 
 void main() {
     Ray ray = view_ray(gl_FragCoord.xy);
-    vec2 depths = clip_to_box(ray, slab, box_min, box_max);
+    REAL2 depths = clip_to_box(ray, slab, box_min, box_max);
     if (!(depths.y > depths.x)) discard;
-    vec4 integral = integrate(ray, depths, (depths.y - depths.x) * ray.length_per_depth);
+    vec4 integral = integrate(ray, depths, float(depths.y - depths.x) * ray.length_per_depth);
     float opacity = opacity_from_depth(integral.a);
 #ifdef SINGLE_COLOR
     integral.rgb = single_color * opacity;

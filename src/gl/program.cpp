@@ -125,6 +125,10 @@ void Program::set(std::string_view name, const glm::vec3& value) {
     glProgramUniform3fv(id(), location(name), 1, &value.x);
 }
 
+void Program::set(std::string_view name, const glm::dvec3& value) {
+    glProgramUniform3dv(id(), location(name), 1, &value.x);
+}
+
 void Program::set(std::string_view name, const glm::vec4& value) {
     glProgramUniform4fv(id(), location(name), 1, &value.x);
 }

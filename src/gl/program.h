@@ -34,6 +34,7 @@ class Program {
     void set(std::string_view name, int value);  // also a sampler's texture unit
     void set(std::string_view name, const glm::vec2& value);
     void set(std::string_view name, const glm::vec3& value);
+    void set(std::string_view name, const glm::dvec3& value);
     void set(std::string_view name, const glm::vec4& value);
     void set(std::string_view name, const glm::ivec2& value);
     void set(std::string_view name, const glm::ivec3& value);

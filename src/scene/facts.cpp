@@ -28,6 +28,14 @@ void check_finite(const Scene& scene, const Facts& facts) {
     }
 }
 
+double side_ratio_of(const Grid& grid) {
+    const glm::dvec3 extent = grid.index_max() - grid.index_min();
+    const glm::dvec3 sides{extent.x * glm::length(grid.step[0]),
+                           extent.y * glm::length(grid.step[1]),
+                           extent.z * glm::length(grid.step[2])};
+    return std::max({sides.x, sides.y, sides.z}) / std::min({sides.x, sides.y, sides.z});
+}
+
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                       Facts& facts) {
     const double margin = range_margin * (facts.range.hi - facts.range.lo);
@@ -103,6 +111,7 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     facts.range = bricks.whole;
     facts.non_finite = bricks.non_finite;
     check_finite(scene, facts);
+    facts.side_ratio = side_ratio_of(facts.grid);
     const TransferFunction& transfer_function = scene.transfer_function;
     facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
     facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);

@@ -33,6 +33,8 @@ struct Facts {
     ValueRange range;             // of the finite samples
     std::int64_t non_finite = 0;  // NaN or infinite samples
 
+    double side_ratio = 1;  // longest to shortest side of the box, in the world
+
     // The transfer function over `range`.
     bool constant = false;      // one colour, one extinction
     bool single_color = false;  // one colour wherever there is extinction

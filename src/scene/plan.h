@@ -59,6 +59,7 @@ struct SlicePlan {
     bool table_filtered = false;   // tables go through the texture unit's filter instead of fetches
     bool orthographic = false;     // rays are parallel: one direction, one length per depth
     bool single_color = false;     // colour is a constant of the program
+    bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN
     int batches = 1;               // draws of a frame, each waited for: progress, and Ctrl-C
     bool nothing_visible = false;  // no slab is drawn

@@ -55,6 +55,7 @@ gl::Defines slab_defines(const SlicePlan& plan, int intervals, int table_nodes) 
     gl::Defines defines;
     defines.set("SAMPLING", sampling_define(plan.sampling));
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
+    if (plan.precise_rays) defines.set("PRECISE_RAYS", 1);
     if (plan.single_color) defines.set("SINGLE_COLOR", 1);
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
@@ -129,6 +130,14 @@ void GlSliceRenderer::make_geometry(const View& view) {
     }
 }
 
+void GlSliceRenderer::set_ray(const char* name, const glm::dvec3& coefficient) {
+    if (plan_.precise_rays) {
+        program_->set(name, coefficient);
+    } else {
+        program_->set(name, glm::vec3(coefficient));
+    }
+}
+
 void GlSliceRenderer::set_view(const View& view) {
     gl::Program& program = *program_;
     program.set("image_size",
@@ -137,16 +146,16 @@ void GlSliceRenderer::set_view(const View& view) {
                                           0.5f * static_cast<float>(view.height)));
     program.set("pixel_size", static_cast<float>(view.pixel));
     program.set("normalisation", volume_.normalisation);
-    // Depth in the shader is relative to the middle of the slabs.
+    // Depth in the shader is relative to the nearest slab's front.
     const bool perspective = view.projection == Projection::perspective;
     const glm::dvec3 column = facts_.grid.direction_to_index(view.pixel * view.right);
     const glm::dvec3 row = facts_.grid.direction_to_index(-view.pixel * view.up);
-    const double spread = perspective ? slabs_.middle() : 1;
-    program.set("origin_column", glm::vec3(spread * column));
-    program.set("origin_row", glm::vec3(spread * row));
-    program.set("direction_middle", glm::vec3(facts_.grid.direction_to_index(view.forward)));
-    program.set("direction_column", perspective ? glm::vec3(column) : glm::vec3(0));
-    program.set("direction_row", perspective ? glm::vec3(row) : glm::vec3(0));
+    const double spread = perspective ? slabs_.near : 1;
+    set_ray("origin_column", spread * column);
+    set_ray("origin_row", spread * row);
+    set_ray("direction_middle", facts_.grid.direction_to_index(view.forward));
+    set_ray("direction_column", perspective ? column : glm::dvec3(0));
+    set_ray("direction_row", perspective ? row : glm::dvec3(0));
     if (!perspective) program.set("pixel_size", 0.0f);
 }
 
@@ -155,8 +164,7 @@ void GlSliceRenderer::set_brick(const View& view, std::size_t brick) {
     const TextureBrick& texture = plan_.bricks[brick];
     const glm::dvec3 first{texture.first[0], texture.first[1], texture.first[2]};
     const IndexBox box = box_of(texture, facts_.grid);
-    program.set("origin_middle",
-                glm::vec3(facts_.grid.to_index(view.eye + slabs_.middle() * view.forward) - first));
+    set_ray("origin_middle", facts_.grid.to_index(view.eye + slabs_.near * view.forward) - first);
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
     program.set("last_sample",

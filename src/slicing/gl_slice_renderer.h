@@ -54,6 +54,7 @@ class GlSliceRenderer {
     void make_geometry(const View& view);
     void set_view(const View& view);
     void draw_batches(const View& view, Progress* progress);
+    void set_ray(const char* name, const glm::dvec3& coefficient);
     void set_brick(const View& view, std::size_t brick);
 
     Facts facts_;

@@ -163,10 +163,9 @@ void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& bo
         const double front = slabs.depth(slab), back = slabs.depth(slab + 1);
         const Polygon& polygon = cutter.cut(front, back);
         const auto vertex = [&](std::size_t corner) {
-            return SlabVertex{static_cast<float>(polygon[corner].x),
-                              static_cast<float>(polygon[corner].y),
-                              static_cast<float>(front - slabs.middle()),
-                              static_cast<float>(back - slabs.middle())};
+            return SlabVertex{
+                static_cast<float>(polygon[corner].x), static_cast<float>(polygon[corner].y),
+                static_cast<float>(front - slabs.near), static_cast<float>(back - slabs.near)};
         };
         for (std::size_t corner = 2; corner < polygon.size(); ++corner) {
             triangles.insert(triangles.end(), {vertex(0), vertex(corner - 1), vertex(corner)});

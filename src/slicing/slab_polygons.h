@@ -18,15 +18,13 @@ struct Slabs {
     double far = 0;
     int count = 1;
 
-    // Shaders see depths relative to the middle, where float32 is finest.
-    double middle() const { return 0.5 * (near + far); }
     double depth(int boundary) const {
         return boundary == count ? far : near + (far - near) * boundary / count;
     }
 };
 
 // A corner of a triangle: pixel coordinates (column to the right, row downwards from the image's
-// top, pixel centres at half integers), and the depths of its slab relative to Slabs::middle().
+// top, pixel centres at half integers), and the depths of its slab relative to Slabs::near.
 struct SlabVertex {
     float column, row;
     float front, back;

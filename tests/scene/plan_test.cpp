@@ -49,6 +49,15 @@ TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {
                  {"32 x 24", "at most 100", "test"});
 }
 
+TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
+    Capabilities gpu = usual();
+    gpu.software = false;
+    EXPECT_TRUE(plan_of(minimal_scene(), usual()).slice.precise_rays);
+    EXPECT_FALSE(plan_of(minimal_scene(), gpu).slice.precise_rays);
+    const nlohmann::json ramp = with("/volume", {{"generate", "ramp"}});  // 256 : 4 : 1
+    EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
+}
+
 TEST(Plan, TracingMakesNoContext) {
     const Plan plan = plan_of(with("/render/method", "trace"), {});
     ASSERT_EQ(plan.omitted.size(), 1u);

@@ -84,6 +84,18 @@ TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacityWithNothingLeftOut) {
     }
 }
 
+// One voxel thick, and nearly edge-on: chords that float32 coordinates of the whole box would lose.
+TEST_F(SlicingTest, ThinBoxesHaveTheExactChordsOpacity) {
+    const Volume volume =
+        generate({"constant", std::array<std::int64_t, 3>{40, 1, 40}, SampleType::uint8});
+    for (const double tilt : {.003, .05}) {
+        for (const auto projection : {Projection::orthographic, Projection::perspective}) {
+            const Pose pose{"thin", projection, {.4, .5 + 2 * tilt, 2.1}, 30};
+            expect_exact_chords(volume, pose, capabilities(), {});
+        }
+    }
+}
+
 TEST_F(SlicingTest, EveryClassificationGivesTheSameHomogeneousBox) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{8, 8, 8}, SampleType::uint8});

@@ -14,7 +14,7 @@ std::vector<SlicePlan> every_plan() {
     std::vector<SlicePlan> plans;
     for (const VolumeSampling sampling : {VolumeSampling::none, VolumeSampling::fetch,
                                           VolumeSampling::filtered, VolumeSampling::hardware}) {
-        for (int bits = 0; bits < 64; ++bits) {
+        for (int bits = 0; bits < 128; ++bits) {
             SlicePlan plan;
             plan.sampling = sampling;
             plan.orthographic = (bits & 1) != 0;
@@ -25,6 +25,7 @@ std::vector<SlicePlan> every_plan() {
             plan.table_filtered = (bits & 16) != 0;
             plan.table.colored = !plan.single_color;
             plan.table.length_layers = (bits & 32) != 0 ? 5 : 1;
+            plan.precise_rays = (bits & 64) != 0;
             plans.push_back(plan);
         }
     }

@@ -64,7 +64,7 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
         for (int slab = 0; slab < slabs.count; ++slab) {
             std::vector<SlabVertex> all, triangles;
             append_slab_polygons(view, grid, box, slabs, Order::front_to_back, all);
-            const float front = static_cast<float>(slabs.depth(slab) - slabs.middle());
+            const float front = static_cast<float>(slabs.depth(slab) - slabs.near);
             for (std::size_t i = 0; i < all.size(); i += 3) {
                 if (all[i].front == front)
                     triangles.insert(triangles.end(), all.begin() + i, all.begin() + i + 3);
