@@ -57,15 +57,31 @@ bool has_magic(const std::string& line) {
            (line.size() == 8 && line.starts_with("NRRD000") && line[7] >= '1' && line[7] <= '6');
 }
 
-// What a `data file: ...` line names; nothing for any other line.
-std::optional<std::string> data_file_of(const std::string& line) {
+struct Field {
+    std::string name;  // lower case
+    std::string value;
+};
+
+// The field of a `name: value` line; nothing for comments and key/value pairs.
+std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || line[0] == '#' || line.substr(colon, 2) == ":=") return {};
-    std::string field = trimmed(line.substr(0, colon));
-    std::transform(field.begin(), field.end(), field.begin(),
+    std::string name = trimmed(line.substr(0, colon));
+    std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (field != "data file" && field != "datafile") return {};
-    return trimmed(line.substr(colon + 1));
+    return Field{name, trimmed(line.substr(colon + 1))};
+}
+
+// teem reads "8.9" as 8, and -8 or 2^64 as a missing field.
+void check_sizes(const std::string& path, int line, const std::string& value) {
+    std::istringstream words(value);
+    for (std::string word; words >> word;) {
+        const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
+        if (!digits || word.size() > 18 || std::stoll(word) == 0) {
+            fail("{}: line {}: sizes: found '{}', expected whole numbers from 1 to 10^18", path,
+                 line, value.substr(0, 80));
+        }
+    }
 }
 
 // teem takes patterns (handed to sprintf unchecked), lists and "-" (standard input) here; volumes
@@ -97,10 +113,12 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
         const bool binary = std::any_of(line.begin(), line.end(),
                                         [](unsigned char c) { return c < ' ' && c != '\t'; });
         if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
-        if (const auto name = data_file_of(line)) {
-            check_data_file(path, *name);
+        const auto field = field_of(line);
+        if (field && field->name == "sizes") check_sizes(path, number, field->value);
+        if (field && (field->name == "data file" || field->name == "datafile")) {
+            check_data_file(path, field->value);
             if (header.data_file) fail("{}: line {}: second 'data file' field", path, number);
-            header.data_file = name;
+            header.data_file = field->value;
         } else {
             header.text += line + "\n";
         }

@@ -50,8 +50,11 @@ TEST_F(NrrdErrors, MissingAndBadFields) {
                 {"sizes"});
     expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 0 2\n") + "\n" + data)),
                 {"sizes"});
-    expect_says(error_of(write("a.nrrd", with("sizes", "sizes: 4 -3 2\n") + "\n" + data)),
-                {"a.nrrd"});
+    for (const std::string sizes : {"4 -3 2", "4 3.9 2", "18446744073709551616 1 1"}) {
+        expect_says(
+            error_of(write("a.nrrd", with("sizes", "sizes: " + sizes + "\n") + "\n" + data)),
+            {"a.nrrd", "line 4", "sizes: found '" + sizes + "'", "whole numbers"});
+    }
     expect_says(error_of(write("a.nrrd", good + "spacings: 1 0 1\n\n" + data)), {"a.nrrd"});
     expect_says(error_of(write("a.nrrd", good + "type: uint8\n\n" + data)), {"type"});
 }
