@@ -25,7 +25,8 @@ TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
 
 TEST(SceneReader, OpacityBecomesExtinction) {
     nlohmann::json document = with("/transfer_function/unit_length", 4);
-    const auto knots = read_scene(document, "s").transfer_function.knots();
+    const Scene scene = read_scene(document, "s");
+    const auto knots = scene.transfer_function.knots();
     EXPECT_DOUBLE_EQ(knots[1].optics.extinction, std::log(2.) / 4);
 }
 
