@@ -218,10 +218,10 @@ void GlSliceRenderer::draw_batches(const View& view, Progress* progress) {
     }
 }
 
-std::uint64_t GlSliceRenderer::count_fragments(const View& view) {
+std::uint64_t GlSliceRenderer::draw_counting(const View& view, Progress* progress) {
     gl::Query query(gl::Query::Kind::samples_passed);
     query.begin();
-    draw(view);
+    draw(view, progress);
     query.end();
     return query.result();
 }

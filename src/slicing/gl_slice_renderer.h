@@ -37,7 +37,7 @@ class GlSliceRenderer {
     void draw(const View& view, Progress* progress = nullptr);
     int batch_count() const { return plan_.nothing_visible ? 0 : plan_.batches; }
     Image read() const { return target_.read_back(); }
-    std::uint64_t count_fragments(const View& view);  // of one frame; draws it
+    std::uint64_t draw_counting(const View& view, Progress* progress);  // returns its fragments
 
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }

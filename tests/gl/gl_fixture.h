@@ -23,10 +23,11 @@ inline bool has_egl() {
     return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL) != nullptr;
 }
 
-// A test with an OSMesa context, which draws the same everywhere.
-class GlTest : public testing::Test {
+// A test with a context of its own; `Base` is testing::Test or a parameterised one.
+template <typename Base>
+class ContextTest : public Base {
   protected:
-    void SetUp() override { context_ = Context::create(ContextKind::osmesa); }
+    void make_context(ContextKind kind) { context_ = Context::create(kind); }
     void TearDown() override {
         EXPECT_EQ(bytes_allocated(), 0);
         context_.reset();
@@ -38,23 +39,20 @@ class GlTest : public testing::Test {
     std::unique_ptr<Context> context_;
 };
 
+// With an OSMesa context, which draws the same everywhere.
+class GlTest : public ContextTest<testing::Test> {
+  protected:
+    void SetUp() override { make_context(ContextKind::osmesa); }
+};
+
 // A test for INSTANTIATE_TEST_SUITE_P(..., both_contexts, context_name): once under OSMesa, once
 // under EGL where the machine has it.
-class EveryContextTest : public testing::TestWithParam<ContextKind> {
+class EveryContextTest : public ContextTest<testing::TestWithParam<ContextKind>> {
   protected:
     void SetUp() override {
         if (GetParam() == ContextKind::egl && !has_egl()) GTEST_SKIP() << "no libEGL.so.1";
-        context_ = Context::create(GetParam());
+        make_context(GetParam());
     }
-    void TearDown() override {
-        EXPECT_EQ(bytes_allocated(), 0);
-        context_.reset();
-    }
-
-    const Capabilities& capabilities() const { return context_->capabilities(); }
-
-  private:
-    std::unique_ptr<Context> context_;
 };
 
 inline const auto both_contexts = testing::Values(ContextKind::osmesa, ContextKind::egl);

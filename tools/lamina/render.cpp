@@ -208,7 +208,10 @@ class RenderRun {
         const Stopwatch frame_watch;
         {
             Progress progress("slicing", renderer.batch_count());
-            renderer.draw(view, &progress);
+            if (options_.stats.empty())
+                renderer.draw(view, &progress);
+            else
+                stats_.fragments = renderer.draw_counting(view, &progress);
         }
         stats_.frames_ms = {frame_watch.milliseconds()};
         stats_.stages_ms["tables"] = renderer.table_ms();
@@ -221,7 +224,6 @@ class RenderRun {
         time_frames(scene_, options_.frames, stats_,
                     [&](const View& turned_view) { renderer.draw(turned_view); });
         stats_.samples = plan_.slice.slabs;
-        if (!options_.stats.empty()) stats_.fragments = renderer.count_fragments(view);
         stats_.bytes_gpu = gl::bytes_allocated();
         write(picture, image);
     }
