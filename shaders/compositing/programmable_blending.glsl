@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compositing/over.glsl"
+
+// OVER computed by the program on the codes that the target holds: as code / STORED, in 8 or 16 bits a channel. The
+// pixel is read back by framebuffer fetch, or as a texture with a barrier between the slabs.
+#define STORED (BITS > 8 ? 65535.0 : 255.0)
+
+#ifdef FRAMEBUFFER_FETCH
+layout(location = 0) inout vec4 pixel;
+vec4 stored_pixel() { return pixel; }
+#else
+uniform sampler2D target;
+layout(location = 0) out vec4 pixel;
+vec4 stored_pixel() { return texelFetch(target, ivec2(gl_FragCoord.xy), 0); }
+#endif
+
+uvec4 stored_codes() { return uvec4(stored_pixel() * STORED + 0.5); }
+void store_codes(uvec4 codes) { pixel = vec4(codes) / STORED; }
+
+void composite(uvec3 color, uint alpha) {
+    uvec4 there = stored_codes();
+    uvec4 source = uvec4(color, LARGEST_CODE);
+    uvec4 result;
+    for (int channel = 0; channel < 4; ++channel) {
+#ifdef FRONT_TO_BACK
+        result[channel] = under(source[channel], alpha, there[channel], there.a);
+#else
+        result[channel] = over(source[channel], alpha, there[channel]);
+#endif
+    }
+    store_codes(result);
+}
+
+// Opacity alone, in the first channel.
+void composite_opacity(uint alpha) {
+    uint there = stored_codes().r;
+#ifdef FRONT_TO_BACK
+    store_codes(uvec4(under(LARGEST_CODE, alpha, there, there), 0u, 0u, 0u));
+#else
+    store_codes(uvec4(over(LARGEST_CODE, alpha, there), 0u, 0u, 0u));
+#endif
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compositing/fixed_ray.h"
+
+#include <vector>
+
+#include "compositing/random_bits.h"
+#include "compositing/unit_opacity.h"
+
+namespace lamina {
+namespace {
+
+// Opacities and colours of a ray's samples and nodes as codes.
+class Coder {
+  public:
+    Coder(const Emulation& emulation, const std::optional<Dither>& dither, std::uint32_t column,
+          std::uint32_t row)
+        : emulation_(emulation), dither_(dither), column_(column), row_(row) {
+        if (!dither_) return;
+        alpha_ranks_ = dither_ranks(dither_->period, dither_->seed);
+        if (dither_->color) color_ranks_ = dither_ranks(dither_->period, dither_->seed + 1);
+    }
+
+    std::uint32_t largest() const { return largest_code(emulation_.bits); }
+
+    // `stage`: a number of its own for every rounding in a pixel.
+    std::uint32_t round(double opacity, std::uint32_t stage) const {
+        const double scaled = largest() * opacity;
+        const std::uint32_t random = emulation_.alpha == AlphaRounding::stochastic
+                                         ? random_bits(column_, row_, stage, emulation_.seed)
+                                         : 0;
+        return round_alpha(emulation_.alpha, split_scaled(scaled), random);
+    }
+
+    std::uint32_t sample_alpha(double opacity, int slab) const {
+        if (!dither_) return round(opacity, static_cast<std::uint32_t>(slab));
+        return dithered(largest() * opacity, alpha_ranks_, slab);
+    }
+
+    std::uint32_t sample_color(double color, int slab) const {
+        return color_ranks_.empty() ? code_nearest(largest() * color)
+                                    : dithered(largest() * color, color_ranks_, slab);
+    }
+
+  private:
+    std::uint32_t dithered(double scaled, const std::vector<std::uint32_t>& ranks, int slab) const {
+        const auto place = static_cast<std::size_t>(slab % dither_->period);
+        return dither_code(scaled, ranks[place], dither_->period, dither_->increment, largest());
+    }
+
+    const Emulation& emulation_;
+    const std::optional<Dither>& dither_;
+    std::uint32_t column_, row_;
+    std::vector<std::uint32_t> alpha_ranks_, color_ranks_;
+};
+
+class TreeCompositor {
+  public:
+    TreeCompositor(std::span<const double> unit_opacities, const TreeShape& tree,
+                   const Emulation& emulation, Order order, const Coder& coder)
+        : unit_opacities_(unit_opacities),
+          tree_(tree),
+          emulation_(emulation),
+          order_(order),
+          coder_(coder) {}
+
+    std::uint32_t evaluate(int level, const SampleSpan& node) {
+        const bool leaf = tree_.is_leaf(level, node);
+        const int children = leaf ? node.count : tree_.factor(level);
+        std::uint32_t composited = 0;
+        for (int i = 0; i < children; ++i) {
+            const int child = order_ == Order::back_to_front ? children - 1 - i : i;
+            const SampleSpan span =
+                leaf ? SampleSpan{node.first + child, 1} : child_span(node, child, children);
+            if (span.count == 0) continue;
+            const double share = static_cast<double>(span.count) / node.count;
+            const std::uint32_t alpha =
+                leaf ? leaf_alpha(span.first, share) : swizzle(evaluate(level + 1, span), share);
+            composited =
+                order_ == Order::back_to_front
+                    ? over(emulation_.over, coder_.largest(), alpha, composited, coder_.largest())
+                    : under(emulation_.over, coder_.largest(), alpha, composited, composited,
+                            coder_.largest());
+        }
+        return composited;
+    }
+
+  private:
+    std::uint32_t leaf_alpha(int slab, double share) const {
+        return coder_.sample_alpha(
+            opacity_over(unit_opacities_[static_cast<std::size_t>(slab)], share), slab);
+    }
+
+    // The paper's exponent-swizzle of a node's image into its parent's input. Nodes are numbered
+    // as they are evaluated, behind the samples.
+    std::uint32_t swizzle(std::uint32_t code, double share) {
+        const double phi = static_cast<double>(code) / coder_.largest();
+        const auto stage = static_cast<std::uint32_t>(tree_.samples() + swizzled_++);
+        return coder_.round(opacity_over(phi, share), stage);
+    }
+
+    std::span<const double> unit_opacities_;
+    const TreeShape& tree_;
+    const Emulation& emulation_;
+    Order order_;
+    const Coder& coder_;
+    int swizzled_ = 0;
+};
+
+}  // namespace
+
+FixedPixel composite_straight(std::span<const RaySample> samples, const Emulation& emulation,
+                              const std::optional<Dither>& dither, Order order,
+                              std::uint32_t column, std::uint32_t row) {
+    const Coder coder(emulation, dither, column, row);
+    const std::uint32_t largest = coder.largest();
+    const int count = static_cast<int>(samples.size());
+    FixedPixel pixel;
+    for (int i = 0; i < count; ++i) {
+        const int slab = order == Order::back_to_front ? count - 1 - i : i;
+        const RaySample& sample = samples[static_cast<std::size_t>(slab)];
+        const std::uint32_t color = coder.sample_color(sample.color, slab);
+        const std::uint32_t alpha = coder.sample_alpha(sample.alpha, slab);
+        if (order == Order::back_to_front) {
+            pixel.color = over(emulation.over, color, alpha, pixel.color, largest);
+            pixel.alpha = over(emulation.over, largest, alpha, pixel.alpha, largest);
+        } else {
+            pixel.color = under(emulation.over, color, alpha, pixel.color, pixel.alpha, largest);
+            pixel.alpha = under(emulation.over, largest, alpha, pixel.alpha, pixel.alpha, largest);
+        }
+    }
+    return pixel;
+}
+
+std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeShape& tree,
+                             const Emulation& emulation, const std::optional<Dither>& dither,
+                             Order order, std::uint32_t column, std::uint32_t row) {
+    const Coder coder(emulation, dither, column, row);
+    return TreeCompositor(unit_opacities, tree, emulation, order, coder).evaluate(0, tree.root());
+}
+
+}  // namespace lamina

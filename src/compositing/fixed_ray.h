@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixed-point compositing of one ray on the processor: what an emulated target holds, and what
+// LaMar 2004 plots.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "compositing/dither.h"
+#include "compositing/emulation.h"
+#include "compositing/order.h"
+#include "compositing/tree_shape.h"
+
+namespace lamina {
+
+// One channel and opacity, as codes. `color` is associated.
+struct FixedPixel {
+    std::uint32_t color = 0;
+    std::uint32_t alpha = 0;
+};
+
+// A sample: colour in [0, 1], not associated, and opacity.
+struct RaySample {
+    double color = 1;
+    double alpha = 0;
+};
+
+// The pixel after all samples, of which 0 is nearest the eye. `column`, `row`: the pixel's place,
+// for stochastic rounding.
+FixedPixel composite_straight(std::span<const RaySample> samples, const Emulation& emulation,
+                              const std::optional<Dither>& dither = {},
+                              Order order = Order::back_to_front, std::uint32_t column = 0,
+                              std::uint32_t row = 0);
+
+// Exponent-factoring (LaMar 2004, section 6; NUMERICS section 3): the opacity of the root, as a
+// code, of samples given by their per-unit opacity A, where the unit is the whole ray. Samples may
+// be dithered; nodes are rounded as alpha is.
+std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeShape& tree,
+                             const Emulation& emulation, const std::optional<Dither>& dither = {},
+                             Order order = Order::back_to_front, std::uint32_t column = 0,
+                             std::uint32_t row = 0);
+
+}  // namespace lamina

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a node of a compositing tree stores its optical depth in the alpha channel of a low-precision
+// image (NUMERICS section 4). Twin of shaders/compositing/node_code.glsl, to float32.
+#pragma once
+
+namespace lamina {
+
+// phi:     1 - exp(-sigma), the paper's: opacity as if the node's share filled the whole ray
+// alpha:   1 - exp(-S), the node's own opacity
+// minimax: equal worst effect of one rounding on the ray's opacity, for every sigma
+enum class NodeCode { minimax, phi, alpha };
+
+// Optical depth that a code of 1 stands for: opaque.
+inline constexpr double opaque_node_depth = 1e4;
+
+// The code in [0, 1] of optical depth S >= 0 in a node that holds `share` (0 < share <= 1) of its
+// ray's samples. sigma = S / share is what the whole ray's depth would be if all of it were like
+// the node.
+double encode_depth(NodeCode code, double depth, double share);
+
+// Its inverse: S of a code in [0, 1].
+double decode_depth(NodeCode code, double value, double share);
+
+}  // namespace lamina

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The OVER operator on n-bit codes (LaMar 2004, section 4; NUMERICS section 2). Twin of
+// shaders/compositing/over.glsl, bit for bit. M is odd, so that no product lies in the middle
+// between two codes.
+#pragma once
+
+#include <cstdint>
+
+namespace lamina {
+
+// separate: both products are rounded, as the paper's hardware does; fused: their sum is.
+enum class OverRounding { separate, fused };
+
+// x / M to the nearest whole number, x <= M * M; (2x + M) / (2M) would overflow for 16 bits.
+constexpr std::uint32_t divide_nearest(std::uint32_t x, std::uint32_t largest) {
+    return (x + (largest - 1) / 2) / largest;
+}
+
+// Colour `color` with opacity `alpha` over `below`, all codes 0..M; for the alpha channel `color`
+// is M.
+constexpr std::uint32_t over(OverRounding rounding, std::uint32_t color, std::uint32_t alpha,
+                             std::uint32_t below, std::uint32_t largest) {
+    const std::uint32_t source = color * alpha, kept = below * (largest - alpha);
+    return rounding == OverRounding::fused
+               ? divide_nearest(source + kept, largest)
+               : divide_nearest(source, largest) + divide_nearest(kept, largest);
+}
+
+// Front to back: adds `color` with opacity `alpha` behind what is there: associated colour
+// `above`, opacity `above_alpha`. separate: the source is multiplied by its opacity, rounded,
+// attenuated and rounded again, as blending with (1 - destination alpha, 1) does; fused: one
+// rounding.
+constexpr std::uint32_t under(OverRounding rounding, std::uint32_t color, std::uint32_t alpha,
+                              std::uint32_t above, std::uint32_t above_alpha,
+                              std::uint32_t largest) {
+    if (rounding == OverRounding::separate) {
+        const std::uint32_t source = divide_nearest(color * alpha, largest);
+        return above + divide_nearest(source * (largest - above_alpha), largest);
+    }
+    const std::uint64_t square = std::uint64_t{largest} * largest;
+    const std::uint64_t product = std::uint64_t{color * alpha} * (largest - above_alpha);
+    return above + static_cast<std::uint32_t>((product + (square - 1) / 2) / square);
+}
+
+}  // namespace lamina

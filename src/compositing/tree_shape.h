@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace lamina {
+
+// Samples first .. first + count - 1 of a ray, or slabs of a volume; 0 is nearest the eye.
+struct SampleSpan {
+    int first = 0;
+    int count = 0;
+    int end() const { return first + count; }
+};
+
+// Child i of the k of a node (DESIGN section 4): samples floor(i n / k) .. floor((i + 1) n / k) of
+// its n, so that the children's sizes differ by at most one; some are empty where k > n.
+SampleSpan child_span(const SampleSpan& node, int child, int children);
+
+// A compositing tree over N samples (LaMar 2004, section 6): bifurcation factors from the root to
+// the leaves, any factors and any N >= 1. A node on the last level is a leaf: its children are
+// samples. Where the factors' product is less than N, another level takes the rest.
+class TreeShape {
+  public:
+    TreeShape(const std::vector<int>& factors, int samples);
+
+    int samples() const { return samples_; }
+    int levels() const { return static_cast<int>(factors_.size()); }
+    int factor(int level) const { return factors_[static_cast<std::size_t>(level)]; }
+    SampleSpan root() const { return {0, samples_}; }
+
+    // A node of one sample is a leaf on any level.
+    bool is_leaf(int level, const SampleSpan& node) const {
+        return level + 1 == levels() || node.count <= 1;
+    }
+    // Nodes that hold samples.
+    std::int64_t node_count() const;
+    std::int64_t leaf_count() const;
+
+  private:
+    std::int64_t count_nodes(int level, int count, bool leaves_only) const;
+
+    std::vector<int> factors_;
+    int samples_;
+};
+
+inline constexpr int max_tree_levels = 16;
+inline constexpr int max_tree_factor = 65536;
+
+// "32x32", "4^5": as lists; throws Error on anything else.
+std::vector<int> parse_factors(const std::string& text);
+std::string to_text(const std::vector<int>& factors);
+
+}  // namespace lamina
