@@ -14,6 +14,7 @@
 #endif
 
 uniform vec2 image_middle;      // in pixels
+uniform REAL slab_thickness;    // of depth
 uniform REAL3 origin_middle;    // of the ray through the image's middle
 uniform REAL3 origin_column;    // change per pixel to the right
 uniform REAL3 origin_row;       // and downwards
@@ -27,7 +28,7 @@ uniform float pixel_size;       // at depth 1
 struct Ray {
     REAL3 origin;
     REAL3 direction;
-    float length_per_depth;  // world units
+    REAL length_per_depth;  // world units
 };
 
 Ray view_ray(vec2 fragment) {
@@ -36,18 +37,21 @@ Ray view_ray(vec2 fragment) {
     Ray ray;
     ray.origin = origin_middle + pixel.x * origin_column + pixel.y * origin_row;
     ray.direction = direction_middle;
-    ray.length_per_depth = 1.0;
+    ray.length_per_depth = REAL(1.0);
 #ifndef ORTHOGRAPHIC
     ray.direction += pixel.x * direction_column + pixel.y * direction_row;
-    ray.length_per_depth = sqrt(1.0 + dot(from_middle, from_middle) * pixel_size * pixel_size);
+    ray.length_per_depth = sqrt(REAL(1.0) + dot(pixel, pixel) * REAL(pixel_size) * REAL(pixel_size));
 #endif
     return ray;
 }
 
 vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direction); }
 
+// Front and back of `count` slabs from number `slab` on.
+REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
+
 // The depths between which the ray is inside the box and inside the slab; y <= x where it is not.
-REAL2 clip_to_box(Ray ray, vec2 slab, vec3 box_min, vec3 box_max) {
+REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
     REAL3 inverse = REAL3(1.0) / direction;
@@ -55,6 +59,6 @@ REAL2 clip_to_box(Ray ray, vec2 slab, vec3 box_min, vec3 box_max) {
     REAL3 other = (REAL3(box_max) - ray.origin) * inverse;
     REAL3 enter = min(one, other);
     REAL3 leave = max(one, other);
-    return REAL2(max(REAL(slab.x), max(enter.x, max(enter.y, enter.z))),
-                 min(REAL(slab.y), min(leave.x, min(leave.y, leave.z))));
+    return REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
+                 min(slab.y, min(leave.x, min(leave.y, leave.z))));
 }

@@ -67,4 +67,28 @@ Image Framebuffer::read_back(std::size_t target) const {
     return image;
 }
 
+LayerFramebuffer::LayerFramebuffer() : handle_(new_framebuffer()) {}
+
+void LayerFramebuffer::bind(std::initializer_list<const Texture*> arrays, int layer) {
+    const int count = static_cast<int>(arrays.size());
+    std::vector<GLenum> outputs;
+    for (const Texture* const array : arrays) {
+        outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
+        glNamedFramebufferTextureLayer(handle_.id(), outputs.back(), array->id(), 0, layer);
+    }
+    if (count != bound_) {
+        glNamedFramebufferDrawBuffers(handle_.id(), count, outputs.data());
+        bound_ = count;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, handle_.id());
+    glViewport(0, 0, (*arrays.begin())->width(), (*arrays.begin())->height());
+}
+
+void LayerFramebuffer::clear() {
+    const float zero[4] = {0, 0, 0, 0};
+    for (int target = 0; target < bound_; ++target) {
+        glClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
+    }
+}
+
 }  // namespace lamina::gl

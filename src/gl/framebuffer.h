@@ -4,6 +4,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "gl/handle.h"
@@ -34,6 +35,21 @@ class Framebuffer {
   private:
     std::vector<Texture> colors_;
     Handle<ObjectKind::framebuffer> handle_;
+};
+
+// Draws into single layers of array textures that others own and that outlive it.
+class LayerFramebuffer {
+  public:
+    LayerFramebuffer();
+
+    // For drawing into layer `layer` of each texture, texture i being the shader's output i, with
+    // the viewport over all of it.
+    void bind(std::initializer_list<const Texture*> arrays, int layer);
+    void clear();  // every target that is bound, to zero
+
+  private:
+    Handle<ObjectKind::framebuffer> handle_;
+    int bound_ = 0;
 };
 
 }  // namespace lamina::gl

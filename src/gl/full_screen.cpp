@@ -4,13 +4,15 @@
 #include <glad/gl.h>
 
 #include "gl/check.h"
-#include "gl/vertex_array.h"
 
 namespace lamina::gl {
 
 void draw_full_screen(const Program& program) {
-    const VertexArray no_attributes;
-    no_attributes.bind();
+    draw_full_screen(program, VertexArray());
+}
+
+void draw_full_screen(const Program& program, const VertexArray& any) {
+    any.bind();
     program.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     check("drawing over the whole target");

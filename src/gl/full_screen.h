@@ -2,11 +2,14 @@
 #pragma once
 
 #include "gl/program.h"
+#include "gl/vertex_array.h"
 
 namespace lamina::gl {
 
 // Runs the program, whose vertex shader is "gl/full_screen.vert", once for every pixel of the bound
 // framebuffer.
 void draw_full_screen(const Program& program);
+// The same without making a vertex array: for every frame.
+void draw_full_screen(const Program& program, const VertexArray& any);
 
 }  // namespace lamina::gl

@@ -113,6 +113,10 @@ void Program::set(std::string_view name, float value) {
     glProgramUniform1f(id(), location(name), value);
 }
 
+void Program::set(std::string_view name, double value) {
+    glProgramUniform1d(id(), location(name), value);
+}
+
 void Program::set(std::string_view name, int value) {
     glProgramUniform1i(id(), location(name), value);
 }

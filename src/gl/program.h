@@ -31,7 +31,8 @@ class Program {
     // specialisation does not use (optimised out, or under another #if) is ignored; a name that is
     // nowhere in the source is an Error.
     void set(std::string_view name, float value);
-    void set(std::string_view name, int value);  // also a sampler's texture unit
+    void set(std::string_view name, double value);  // of a uniform double
+    void set(std::string_view name, int value);     // also a sampler's texture unit
     void set(std::string_view name, const glm::vec2& value);
     void set(std::string_view name, const glm::vec3& value);
     void set(std::string_view name, const glm::dvec3& value);

@@ -9,9 +9,10 @@
 namespace lamina::gl {
 
 const TextureFormatInfo& info_of(TextureFormat format) {
-    static constexpr std::array<TextureFormatInfo, 8> table{{
+    static constexpr std::array<TextureFormatInfo, 9> table{{
         {"R8", 1, 1, GL_R8, GL_RED, GL_UNSIGNED_BYTE},
         {"R16", 1, 2, GL_R16, GL_RED, GL_UNSIGNED_SHORT},
+        {"R16F", 1, 2, GL_R16F, GL_RED, GL_FLOAT},
         {"R32F", 1, 4, GL_R32F, GL_RED, GL_FLOAT},
         {"RG32F", 2, 8, GL_RG32F, GL_RG, GL_FLOAT},
         {"RGBA8", 4, 4, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE},

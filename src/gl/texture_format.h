@@ -4,7 +4,7 @@
 namespace lamina::gl {
 
 // r8, r16, rgba8, rgba16: codes that read as code/255 and code/65535.
-enum class TextureFormat { r8, r16, r32f, rg32f, rgba8, rgba16, rgba16f, rgba32f };
+enum class TextureFormat { r8, r16, r16f, r32f, rg32f, rgba8, rgba16, rgba16f, rgba32f };
 
 struct TextureFormatInfo {
     const char* name;

@@ -10,8 +10,10 @@ namespace lamina {
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
     bool software = true;  // no GPU behind it
-    int max_texture_size = 0;     // GL_MAX_TEXTURE_SIZE, also of the render target
-    int max_3d_texture_size = 0;  // GL_MAX_3D_TEXTURE_SIZE
+    int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
+    int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
+    int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
+    bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
     std::uint64_t max_texture_bytes =
         std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead
     bool exact_float_filter =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "base/error.h"
 
@@ -34,6 +35,35 @@ double side_ratio_of(const Grid& grid) {
                            extent.y * glm::length(grid.step[1]),
                            extent.z * glm::length(grid.step[2])};
     return std::max({sides.x, sides.y, sides.z}) / std::min({sides.x, sides.y, sides.z});
+}
+
+// Colour is linear between knots: its extremes are at knots and at the ends of the range.
+double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
+    double largest = 0;
+    const auto include = [&](const glm::dvec3& color) {
+        largest = std::max({largest, color.r, color.g, color.b});
+    };
+    include(transfer_function.at(range.lo).color);
+    include(transfer_function.at(range.hi).color);
+    for (const TransferKnot& knot : transfer_function.knots()) {
+        if (knot.value > range.lo && knot.value < range.hi) include(knot.optics.color);
+    }
+    return largest;
+}
+
+void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                         Facts& facts) {
+    std::vector<double> extinctions;
+    for (const ValueRange& range : bricks.ranges) {
+        extinctions.push_back(range.empty() ? 0.0
+                                            : transfer_function.max_extinction(range.lo, range.hi));
+    }
+    std::sort(extinctions.begin(), extinctions.end());
+    const auto quantile = [&](double share) {
+        const auto last = static_cast<double>(extinctions.size() - 1);
+        return extinctions[static_cast<std::size_t>(std::ceil(share * last))];
+    };
+    facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
@@ -82,6 +112,7 @@ void measure_view(const Scene& scene, Facts& facts) {
     facts.far_depth = depth.far;
     const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
     facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
+    facts.occupied_depth = depth_range(facts.grid, facts.occupied, view);
     if (!facts.orthographic) {
         const double x = view.x(scene.width - 1), y = view.y(0);
         facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
@@ -91,7 +122,11 @@ void measure_view(const Scene& scene, Facts& facts) {
 }  // namespace
 
 DepthRange depth_range(const Grid& grid, const View& view) {
-    const glm::dvec3 lo = grid.index_min(), hi = grid.index_max();
+    return depth_range(grid, {grid.index_min(), grid.index_max()}, view);
+}
+
+DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view) {
+    const glm::dvec3 lo = box.min, hi = box.max;
     DepthRange depth{INFINITY, -INFINITY};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 index{(corner & 1) != 0 ? hi.x : lo.x, (corner & 2) != 0 ? hi.y : lo.y,
@@ -116,9 +151,11 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
     facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);
     facts.max_extinction = transfer_function.max_extinction(facts.range.lo, facts.range.hi);
+    facts.max_color = largest_color(transfer_function, facts.range);
     facts.knots = std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
         return knot.value > facts.range.lo && knot.value < facts.range.hi;
     });
+    measure_extinctions(transfer_function, bricks, facts);
     measure_occupied(transfer_function, bricks, facts);
     measure_view(scene, facts);
     return facts;

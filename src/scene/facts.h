@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 
 #include "scene/camera.h"
@@ -25,6 +26,7 @@ struct DepthRange {
     double far = 0;
 };
 DepthRange depth_range(const Grid& grid, const View& view);
+DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
 // What the data and the view really contain: measured, not declared.
 struct Facts {
@@ -39,12 +41,16 @@ struct Facts {
     bool constant = false;      // one colour, one extinction
     bool single_color = false;  // one colour wherever there is extinction
     double max_extinction = 0;  // per world unit
+    double max_color = 0;       // largest component of a colour
     std::int64_t knots = 0;     // strictly inside the range
 
     // The smallest box, made of whole min/max bricks, outside which the transfer function shows
     // nothing.
     IndexBox occupied;
     double occupied_share = 0;  // of the volume's box, by its bricks
+    DepthRange occupied_depth;  // eye-space depths of `occupied`
+    // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
+    std::array<double, 3> extinction_quantiles{};
 
     // The view: eye-space depths of the box's nearest and farthest point in front of the eye.
     bool orthographic = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr int software_batches = 64;
 
 constexpr double samples_per_voxel = 2;  // of "samples": "auto"
-constexpr int max_slabs = 65536;
+constexpr int most_slabs = 65536;
 
 // A table that knows only the limit of short segments has at most this optical depth in one
 // segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
@@ -103,6 +103,34 @@ void check_limits(const Scene& scene, const Capabilities& capabilities) {
     }
 }
 
+bool is_fixed_point(Target target) {
+    return target == Target::fixed8 || target == Target::fixed16 || target == Target::emulated;
+}
+
+// A tree that the scene spells out.
+void check_tree(const Scene& scene, const Facts& facts) {
+    const std::string file = scene.file.string();
+    if (scene.slice.tree->nodes == NodeArithmetic::shader) {
+        if (scene.target != Target::emulated) return;
+        fail(
+            "{}: render.slice.tree.nodes: found \"shader\" with target \"emulated\", expected "
+            "\"fixed\": nodes computed in a shader write fixed8, fixed16, float16 or float32",
+            file);
+    }
+    if (!is_fixed_point(scene.target)) {
+        fail(
+            "{}: render.slice.tree.nodes: found \"fixed\" with target \"{}\", expected target "
+            "fixed8, fixed16 or emulated",
+            file, name_of(scene.target));
+    }
+    if (!facts.single_color) {
+        fail(
+            "{}: render.slice.tree.nodes: found \"fixed\" with a transfer function of several "
+            "colours, expected one colour (LaMar 2004, section 6), or \"nodes\": \"shader\"",
+            file);
+    }
+}
+
 class SlicePlanner {
   public:
     SlicePlanner(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
@@ -124,12 +152,8 @@ class SlicePlanner {
         choose_geometry();
         choose_sampling();
         choose_table();
-        if (plan_.slice.sampling != VolumeSampling::none) {
-            slice.bricks = cut_into_bricks(
-                facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
-        } else {
-            slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
-        }
+        choose_bricks();
+        choose_compositing();
         return std::move(plan_);
     }
 
@@ -144,7 +168,7 @@ class SlicePlanner {
     void choose_slabs() {
         const double wanted = std::ceil(samples_per_voxel * facts_.voxels_along_view);
         plan_.slice.slabs = scene_.slice.samples.value_or(
-            static_cast<int>(std::clamp(wanted, 1.0, double{max_slabs})));
+            static_cast<int>(std::clamp(wanted, 1.0, double{most_slabs})));
     }
 
     void choose_precision() {
@@ -224,6 +248,89 @@ class SlicePlanner {
         }
     }
 
+    void choose_bricks() {
+        SlicePlan& slice = plan_.slice;
+        if (slice.sampling == VolumeSampling::none) {
+            slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
+            return;
+        }
+        slice.bricks = cut_into_bricks(facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type),
+                                       capabilities_);
+    }
+
+    void choose_compositing() {
+        SlicePlan& slice = plan_.slice;
+        if (scene_.target == Target::emulated) slice.emulation = scene_.emulate;
+        if (scene_.slice.tree) {
+            choose_tree_for(*scene_.slice.tree);
+        } else if (leave_out(slice.target == Target::float32, "blending",
+                             "one node marches all slabs in registers: what blending in float32 "
+                             "would give, with one write a pixel and without its roundings")) {
+            slice.tree = TreePlan{.factors = {slice.slabs}};
+        }
+        if (slice.emulation) {
+            slice.blending = capabilities_.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+        }
+        if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
+    }
+
+    void choose_tree_for(const TreeSettings& settings) {
+        SlicePlan& slice = plan_.slice;
+        if (!settings.automatic) {
+            slice.tree =
+                TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
+            check_tree(scene_, facts_);
+            return;
+        }
+        try {
+            const TreeChoice choice = choose_tree(tree_question());
+            slice.tree = choice.tree;
+            slice.error_bound = choice.error_bound;
+            slice.tree_reason = choice.reason;
+        } catch (const Error& error) {
+            fail("{}: {}", scene_.file.string(), error.what());
+        }
+    }
+
+    TreeQuestion tree_question() const {
+        const SlicePlan& slice = plan_.slice;
+        TreeQuestion question;
+        question.target = slice.target;
+        question.emulation = scene_.emulate;
+        question.slabs = slice.slabs;
+        const double thickness = (facts_.far_depth - facts_.near_depth) / slice.slabs;
+        const DepthRange& seen = facts_.occupied_depth;
+        const double visible =
+            thickness > 0 ? std::ceil((seen.far - seen.near) / thickness) + 1 : 0.0;
+        // A slab that lies in several bricks is composited in parts.
+        question.visible_slabs =
+            static_cast<int>(std::clamp(visible, 0.0, static_cast<double>(slice.slabs))) +
+            static_cast<int>(slice.bricks.size()) - 1;
+        question.order = slice.order;
+        if (scene_.slice.dither && is_fixed_point(slice.target)) {
+            question.dither = dither_of(*scene_.slice.dither);
+        }
+        question.largest_color = facts_.max_color;
+        question.max_error = scene_.max_error;
+        return question;
+    }
+
+    Dither dither_of(const DitherSettings& settings) const {
+        return {settings.period.value_or(dither_period_for(plan_.slice.slabs)), settings.seed,
+                settings.color, settings.increment};
+    }
+
+    void choose_dither(const DitherSettings& settings) {
+        SlicePlan& slice = plan_.slice;
+        const bool codes = is_fixed_point(slice.target) && !slice.has_tree(NodeArithmetic::shader);
+        if (!codes) {
+            plan_.omitted.push_back(
+                {"dither", "slabs are composited in float: there is nothing to dither"});
+            return;
+        }
+        slice.dither = dither_of(settings);
+    }
+
     const Scene& scene_;
     const Facts& facts_;
     const Capabilities& capabilities_;
@@ -231,24 +338,11 @@ class SlicePlanner {
     Plan plan_;
 };
 
-const char* text_of(VolumeSampling sampling) {
-    switch (sampling) {
-        case VolumeSampling::none:
-            return "none";
-        case VolumeSampling::fetch:
-            return "8 fetches, float arithmetic";
-        case VolumeSampling::filtered:
-            return "linear filter of a float texture (measured exact)";
-        default:
-            return "hardware linear filter";
-    }
-}
-
 }  // namespace
 
 std::vector<std::string> omission_names() {
-    return {"color",       "drawing", "empty_space",   "length_layers",
-            "perspective", "table",   "volume_texture"};
+    return {"blending",    "color", "double_precision", "drawing", "empty_space", "length_layers",
+            "perspective", "table", "volume_texture"};
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
@@ -260,38 +354,6 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
     plan.omitted.push_back(
         {"context", "the tracer runs on the processor: no OpenGL context is made"});
     return plan;
-}
-
-std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities) {
-    std::string text;
-    const auto row = [&](const char* what, const std::string& value) {
-        text += fmt::format("  {:<14} {}\n", what, value);
-    };
-    text += "uses\n";
-    row("method", name_of(plan.method));
-    if (plan.method == Method::slice) {
-        const SlicePlan& slice = plan.slice;
-        row("context", capabilities.renderer);
-        row("slabs",
-            fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
-                        facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
-        row("target", name_of(slice.target));
-        row("classification", name_of(slice.classification));
-        row("order", name_of(slice.order));
-        row("rays", slice.precise_rays ? "double" : "float");
-        row("scalar", text_of(slice.sampling));
-        row("textures", fmt::format("{} of {}", slice.bricks.size(),
-                                    slice.float_texture ? "float" : name_of(facts.type)));
-        if (slice.uses_table()) {
-            row("table",
-                fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
-                            slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
-        }
-    }
-    text += "left out\n";
-    for (const Omission& omission : plan.omitted) row(omission.name.c_str(), omission.reason);
-    if (plan.omitted.empty()) text += "  nothing\n";
-    return text;
 }
 
 }  // namespace lamina

@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "compositing/dither.h"
 #include "scene/capabilities.h"
 #include "scene/facts.h"
 #include "scene/scene.h"
+#include "scene/tree_choice.h"
 
 namespace lamina {
 
@@ -35,6 +37,13 @@ enum class VolumeSampling {
     hardware,  // linear filter of a texture in the file's own type, with the hardware's weights
 };
 
+// Who computes OVER on what a target holds.
+enum class Blending {
+    native,   // the blending unit
+    fetch,    // the program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
+    barrier,  // the program, which reads the target as a texture, with a barrier between slabs
+};
+
 // A part of the volume that one texture holds: samples first .. first + size - 1; neighbours share
 // a layer of samples.
 struct TextureBrick {
@@ -52,6 +61,12 @@ struct TablePlan {
 struct SlicePlan {
     int slabs = 1;
     Target target = Target::float32;
+    std::optional<Emulation> emulation;  // for Target::emulated
+    Blending blending = Blending::native;
+    std::optional<Dither> dither;
+    std::optional<TreePlan> tree;
+    std::optional<double> error_bound;  // of "tree": "auto", in 1/255, with its reason
+    std::string tree_reason;
     Classification classification = Classification::post;
     Order order = Order::back_to_front;
     VolumeSampling sampling = VolumeSampling::fetch;
@@ -67,6 +82,11 @@ struct SlicePlan {
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
     std::vector<TextureBrick> bricks;
 
+    bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
+    // Bits of a code where slabs are rounded to codes in the program.
+    int code_bits() const {
+        return emulation ? emulation->bits : target == Target::fixed16 ? 16 : 8;
+    }
     bool uses_table() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }

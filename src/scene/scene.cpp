@@ -17,8 +17,10 @@ const char* name_of(Target target) {
             return "float16";
         case Target::fixed16:
             return "fixed16";
-        default:
+        case Target::fixed8:
             return "fixed8";
+        default:
+            return "emulated";
     }
 }
 
@@ -32,6 +34,36 @@ const char* name_of(Order order) {
 
 const char* name_of(Filter filter) {
     return filter == Filter::exact ? "exact" : "hardware";
+}
+
+const char* name_of(NodeArithmetic nodes) {
+    return nodes == NodeArithmetic::shader ? "shader" : "fixed";
+}
+
+const char* name_of(NodeCode code) {
+    switch (code) {
+        case NodeCode::minimax:
+            return "minimax";
+        case NodeCode::phi:
+            return "phi";
+        default:
+            return "alpha";
+    }
+}
+
+const char* name_of(AlphaRounding rounding) {
+    switch (rounding) {
+        case AlphaRounding::truncate:
+            return "truncate";
+        case AlphaRounding::nearest:
+            return "nearest";
+        default:
+            return "stochastic";
+    }
+}
+
+const char* name_of(OverRounding rounding) {
+    return rounding == OverRounding::separate ? "separate" : "fused";
 }
 
 Volume load_volume(const Scene& scene) {

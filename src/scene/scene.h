@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "compositing/emulation.h"
+#include "compositing/node_code.h"
+#include "compositing/order.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
 #include "volume/generate.h"
@@ -15,17 +18,35 @@
 namespace lamina {
 
 enum class Method { slice, trace };
-enum class Target { float32, float16, fixed16, fixed8 };
+enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class Classification { post, preintegrated };
-enum class Order { back_to_front, front_to_back };
 enum class Filter { exact, hardware };
 enum class NanPolicy { error, transparent };
+// Who composites in a node of a tree: a program, in float, or a fixed-point buffer (the paper's).
+enum class NodeArithmetic { shader, fixed };
+
+struct DitherSettings {
+    std::optional<int> period = 16;  // slabs; none: "auto"
+    std::uint32_t seed = 1;
+    bool color = false;
+    int increment = 1;
+};
+
+struct TreeSettings {
+    bool automatic = false;    // "tree": "auto": the plan chooses factors and code
+    std::vector<int> factors;  // from the root to the leaves
+    NodeArithmetic nodes = NodeArithmetic::shader;
+    NodeCode code = NodeCode::minimax;
+    int alpha_bits = 8;
+};
 
 struct SliceSettings {
     std::optional<int> samples;  // slabs N; none: two per voxel along the view ("auto")
     Classification classification = Classification::post;
     Order order = Order::back_to_front;
     Filter filter = Filter::exact;
+    std::optional<DitherSettings> dither;
+    std::optional<TreeSettings> tree;
 };
 
 // A scene file as read (DESIGN section 4): what to draw and how, nothing measured yet.
@@ -41,6 +62,8 @@ struct Scene {
     glm::dvec3 background{0};  // linear
     Method method = Method::slice;
     Target target = Target::float32;
+    Emulation emulate;     // for Target::emulated
+    double max_error = 1;  // in 1/255: the bound for what is automatic
     SliceSettings slice;
     double trace_tolerance = 1e-5;  // of full scale
     std::vector<std::string> warnings;
@@ -51,6 +74,10 @@ const char* name_of(Target target);
 const char* name_of(Classification classification);
 const char* name_of(Order order);
 const char* name_of(Filter filter);
+const char* name_of(NodeArithmetic nodes);
+const char* name_of(NodeCode code);
+const char* name_of(AlphaRounding rounding);
+const char* name_of(OverRounding rounding);
 
 // The volume that the scene names: read from its file, or generated.
 Volume load_volume(const Scene& scene);

@@ -7,12 +7,11 @@
 
 #include "image/image_limits.h"
 #include "scene/json_reader.h"
+#include "scene/slice_reader.h"
 #include "scene/transfer_function_json.h"
 
 namespace lamina {
 namespace {
-
-constexpr std::int64_t max_slabs = 65536;
 
 GeneratorRequest read_generator(JsonReader reader) {
     GeneratorRequest request;
@@ -97,26 +96,6 @@ void read_image(JsonReader reader, Scene& scene) {
     reader.close();
 }
 
-SliceSettings read_slice(JsonReader reader) {
-    SliceSettings slice;
-    if (reader.has("samples") && reader.value("samples") != "auto") {
-        if (!reader.value("samples").is_number()) {
-            reader.reject("samples",
-                          fmt::format("a whole number from 1 to {}, or \"auto\"", max_slabs));
-        }
-        slice.samples = static_cast<int>(reader.whole("samples", 1, max_slabs));
-    }
-    slice.classification = reader.choice<Classification>(
-        "classification",
-        {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}});
-    slice.order = reader.choice<Order>("order", {{"back_to_front", Order::back_to_front},
-                                                 {"front_to_back", Order::front_to_back}});
-    slice.filter =
-        reader.choice<Filter>("filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
-    reader.close();
-    return slice;
-}
-
 // The settings of the method "project" belong to the format: a scene for it and for slicing has
 // them. They are checked here, so that a slip does not wait, and used by no method of this version.
 void check_project(JsonReader reader) {
@@ -138,7 +117,13 @@ void read_render(JsonReader reader, Scene& scene) {
     scene.target = reader.choice<Target>("target", {{"float32", Target::float32},
                                                     {"float16", Target::float16},
                                                     {"fixed16", Target::fixed16},
-                                                    {"fixed8", Target::fixed8}});
+                                                    {"fixed8", Target::fixed8},
+                                                    {"emulated", Target::emulated}});
+    scene.emulate = read_emulation(reader.object("emulate"));
+    scene.max_error = reader.number_or("max_error", scene.max_error);
+    if (!(scene.max_error > 0 && scene.max_error <= 255)) {
+        reader.reject("max_error", "a number above 0 and up to 255 (in 1/255 of full scale)");
+    }
     scene.slice = read_slice(reader.object("slice"));
     check_project(reader.object("project"));
     JsonReader trace = reader.object("trace");

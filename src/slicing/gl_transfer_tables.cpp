@@ -54,8 +54,10 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
     }
     const ShaderIntervals intervals = make_intervals(transfer_function, range, table.anchors);
     interval_count_ = intervals.count;
-    intervals_ = gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, 3);
-    intervals_.upload({0, 0, 0, intervals.count, 3, 1}, std::span<const float>(intervals.texels));
+    intervals_ =
+        gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, ShaderIntervals::rows);
+    intervals_.upload({0, 0, 0, intervals.count, ShaderIntervals::rows, 1},
+                      std::span<const float>(intervals.texels));
     interval_starts_ =
         gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
     interval_starts_.upload({0, 0, 0, ShaderIntervals::start_count, 1, 1},

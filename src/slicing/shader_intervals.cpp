@@ -16,6 +16,12 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
 }
 
+// What a float32 of the extinction leaves over: codes of n bits are computed in double precision.
+float low_part(const OpticalProperties& optics) {
+    const double extinction = std::min(optics.extinction, max_shader_extinction);
+    return static_cast<float>(extinction - static_cast<double>(static_cast<float>(extinction)));
+}
+
 }  // namespace
 
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
@@ -25,7 +31,7 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
     const auto normalised = [&](double value) {
         return width > 0 ? (value - range.lo) / width : 0.0;
     };
-    std::vector<float> places, left, right;
+    std::vector<float> places, left, right, low;
     std::size_t anchor = 0;
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
@@ -45,6 +51,7 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
                                        : 0.0f);
             append_optics(piece.at_from, left);
             append_optics(piece.at_to, right);
+            low.insert(low.end(), {low_part(piece.at_from), low_part(piece.at_to), 0.0f, 0.0f});
             ++anchor;
         });
     intervals.count = static_cast<int>(places.size() / 4);
@@ -60,6 +67,7 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
     intervals.texels = std::move(places);
     intervals.texels.insert(intervals.texels.end(), left.begin(), left.end());
     intervals.texels.insert(intervals.texels.end(), right.begin(), right.end());
+    intervals.texels.insert(intervals.texels.end(), low.begin(), low.end());
     return intervals;
 }
 

@@ -15,14 +15,15 @@ inline constexpr double max_shader_extinction = 1e30;
 
 // The transfer function over a volume's range as shaders read it (shaders/optics/intervals.glsl):
 // intervals on which it is linear, over scalars normalised so that the range is [0, 1]. Laid out as
-// a texture of 3 rows, one column an interval, RGBA: (left end, 1 / width, table node at the left
+// a texture of 4 rows, one column an interval, RGBA: (left end, 1 / width, table node at the left
 // end, table nodes to the right end), (colour, extinction) at the left end, the same at the right
-// end.
+// end, (what float32 leaves over of both extinctions).
 struct ShaderIntervals {
     static constexpr int start_count = 1024;
+    static constexpr int rows = 4;
 
     int count = 0;
-    std::vector<float> texels;  // 3 * count * 4
+    std::vector<float> texels;  // rows * count * 4
     std::array<float, start_count>
         starts{};  // the interval in which each 1024th of [0, 1] begins: where to search from
 };

@@ -153,24 +153,35 @@ class SlabCutter {
     Polygon points_, polygon_;
 };
 
+void append_fan(const Polygon& polygon, int slab, std::vector<SlabVertex>& triangles) {
+    const auto vertex = [&](std::size_t corner) {
+        return SlabVertex{static_cast<float>(polygon[corner].x),
+                          static_cast<float>(polygon[corner].y), static_cast<float>(slab)};
+    };
+    for (std::size_t corner = 2; corner < polygon.size(); ++corner) {
+        triangles.insert(triangles.end(), {vertex(0), vertex(corner - 1), vertex(corner)});
+    }
+}
+
 }  // namespace
 
 void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
-                          const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles) {
+                          const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
+                          std::vector<std::size_t>* starts) {
     SlabCutter cutter(view, grid, box);
     for (int i = 0; i < slabs.count; ++i) {
         const int slab = order == Order::front_to_back ? i : slabs.count - 1 - i;
-        const double front = slabs.depth(slab), back = slabs.depth(slab + 1);
-        const Polygon& polygon = cutter.cut(front, back);
-        const auto vertex = [&](std::size_t corner) {
-            return SlabVertex{
-                static_cast<float>(polygon[corner].x), static_cast<float>(polygon[corner].y),
-                static_cast<float>(front - slabs.near), static_cast<float>(back - slabs.near)};
-        };
-        for (std::size_t corner = 2; corner < polygon.size(); ++corner) {
-            triangles.insert(triangles.end(), {vertex(0), vertex(corner - 1), vertex(corner)});
-        }
+        if (starts != nullptr) starts->push_back(triangles.size());
+        append_fan(cutter.cut(slabs.depth(slab), slabs.depth(slab + 1)), slab, triangles);
     }
+    if (starts != nullptr) starts->push_back(triangles.size());
+}
+
+void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
+                         const Slabs& slabs, const SampleSpan& span,
+                         std::vector<SlabVertex>& triangles) {
+    SlabCutter cutter(view, grid, box);
+    append_fan(cutter.cut(slabs.depth(span.first), slabs.depth(span.end())), span.first, triangles);
 }
 
 }  // namespace lamina

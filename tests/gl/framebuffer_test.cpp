@@ -105,5 +105,51 @@ TEST_P(FramebufferTest, DrawsIntoSeveralTexturesAtOnce) {
     EXPECT_EQ(target.read_back(1).pixel(0, 0)[0], 6.0f);
 }
 
+// Opacity alone: x/65536 fits into 11 bits, as above; the other channels do not exist.
+TEST_P(FramebufferTest, Float16OfOneChannelHoldsElevenBits) {
+    const Image image = draw_ramp(TextureFormat::r16f);
+    for (int x = 0; x < width; ++x) {
+        EXPECT_EQ(image.pixel(x, 0)[0], static_cast<float>(x) / 65536.0f);
+        EXPECT_EQ(image.pixel(x, 0)[1], 0.0f);
+        EXPECT_EQ(image.pixel(x, 0)[3], 1.0f);
+    }
+}
+
+// Texel (x, y) of layer z of a texture that is read back as RGBA.
+float first_channel(const Texture& array, int x, int y, int z) {
+    const std::vector<float> texels = array.read_rgba();
+    return texels[4 * static_cast<std::size_t>((z * array.height() + y) * array.width() + x)];
+}
+
+TEST_P(FramebufferTest, LayersOfArraysAreDrawnAndClearedOneByOne) {
+    Texture color = Texture::make_2d_array(TextureFormat::rgba8, 2, 3, 3);
+    Texture alpha = Texture::make_2d_array(TextureFormat::r16, 2, 3, 4);
+    color.upload({0, 0, 0, 2, 3, 3}, std::vector<std::uint8_t>(4 * 2 * 3 * 3, 51));
+    alpha.upload({0, 0, 0, 2, 3, 4}, std::vector<std::uint16_t>(2 * 3 * 4, 13107));  // 1/5
+    const Program program = full_screen_program(R"(#version 450 core
+        layout(location = 0) out vec4 first;
+        layout(location = 1) out vec4 second;
+        void main() { first = vec4(0.4); second = vec4(0.6); }
+    )");
+    LayerFramebuffer target;
+    target.bind({&color, &alpha}, 1);
+    draw_full_screen(program);
+    for (int layer = 0; layer < 3; ++layer) {  // code / 255 and code / 65535, to float32
+        EXPECT_NEAR(first_channel(color, 1, 2, layer), layer == 1 ? 0.4f : 0.2f, 1e-7f);
+        EXPECT_NEAR(first_channel(alpha, 1, 2, layer), layer == 1 ? 0.6f : 0.2f, 1e-7f);
+    }
+    target.bind({&color}, 2);  // now the second output goes nowhere
+    target.clear();
+    EXPECT_EQ(first_channel(color, 0, 0, 2), 0.0f);
+    draw_full_screen(program);
+    EXPECT_NEAR(first_channel(color, 0, 0, 2), 0.4f, 1e-7f);
+    EXPECT_NEAR(first_channel(alpha, 0, 0, 2), 0.2f, 1e-7f);
+    target.bind({&color, &alpha}, 0);  // and back
+    target.clear();
+    EXPECT_EQ(first_channel(color, 1, 0, 0), 0.0f);
+    EXPECT_EQ(first_channel(alpha, 1, 0, 0), 0.0f);
+    EXPECT_NEAR(first_channel(alpha, 1, 0, 1), 0.6f, 1e-7f);
+}
+
 }  // namespace
 }  // namespace lamina::gl

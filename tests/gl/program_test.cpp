@@ -19,6 +19,7 @@ TEST_P(ProgramTest, SetsEveryKindOfUniform) {
     target.bind();
     Program program = full_screen_program(R"(#version 450 core
         uniform float scalar;
+        uniform double accurate;
         uniform int whole;
         uniform vec2 pair;
         uniform vec3 triple;
@@ -28,13 +29,15 @@ TEST_P(ProgramTest, SetsEveryKindOfUniform) {
         uniform mat4 matrix;
         out vec4 color;
         void main() {
+            float low = float((accurate - 1.0LF) * 1099511627776.0LF);  // lost in float
             float digits = triple.x + 10 * triple.y + 100 * triple.z;
-            color = vec4(scalar + whole, pair.x + 10 * pair.y, digits, 0)
+            color = vec4(scalar + whole, pair.x + 10 * pair.y, digits, low)
                 + quadruple[1] + vec4(whole_pair, 0, 0) * 1000 + vec4(whole_triple, 0) * 10000
                 + matrix * vec4(0, 1, 0, 0);
         }
     )");
     program.set("scalar", 0.5f);
+    program.set("accurate", 1 + 3 * 0x1p-40);
     program.set("whole", 2);
     program.set("pair", glm::vec2(1, 2));
     program.set("triple", glm::vec3(1, 2, 3));
@@ -49,7 +52,7 @@ TEST_P(ProgramTest, SetsEveryKindOfUniform) {
     EXPECT_EQ(image.pixel(0, 0)[0], 2.5f + 3000 + 50000 + 0.25f);
     EXPECT_EQ(image.pixel(0, 0)[1], 21 + 4000 + 60000 + 0.5f);
     EXPECT_EQ(image.pixel(0, 0)[2], 321 + 70000 + 0.75f);
-    EXPECT_EQ(image.pixel(0, 0)[3], 8.0f);
+    EXPECT_EQ(image.pixel(0, 0)[3], 8.0f + 3);
 }
 
 TEST_P(ProgramTest, IgnoresUnusedUniformsButNotMisspeltOnes) {

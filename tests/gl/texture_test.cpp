@@ -97,6 +97,7 @@ TEST_P(TextureTest, UploadsBoxesOfImages) {
     expect_sub_box<std::uint16_t>(Texture::make_2d(TextureFormat::rgba16, 7, 5), 4, 1 / 65535.0);
     // 240 components of whole numbers below 2^11: exact in half floats.
     expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba16f, 7, 5), 4, 1);
+    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::r16f, 7, 5, 4), 1, 1);
 }
 
 // More floats than are read at a time (2^24).

@@ -40,7 +40,9 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     std::set<std::string> in_reader = asked_for(minimal_scene());
     // Keys that are asked for only beside others.
     in_reader.merge(asked_for(with("/transfer_function/colormap_range", {0, 1})));
-    for (const char* key : {"transfer_function.colormap_range"}) in_reader.insert(key);
+    in_reader.insert("transfer_function.colormap_range");
+    in_reader.merge(asked_for(with("/render/slice/dither", nlohmann::json::object())));
+    in_reader.merge(asked_for(with("/render/slice/tree", {{"factors", {4, 4}}})));
     EXPECT_EQ(in_schema, in_reader);
 }
 

@@ -1,16 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every specialisation of the slab shader that a plan can ask for compiles, under OSMesa and by
-// glslangValidator.
+// Every specialisation of the slicing shaders that a plan can ask for compiles, under OSMesa and by
+// glslangValidator. All kinds of segments with one way of compositing, and all ways of compositing
+// with two kinds of segments: neither's text depends on the other's.
 #include <cstdlib>
-#include <set>
+#include <filesystem>
+#include <map>
+#include <sstream>
 
+#include "slicing/gl_fixed_tree.h"
+#include "slicing/gl_shader_tree.h"
+#include "slicing/gl_slab_pass.h"
 #include "slicing_fixture.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
 namespace {
 
-std::vector<SlicePlan> every_plan() {
+constexpr int table_nodes = 256;
+
+struct Specialisation {
+    const char* vertex;
+    const char* fragment;
+    gl::Defines defines;
+};
+// Different plans may ask for the same text: each once.
+using Specialisations = std::map<std::string, Specialisation>;
+
+void add(Specialisations& all, const char* vertex, const char* fragment,
+         const gl::Defines& defines) {
+    const std::string text =
+        gl::compose_shader(vertex, defines).text + gl::compose_shader(fragment, defines).text;
+    all.try_emplace(text, Specialisation{vertex, fragment, defines});
+}
+
+std::vector<SlicePlan> every_segment_plan() {
     std::vector<SlicePlan> plans;
     for (const VolumeSampling sampling : {VolumeSampling::none, VolumeSampling::fetch,
                                           VolumeSampling::filtered, VolumeSampling::hardware}) {
@@ -32,46 +55,199 @@ std::vector<SlicePlan> every_plan() {
     return plans;
 }
 
-// Different plans may ask for the same defines: each specialisation once, by its text.
-std::set<std::string> every_source() {
-    std::set<std::string> sources;
-    for (const SlicePlan& plan : every_plan()) {
-        for (const int intervals : {1, 6}) {
-            sources.insert(
-                gl::compose_shader("slicing/slab.frag", slab_defines(plan, intervals, 256)).text);
-        }
-    }
-    return sources;
+// Nothing is left out and almost all is; of one colour, as fixed-point trees need it.
+std::vector<SlicePlan> two_segment_plans() {
+    SlicePlan most;
+    most.classification = Classification::preintegrated;
+    most.nan_transparent = true;
+    SlicePlan least;
+    least.sampling = VolumeSampling::none;
+    least.precise_rays = false;
+    least.orthographic = true;
+    least.single_color = true;
+    return {most, least};
 }
 
-TEST_F(SlicingTest, EverySpecialisationCompiles) {
-    std::set<std::string> seen;
-    for (const SlicePlan& plan : every_plan()) {
-        for (const int intervals : {1, 6}) {
-            const gl::Defines defines = slab_defines(plan, intervals, 256);
-            if (!seen.insert(gl::compose_shader("slicing/slab.frag", defines).text).second)
-                continue;
-            EXPECT_NO_THROW(gl::Program("slicing/slab.vert", "slicing/slab.frag", defines));
+std::vector<Emulation> every_emulation() {
+    std::vector<Emulation> emulations;
+    for (const int bits : {8, 16}) {
+        for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
+            for (const AlphaRounding alpha :
+                 {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
+                emulations.push_back({bits, alpha, over, 1});
+            }
         }
     }
-    EXPECT_GE(seen.size(), 50u);
+    return emulations;
 }
 
+std::vector<SlicePlan> with_every_order_and_blending(const SlicePlan& plan) {
+    std::vector<SlicePlan> plans;
+    for (const Order order : {Order::back_to_front, Order::front_to_back}) {
+        for (const Blending blending : {Blending::fetch, Blending::barrier}) {
+            plans.push_back(plan);
+            plans.back().order = order;
+            plans.back().blending = blending;
+        }
+    }
+    return plans;
+}
+
+std::vector<SlicePlan> with_every_dither(const SlicePlan& plan) {
+    std::vector<SlicePlan> plans(3, plan);
+    plans[1].dither = Dither{};
+    plans[2].dither = Dither{.color = true, .increment = 3};
+    return plans;
+}
+
+// Of plans without a tree, or with one of fixed-point nodes.
+std::vector<SlicePlan> every_code_plan() {
+    std::vector<SlicePlan> plans, plain;
+    for (const SlicePlan& segments : two_segment_plans()) {
+        for (const Target target : {Target::float32, Target::fixed8, Target::fixed16}) {
+            plain.push_back(segments);
+            plain.back().target = target;
+        }
+        for (const Emulation& emulation : every_emulation()) {
+            SlicePlan emulated = segments;
+            emulated.target = Target::emulated;
+            emulated.emulation = emulation;
+            for (const SlicePlan& plan : with_every_order_and_blending(emulated))
+                plain.push_back(plan);
+        }
+    }
+    for (const SlicePlan& plan : plain) {
+        for (const SlicePlan& dithered : with_every_dither(plan)) {
+            if (dithered.dither && dithered.target == Target::float32) continue;
+            plans.push_back(dithered);
+            if (!dithered.single_color || dithered.target == Target::float32) continue;
+            plans.push_back(dithered);
+            plans.back().tree = TreePlan{.factors = {4}, .nodes = NodeArithmetic::fixed};
+        }
+    }
+    return plans;
+}
+
+// Of plans with a tree of nodes computed in a program.
+std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
+    std::vector<SlicePlan> plans;
+    for (const NodeCode code : {NodeCode::minimax, NodeCode::phi, NodeCode::alpha}) {
+        for (const Target target : {Target::float32, Target::fixed8}) {
+            for (const int alpha_bits : {8, 16}) {
+                for (const int bricks : {1, 2}) {
+                    plans.push_back(segments);
+                    plans.back().target = target;
+                    plans.back().tree =
+                        TreePlan{.factors = {4}, .code = code, .alpha_bits = alpha_bits};
+                    plans.back().bricks.resize(static_cast<std::size_t>(bricks));
+                }
+            }
+        }
+    }
+    return plans;
+}
+
+void add_slabs(Specialisations& all) {
+    for (const SlicePlan& plan : every_segment_plan()) {
+        for (const int intervals : {1, 6}) {
+            const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
+            add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
+        }
+    }
+    for (const SlicePlan& plan : every_code_plan()) {
+        const gl::Defines segments = segment_defines(plan, 6, table_nodes);
+        add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
+        if (!plan.has_tree(NodeArithmetic::fixed)) continue;
+        add(all, "gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan));
+        add(all, "gl/full_screen.vert", "slicing/colorize.frag", colorize_defines(plan));
+    }
+}
+
+void add_nodes(Specialisations& all) {
+    const auto add_leaf = [&](const SlicePlan& plan, int intervals, NodePlace place) {
+        const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
+        add(all, "slicing/slab.vert", "slicing/leaf.frag", leaf_defines(plan, segments, place));
+    };
+    for (SlicePlan plan : every_segment_plan()) {
+        plan.tree = TreePlan{.factors = {4}};
+        for (const int intervals : {1, 6}) add_leaf(plan, intervals, NodePlace::inner);
+    }
+    for (const SlicePlan& segments : two_segment_plans()) {
+        for (const SlicePlan& plan : every_node_plan(segments)) {
+            for (const NodePlace place : {NodePlace::inner, NodePlace::root}) {
+                add_leaf(plan, 6, place);
+                const gl::Defines node = node_defines(plan, place);
+                add(all, "gl/full_screen.vert", "slicing/node.frag", node);
+                add(all, "gl/full_screen.vert", "slicing/encode.frag", node);
+            }
+        }
+    }
+}
+
+void expect_to_compile(const Specialisations& all, bool framebuffer_fetch) {
+    for (const auto& [text, program] : all) {
+        const bool fetches = text.find("#define FRAMEBUFFER_FETCH") != std::string::npos;
+        if (fetches && !framebuffer_fetch) continue;  // no plan asks for it in this context
+        EXPECT_NO_THROW(gl::Program(program.vertex, program.fragment, program.defines));
+    }
+}
+
+TEST_F(SlicingTest, EverySlabShaderCompiles) {
+    Specialisations all;
+    add_slabs(all);
+    EXPECT_GE(all.size(), 600u);  // the plans above ask for different texts
+    expect_to_compile(all, capabilities().framebuffer_fetch);
+}
+
+TEST_F(SlicingTest, EveryNodeShaderCompiles) {
+    Specialisations all;
+    add_nodes(all);
+    EXPECT_GE(all.size(), 250u);
+    expect_to_compile(all, capabilities().framebuffer_fetch);
+}
+
+// Only #version and the preprocessor's lines come before #extension (GLSL 4.50, section 3.3).
+TEST(SlicingShaders, ExtensionsComeBeforeAllElse) {
+    Specialisations all;
+    add_slabs(all);
+    int extensions = 0;
+    for (const auto& [ignored, program] : all) {
+        const std::string text = gl::compose_shader(program.fragment, program.defines).text;
+        const std::size_t extension = text.find("#extension");
+        if (extension == std::string::npos) continue;
+        ++extensions;
+        std::istringstream before(text.substr(0, extension));
+        for (std::string line; std::getline(before, line);) {
+            EXPECT_TRUE(line.empty() || line[0] == '#' || line.starts_with("//")) << line;
+        }
+    }
+    EXPECT_GT(extensions, 0);
+}
+
+// But those with framebuffer fetch: glslang knows GL_EXT_shader_framebuffer_fetch in OpenGL ES
+// only.
 TEST(SlicingShaders, EverySpecialisationPassesGlslang) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "no glslangValidator";
+    Specialisations all;
+    add_slabs(all);
+    add_nodes(all);
     TemporaryFolder folder;
     std::string files;
     int number = 0;
-    for (const std::string& source : every_source()) {
-        const auto file = folder / ("slab" + std::to_string(number++) + ".frag");
-        write_bytes_to(file, source);
-        files += " '" + file.string() + "'";
+    for (const auto& [text, program] : all) {
+        if (text.find("#define FRAMEBUFFER_FETCH") != std::string::npos) continue;
+        for (const char* name : {program.vertex, program.fragment}) {
+            const auto file = folder / (std::to_string(number++) +
+                                        std::filesystem::path(name).extension().string());
+            write_bytes_to(file, gl::compose_shader(name, program.defines).text);
+            files += file.string() + "\n";
+        }
     }
-    EXPECT_EQ(std::system(
-                  ("glslangValidator" + files + " > '" + (folder / "log").string() + "'").c_str()),
-              0)
-        << read_bytes_of(folder / "log");
+    write_bytes_to(folder / "files", files);
+    const std::string command = "xargs glslangValidator < '" + (folder / "files").string() +
+                                "' > '" + (folder / "log").string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << read_bytes_of(folder / "log");
 }
 
 }  // namespace

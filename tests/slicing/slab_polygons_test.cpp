@@ -64,9 +64,8 @@ TEST(SlabPolygons, CoverWhatTheRaysMeetExactlyOnce) {
         for (int slab = 0; slab < slabs.count; ++slab) {
             std::vector<SlabVertex> all, triangles;
             append_slab_polygons(view, grid, box, slabs, Order::front_to_back, all);
-            const float front = static_cast<float>(slabs.depth(slab) - slabs.near);
             for (std::size_t i = 0; i < all.size(); i += 3) {
-                if (all[i].front == front)
+                if (all[i].slab == static_cast<float>(slab))
                     triangles.insert(triangles.end(), all.begin() + i, all.begin() + i + 3);
             }
             for (int row = 0; row < view.height; ++row) {
@@ -110,7 +109,7 @@ TEST(SlabPolygons, AreStrictlyConvexOnTheRasterisersGrid) {
         for (std::size_t i = 0; i < triangles.size(); i += 3) {
             const SlabVertex *const a = &triangles[i], *const b = a + 1, *const c = a + 2;
             EXPECT_GT(side(*a, *b, c->column, c->row), 0);
-            const bool same_fan = i > 0 && a->front == triangles[i - 3].front;
+            const bool same_fan = i > 0 && a->slab == triangles[i - 3].slab;
             if (same_fan) {
                 EXPECT_GT(side(triangles[i - 2], *b, c->column, c->row), 0);  // the turn at b
             }
@@ -133,7 +132,7 @@ TEST(SlabPolygons, ComeInTheOrderAskedFor) {
         append_slab_polygons(view, grid, {grid.index_min(), grid.index_max()}, slabs, order,
                              triangles);
         for (std::size_t i = 3; i < triangles.size(); i += 3) {
-            const float step = triangles[i].front - triangles[i - 3].front;
+            const float step = triangles[i].slab - triangles[i - 3].slab;
             EXPECT_GE(order == Order::front_to_back ? step : -step, 0);
         }
     }

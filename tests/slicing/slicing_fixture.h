@@ -27,8 +27,8 @@ inline Image render(const Volume& volume, const Scene& scene, const Capabilities
                     const OmissionSwitch& omissions = {}) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
-    GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, scene.width,
-                             scene.height);
+    GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, capabilities,
+                             scene.width, scene.height);
     renderer.draw(View(scene.camera, scene.width, scene.height));
     return renderer.read();
 }

@@ -62,7 +62,7 @@ void compare_runs(bool colored, int layers, bool filtered) {
         "out vec4 result;\n"
         "void main() { result = integrate_run(gl_FragCoord.x / 128.0, gl_FragCoord.y / 128.0, "
         "world_length, false); }\n",
-        slab_defines(plan, tables.intervals(), tables.nodes()));
+        segment_defines(plan, tables.intervals(), tables.nodes()));
     tables.bind(program);
     program.set("world_length", .35f);
     const Image image = run(program);

@@ -1,0 +1,12 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// The image of a leaf whose slabs lie in several bricks, from the sum of these in float (slicing/leaf.frag).
+#include "slicing/node_output.glsl"
+
+uniform sampler2D sum;  // associated colour, opacity
+uniform int first_row;  // of the part of the image that is being drawn
+
+void main() {
+    vec4 associated_sum = texelFetch(sum, ivec2(gl_FragCoord.xy) - ivec2(0, first_row), 0);
+    write_node(associated_sum.rgb, depth_from_opacity(min(associated_sum.a, 0.99999994)));
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a node of a compositing tree that is computed in a program writes (NUMERICS section 4). ROOT: associated colour
+// and opacity, the picture. Else: colour, not associated, and the code of the optical depth; MONOCHROME: the code
+// alone; ALPHA_APART: the code in a texture of its own.
+#include "compositing/node_code.glsl"
+
+#ifdef ROOT
+layout(location = 0) out vec4 associated;
+#else
+layout(location = 0) out vec4 image;
+#ifdef ALPHA_APART
+layout(location = 1) out vec4 alpha_image;
+#endif
+uniform float node_share;  // of the ray's samples
+#endif
+#if defined(MONOCHROME) && !defined(SINGLE_COLOR)
+uniform vec3 single_color;
+#endif
+
+void write_node(vec3 color, float depth) {
+    float opacity = opacity_from_depth(depth);
+#ifdef MONOCHROME
+    color = single_color * opacity;
+#endif
+#ifdef ROOT
+    associated = vec4(color, opacity);
+#else
+    float code = encode_depth(depth, node_share);
+#ifdef MONOCHROME
+    image = vec4(code, 0.0, 0.0, 0.0);
+#else
+    image = vec4(opacity > 0.0 ? color / opacity : vec3(0.0), code);
+#ifdef ALPHA_APART
+    alpha_image = vec4(code, 0.0, 0.0, 0.0);
+#endif
+#endif
+#endif
+}

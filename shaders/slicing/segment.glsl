@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a ray between two depths: its colour, not associated, and its optical depth. DEPTH: precision of the
+// latter; codes of n bits need double.
+#define SAMPLING_NONE 0
+#define SAMPLING_FETCH 1
+#define SAMPLING_FILTER 2
+#ifdef BITS
+#define DEPTH double
+#else
+#define DEPTH float
+#endif
+
+#include "slicing/ray.glsl"
+#include "volume/scalar.glsl"
+#include "optics/opacity.glsl"
+#if SAMPLING == SAMPLING_NONE
+uniform vec4 constant_optics;  // colour, extinction
+uniform float constant_extinction_low;
+#elif defined(PREINTEGRATED)
+#include "optics/preintegration.glsl"
+#else
+#include "optics/transfer_function.glsl"
+#endif
+#ifdef SINGLE_COLOR
+uniform vec3 single_color;
+#endif
+
+uniform vec3 box_min;  // the brick's part of the volume's box, index space
+uniform vec3 box_max;
+
+struct Segment {
+    vec3 color;
+    DEPTH depth;
+};
+
+REAL world_length(Ray ray, REAL2 depths) { return (depths.y - depths.x) * ray.length_per_depth; }
+
+vec3 color_or_single(vec3 color) {
+#ifdef SINGLE_COLOR
+    return single_color;
+#else
+    return color;
+#endif
+}
+
+#if SAMPLING == SAMPLING_NONE
+Segment integrate(Ray ray, REAL2 depths) {
+    DEPTH extinction = DEPTH(constant_optics.a) + DEPTH(constant_extinction_low);
+    return Segment(color_or_single(constant_optics.rgb), extinction * DEPTH(world_length(ray, depths)));
+}
+#elif defined(PREINTEGRATED)
+// A segment whose scalars at both ends and in the middle are known.
+Segment integrate_samples(float front, float middle, float back, float world_length) {
+#ifdef NAN_TRANSPARENT
+    if (is_nan(front) || is_nan(middle) || is_nan(back)) return Segment(vec3(0.0), DEPTH(0.0));
+#endif
+    // What shows nothing between the least and the largest sample shows nothing: so empty space may be left out.
+    float least = clamp(min(middle, min(front, back)), 0.0, 1.0);
+    float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
+    bool transparent = is_transparent(least, largest);
+    // The table knows straight runs of the scalar; the trilinear field bends. The run from front to back is moved so
+    // that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of one
+    // cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of second.
+    float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
+    vec4 run = integrate_run(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0), world_length, transparent);
+#ifndef SINGLE_COLOR
+    if (run.a > 0.0) run.rgb /= opacity_from_depth(run.a);
+#endif
+    return Segment(color_or_single(run.rgb), DEPTH(run.a));
+}
+
+Segment integrate(Ray ray, REAL2 depths) {
+    return integrate_samples(sample_scalar(point_at(ray, depths.x)),
+                             sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y))),
+                             sample_scalar(point_at(ray, depths.y)), float(world_length(ray, depths)));
+}
+#else
+Segment integrate(Ray ray, REAL2 depths) {
+    float scalar = sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y)));
+#ifdef NAN_TRANSPARENT
+    if (is_nan(scalar)) return Segment(vec3(0.0), DEPTH(0.0));
+#endif
+    scalar = clamp(scalar, 0.0, 1.0);
+    int interval = find_interval(scalar);
+    float share = share_of_interval(interval_place(interval), scalar);
+    vec4 optics = optics_at(interval, share);
+#ifdef BITS
+    DEPTH extinction = precise_extinction_at(interval, share);
+#else
+    DEPTH extinction = optics.a;
+#endif
+    return Segment(color_or_single(optics.rgb), extinction * DEPTH(world_length(ray, depths)));
+}
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "compositing/tree_shape.h"
+#include "scene/plan.h"
+
+namespace lamina {
+namespace {
+
+const char* text_of(VolumeSampling sampling) {
+    switch (sampling) {
+        case VolumeSampling::none:
+            return "none";
+        case VolumeSampling::fetch:
+            return "8 fetches, float arithmetic";
+        case VolumeSampling::filtered:
+            return "linear filter of a float texture (measured exact)";
+        default:
+            return "hardware linear filter";
+    }
+}
+
+template <typename Row>
+void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
+    const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
+    row("slab depth",
+        fmt::format("{:.3g}, {:.3g}, {:.3g} at most in half, nine tenths, all of "
+                    "the bricks",
+                    length * facts.extinction_quantiles[0], length * facts.extinction_quantiles[1],
+                    length * facts.extinction_quantiles[2]));
+    if (slice.emulation) {
+        const Emulation& emulation = *slice.emulation;
+        row("codes",
+            fmt::format("{} bits, alpha {}, over {}, by {}", emulation.bits,
+                        name_of(emulation.alpha), name_of(emulation.over),
+                        slice.blending == Blending::fetch ? "framebuffer fetch"
+                                                          : "texture barriers between slabs"));
+    }
+    if (slice.dither) {
+        row("dither", fmt::format("period {}, seed {}, increment {}{}", slice.dither->period,
+                                  slice.dither->seed, slice.dither->increment,
+                                  slice.dither->color ? ", colour too" : ""));
+    }
+    if (slice.tree) {
+        const TreePlan& tree = *slice.tree;
+        const TreeShape shape(tree.factors, slice.slabs);
+        std::vector<int> factors;  // with the level that takes the rest
+        for (int level = 0; level < shape.levels(); ++level) factors.push_back(shape.factor(level));
+        std::string text = fmt::format("{}, nodes {}", to_text(factors), name_of(tree.nodes));
+        if (tree.nodes == NodeArithmetic::shader) {
+            text += fmt::format(", code {}, alpha {} bits", name_of(tree.code), tree.alpha_bits);
+        }
+        row("tree", text);
+    }
+    if (slice.error_bound) {
+        row("error",
+            fmt::format("at most {:.3g} / 255: {}", *slice.error_bound, slice.tree_reason));
+    }
+}
+
+}  // namespace
+
+std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities) {
+    std::string text;
+    const auto row = [&](const char* what, const std::string& value) {
+        text += fmt::format("  {:<14} {}\n", what, value);
+    };
+    text += "uses\n";
+    row("method", name_of(plan.method));
+    if (plan.method == Method::slice) {
+        const SlicePlan& slice = plan.slice;
+        row("context", capabilities.renderer);
+        row("slabs",
+            fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
+                        facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
+        row("target", name_of(slice.target));
+        row("classification", name_of(slice.classification));
+        row("order", name_of(slice.order));
+        row("rays", slice.precise_rays ? "double" : "float");
+        row("scalar", text_of(slice.sampling));
+        row("textures", fmt::format("{} of {}", slice.bricks.size(),
+                                    slice.float_texture ? "float" : name_of(facts.type)));
+        explain_compositing(slice, facts, row);
+        if (slice.uses_table()) {
+            row("table",
+                fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
+                            slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
+        }
+    }
+    text += "left out\n";
+    for (const Omission& omission : plan.omitted) row(omission.name.c_str(), omission.reason);
+    if (plan.omitted.empty()) text += "  nothing\n";
+    return text;
+}
+
+}  // namespace lamina

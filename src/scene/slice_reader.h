@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/json_reader.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+inline constexpr int max_slabs = 65536;
+
+// "render.slice" and "render.emulate" of a scene file (DESIGN section 4).
+SliceSettings read_slice(JsonReader reader);
+Emulation read_emulation(JsonReader reader);
+
+}  // namespace lamina

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/gl_compositing.h"
+
+#include <glad/gl.h>
+
+namespace lamina {
+
+gl::TextureFormat color_format(const SlicePlan& plan) {
+    switch (plan.target) {
+        case Target::float32:
+            return gl::TextureFormat::rgba32f;
+        case Target::float16:
+            return gl::TextureFormat::rgba16f;
+        default:
+            return plan.code_bits() > 8 ? gl::TextureFormat::rgba16 : gl::TextureFormat::rgba8;
+    }
+}
+
+gl::TextureFormat opacity_format(const SlicePlan& plan) {
+    switch (plan.target) {
+        case Target::float32:
+            return gl::TextureFormat::r32f;
+        case Target::float16:
+            return gl::TextureFormat::r16f;
+        default:
+            return plan.code_bits() > 8 ? gl::TextureFormat::r16 : gl::TextureFormat::r8;
+    }
+}
+
+void set_compositing(gl::Defines& defines, const SlicePlan& plan) {
+    if (!plan.emulation && !plan.dither) return;
+    defines.set("BITS", plan.code_bits());
+    if (!plan.emulation) return;
+    defines.set("EMULATED", 1);
+    defines.set("ALPHA_ROUNDING", static_cast<int>(plan.emulation->alpha));
+    if (plan.emulation->over == OverRounding::fused) defines.set("OVER_FUSED", 1);
+    if (plan.order == Order::front_to_back) defines.set("FRONT_TO_BACK", 1);
+    if (plan.blending == Blending::fetch) defines.set("FRAMEBUFFER_FETCH", 1);
+}
+
+CompositingState::CompositingState(const SlicePlan& plan, bool opacity_only,
+                                   const gl::Framebuffer& target)
+    : native_(plan.blending == Blending::native) {
+    if (plan.blending == Blending::barrier) target.color().bind(target_unit);
+    if (!native_) return;
+    glEnable(GL_BLEND);
+    if (plan.order == Order::back_to_front) {
+        glBlendFunc(GL_ONE, opacity_only ? GL_ONE_MINUS_SRC_COLOR : GL_ONE_MINUS_SRC_ALPHA);
+    } else {
+        glBlendFunc(opacity_only ? GL_ONE_MINUS_DST_COLOR : GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+    }
+}
+
+CompositingState::~CompositingState() {
+    if (native_) glDisable(GL_BLEND);
+}
+
+void finish_layer(const SlicePlan& plan) {
+    if (plan.blending == Blending::barrier) glTextureBarrier();
+}
+
+}  // namespace lamina

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/gl_fixed_tree.h"
+
+#include <glad/gl.h>
+
+#include <span>
+
+#include "base/interrupt.h"
+#include "compositing/unit_opacity.h"
+#include "gl/full_screen.h"
+#include "slicing/gl_compositing.h"
+
+namespace lamina {
+namespace {
+
+constexpr int child_unit = 6, swizzle_unit = 7;
+constexpr int swizzle_width = 256;  // shaders/slicing/swizzle.frag
+
+// For each code of a child's image its opacity in the node, as a scaled value.
+gl::Texture make_swizzle(int bits, double share) {
+    const std::uint32_t largest = largest_code(bits);
+    const int rows = static_cast<int>(largest / swizzle_width) + 1;
+    std::vector<float> texels(2 * static_cast<std::size_t>(rows) * swizzle_width);
+    for (std::uint32_t code = 0; code <= largest; ++code) {
+        const double phi = static_cast<double>(code) / largest;
+        const ScaledValue scaled = split_scaled(largest * opacity_over(phi, share));
+        texels[2 * code] = static_cast<float>(scaled.whole);
+        texels[2 * code + 1] = static_cast<float>(scaled.rest);
+    }
+    gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::rg32f, swizzle_width, rows);
+    texture.upload({0, 0, 0, swizzle_width, rows, 1}, std::span<const float>(texels));
+    return texture;
+}
+
+}  // namespace
+
+gl::Defines swizzle_defines(const SlicePlan& plan) {
+    gl::Defines defines;
+    set_compositing(defines, plan);
+    if (!plan.emulation) {
+        if (!plan.dither) defines.set("BITS", plan.code_bits());
+        defines.set("ALPHA_ROUNDING", static_cast<int>(AlphaRounding::nearest));
+    }
+    return defines;
+}
+
+gl::Defines colorize_defines(const SlicePlan& plan) {
+    gl::Defines defines;
+    if (plan.emulation) set_compositing(defines, plan);
+    return defines;
+}
+
+GlFixedTree::GlFixedTree(const GlSlabSource& source, const SlicePlan& plan, int width, int height)
+    : source_(source),
+      plan_(plan),
+      shape_(plan.tree->factors, plan.slabs),
+      leaves_(source, plan, height),
+      swizzle_("gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan)),
+      colorize_("gl/full_screen.vert", "slicing/colorize.frag", colorize_defines(plan)) {
+    for (int level = 0; level < shape_.levels(); ++level) {
+        buffers_.emplace_back(gl::Texture::make_2d(opacity_format(plan), width, height));
+    }
+    make_swizzles(0, shape_.root());
+    swizzle_.set("child", child_unit);
+    swizzle_.set("swizzle", swizzle_unit);
+    if (plan_.blending == Blending::barrier) swizzle_.set("target", target_unit);
+    if (plan_.emulation) {
+        swizzle_.set("image_rows", height);
+        swizzle_.set("seed", static_cast<int>(plan_.emulation->seed));
+    }
+    colorize_.set("root", child_unit);
+    colorize_.set("single_color", source.single_color());
+}
+
+// Nodes of a level have one of few sizes: each once.
+void GlFixedTree::make_swizzles(int level, const SampleSpan& node) {
+    if (shape_.is_leaf(level, node)) return;
+    int last_size = 0;
+    for (int i = 0; i < shape_.factor(level); ++i) {
+        const SampleSpan child = child_span(node, i, shape_.factor(level));
+        if (child.count == 0 || child.count == last_size) continue;
+        last_size = child.count;
+        const auto [place, made] = swizzles_.try_emplace({child.count, node.count});
+        if (made) {
+            place->second =
+                make_swizzle(plan_.code_bits(), static_cast<double>(child.count) / node.count);
+        }
+        if (made || child.count == node.count) make_swizzles(level + 1, child);
+    }
+}
+
+void GlFixedTree::draw(gl::Framebuffer& target, Progress* progress) {
+    swizzled_ = 0;
+    evaluate(0, shape_.root(), progress);
+    target.bind();
+    buffers_[0].color().bind(child_unit);
+    gl::draw_full_screen(colorize_, no_attributes_);
+}
+
+void GlFixedTree::evaluate(int level, const SampleSpan& node, Progress* progress) {
+    gl::Framebuffer& buffer = buffers_[static_cast<std::size_t>(level)];
+    buffer.clear(glm::vec4(0));
+    if (shape_.is_leaf(level, node)) {
+        buffer.bind();
+        leaves_.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
+        if (progress != nullptr) {
+            glFinish();
+            progress->advance();
+        }
+        check_interrupt();
+        return;
+    }
+    const int children = shape_.factor(level);
+    for (int i = 0; i < children; ++i) {
+        const bool back_to_front = plan_.order == Order::back_to_front;
+        const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
+        if (child.count == 0) continue;
+        evaluate(level + 1, child, progress);
+        put_into_parent(level, child, node);
+    }
+}
+
+void GlFixedTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& node) {
+    const gl::Framebuffer& buffer = buffers_[static_cast<std::size_t>(level)];
+    buffer.bind();
+    const CompositingState state(plan_, true, buffer);
+    finish_layer(plan_);
+    buffers_[static_cast<std::size_t>(level) + 1].color().bind(child_unit);
+    swizzles_.at({child.count, node.count}).bind(swizzle_unit);
+    if (plan_.emulation) swizzle_.set("stage", shape_.samples() + swizzled_++);
+    gl::draw_full_screen(swizzle_, no_attributes_);
+}
+
+}  // namespace lamina

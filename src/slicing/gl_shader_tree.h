@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/progress.h"
+#include "compositing/tree_shape.h"
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+#include "slicing/gl_slab_source.h"
+
+namespace lamina {
+
+// Whose output a program of the tree writes.
+enum class NodePlace { inner, root };
+gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
+gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
+
+// A compositing tree whose nodes are computed in a program, in float, with colour (NUMERICS section
+// 4): leaves march their slabs, inner nodes read their children from layers of array textures. The
+// picture is made in bands of rows, one whole tree after the other, so that the images of a level
+// need only a band's size.
+class GlShaderTree {
+  public:
+    // `source` and `plan` must outlive it. Throws Error where a level's images do not fit.
+    GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
+                 const Capabilities& capabilities, int width, int height);
+
+    int step_count() const { return bands() * leaf_count_; }  // of the progress
+    void set_view(const View& view, const Slabs& slabs);
+    // Replaces the target by the picture. Ctrl-C ends it between leaves.
+    void draw(gl::Framebuffer& target, Progress* progress);
+
+  private:
+    // The children of one node of a level, nearest first.
+    struct LevelImages {
+        gl::Texture color;
+        std::optional<gl::Texture> alpha;
+    };
+    // A rectangle of rows of the target, OpenGL's row 0 at the bottom.
+    struct Band {
+        int first_row, rows;
+    };
+    struct LeafDraw {
+        std::size_t brick;
+        std::size_t first_vertex, end_vertex;
+    };
+
+    bool is_leaf(int level, const SampleSpan& node) const;
+    int count_leaves(int level, const SampleSpan& node) const;
+    int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
+    void choose_bands(const Capabilities& capabilities, std::int64_t layers, int most_layers);
+    void make_programs();
+    gl::Program make_program(const char* fragment, const gl::Defines& defines);
+
+    void add_leaves(int level, const SampleSpan& node);
+    void evaluate(int level, const SampleSpan& node, int layer);
+    void draw_leaf(const SampleSpan& leaf, int level, int layer);
+    void march(gl::Program& program, std::size_t leaf);
+    // Binds where a node of a level writes, and clears it; the root's picture is cleared once.
+    void bind_output(int level, int layer);
+    gl::Program& program_for(int level, std::optional<gl::Program>& inner,
+                             std::optional<gl::Program>& root) const;
+
+    const GlSlabSource& source_;
+    const SlicePlan& plan_;
+    TreeShape shape_;
+    int width_, height_, band_rows_ = 0, leaf_count_ = 0;
+    std::optional<gl::Program> leaf_, root_leaf_, node_, root_node_, encode_, root_encode_;
+    std::vector<LevelImages> images_;     // of the children of inner nodes, by level
+    std::optional<gl::Framebuffer> sum_;  // of a leaf over several bricks
+    gl::LayerFramebuffer layer_;
+    gl::VertexArray vertex_array_, no_attributes_;
+    gl::Buffer vertices_;
+    // Of the view; kept from frame to frame.
+    std::optional<View> view_;
+    Slabs slabs_;
+    std::vector<SlabVertex> triangles_;
+    std::vector<std::size_t> bricks_;   // nearest first
+    std::vector<LeafDraw> leaf_draws_;  // of all leaves, nearest first, brick by brick
+    // Of the frame.
+    gl::Framebuffer* target_ = nullptr;
+    Progress* progress_ = nullptr;
+    Band band_{0, 0};
+    std::size_t next_leaf_ = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/gl_slab_source.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "base/stopwatch.h"
+#include "gl/check.h"
+#include "slicing/shader_intervals.h"
+#include "slicing/texture_bricks.h"
+
+namespace lamina {
+namespace {
+
+int sampling_define(VolumeSampling sampling) {
+    switch (sampling) {
+        case VolumeSampling::none:
+            return 0;
+        case VolumeSampling::fetch:
+            return 1;
+        default:
+            return 2;
+    }
+}
+
+// Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it
+// has a width.
+ValueRange shader_range(const ValueRange& range) {
+    return range.hi > range.lo ? range
+                               : ValueRange{range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
+}
+
+}  // namespace
+
+gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes) {
+    gl::Defines defines;
+    defines.set("SAMPLING", sampling_define(plan.sampling));
+    if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
+    if (plan.precise_rays) defines.set("PRECISE_RAYS", 1);
+    if (plan.single_color) defines.set("SINGLE_COLOR", 1);
+    if (plan.sampling == VolumeSampling::none) return defines;
+    if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
+    defines.set("INTERVALS", intervals);
+    if (!plan.uses_table()) return defines;
+    defines.set("PREINTEGRATED", 1);
+    defines.set("TABLE_NODES", table_nodes);
+    if (plan.table_filtered) defines.set("TABLE_FILTERED", 1);
+    if (!plan.table.colored) return defines;
+    defines.set("TABLE_COLORED", 1);
+    defines.set("TABLE_LAYERS", plan.table.length_layers);
+    return defines;
+}
+
+GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
+                           const Facts& facts, const SlicePlan& plan)
+    : facts_(facts),
+      plan_(plan),
+      range_(shader_range(facts.range)),
+      single_color_(first_color(transfer_function, range_)),
+      constant_(transfer_function.at(range_.lo)) {
+    const Stopwatch table_watch;
+    if (plan_.sampling != VolumeSampling::none) tables_.emplace(transfer_function, range_, plan_);
+    table_ms_ = table_watch.milliseconds();
+    const Stopwatch upload_watch;
+    volume_ = upload_volume(volume, range_, plan);
+    glFinish();
+    upload_ms_ = upload_watch.milliseconds();
+    gl::check("uploading the volume");
+}
+
+gl::Defines GlSlabSource::defines() const {
+    return tables_ ? segment_defines(plan_, tables_->intervals(), tables_->nodes())
+                   : segment_defines(plan_, 0, 0);
+}
+
+void GlSlabSource::bind(gl::Program& program) const {
+    program.set("single_color", single_color_);
+    if (tables_) {
+        tables_->bind(program);
+        program.set("volume", GlTransferTables::first_free_unit);
+        return;
+    }
+    const double extinction = std::min(constant_.extinction, max_shader_extinction);
+    const auto rounded = static_cast<float>(extinction);
+    program.set("constant_optics", glm::vec4(glm::vec3(constant_.color), rounded));
+    program.set("constant_extinction_low", static_cast<float>(extinction - double{rounded}));
+}
+
+void GlSlabSource::set_real(gl::Program& program, const char* name, const glm::dvec3& value) const {
+    if (plan_.precise_rays) {
+        program.set(name, value);
+    } else {
+        program.set(name, glm::vec3(value));
+    }
+}
+
+void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs& slabs) const {
+    const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
+    program.set("image_size", size);
+    program.set("image_middle", 0.5f * size);
+    program.set("normalisation", volume_.normalisation);
+    const double thickness = (slabs.far - slabs.near) / slabs.count;
+    if (plan_.precise_rays) {
+        program.set("slab_thickness", thickness);
+    } else {
+        program.set("slab_thickness", static_cast<float>(thickness));
+    }
+    // Depth in the shader is relative to the nearest slab's front.
+    const bool perspective = view.projection == Projection::perspective;
+    program.set("pixel_size", perspective ? static_cast<float>(view.pixel) : 0.0f);
+    const glm::dvec3 column = facts_.grid.direction_to_index(view.pixel * view.right);
+    const glm::dvec3 row = facts_.grid.direction_to_index(-view.pixel * view.up);
+    const double spread = perspective ? slabs.near : 1;
+    set_real(program, "origin_column", spread * column);
+    set_real(program, "origin_row", spread * row);
+    set_real(program, "direction_middle", facts_.grid.direction_to_index(view.forward));
+    set_real(program, "direction_column", perspective ? column : glm::dvec3(0));
+    set_real(program, "direction_row", perspective ? row : glm::dvec3(0));
+}
+
+void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs& slabs,
+                             std::size_t brick) const {
+    const TextureBrick& texture = plan_.bricks[brick];
+    const glm::dvec3 first{texture.first[0], texture.first[1], texture.first[2]};
+    const IndexBox box = box_of(texture, facts_.grid);
+    set_real(program, "origin_middle",
+             facts_.grid.to_index(view.eye + slabs.near * view.forward) - first);
+    program.set("box_min", glm::vec3(box.min - first));
+    program.set("box_max", glm::vec3(box.max - first));
+    program.set("last_sample",
+                glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
+    if (!volume_.bricks.empty()) volume_.bricks[brick].bind(GlTransferTables::first_free_unit);
+}
+
+IndexBox GlSlabSource::drawn_box(std::size_t brick) const {
+    IndexBox box = box_of(plan_.bricks[brick], facts_.grid);
+    box.min = glm::max(box.min, plan_.drawn.min);
+    box.max = glm::min(box.max, plan_.drawn.max);
+    return box;
+}
+
+}  // namespace lamina

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "gl/program.h"
+#include "optics/transfer_function.h"
+#include "scene/camera.h"
+#include "scene/facts.h"
+#include "scene/plan.h"
+#include "slicing/gl_transfer_tables.h"
+#include "slicing/gl_volume_textures.h"
+#include "slicing/slab_polygons.h"
+
+namespace lamina {
+
+// What slicing/segment.glsl is specialised by; the plan and the sizes of its tables decide.
+gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes);
+
+// What the fragments of a slab read (slicing/segment.glsl): the volume, the transfer function, and
+// where the viewing rays run.
+class GlSlabSource {
+  public:
+    static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;  // of textures
+
+    // Uploads the volume and builds the tables.
+    GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
+                 const Facts& facts, const SlicePlan& plan);
+
+    gl::Defines defines() const;
+
+    // The programs' uniforms: those that stay; those of a view; those of one of the plan's bricks.
+    void bind(gl::Program& program) const;
+    void set_view(gl::Program& program, const View& view, const Slabs& slabs) const;
+    void set_brick(gl::Program& program, const View& view, const Slabs& slabs,
+                   std::size_t brick) const;
+
+    // What a brick shows in this plan, in index space.
+    IndexBox drawn_box(std::size_t brick) const;
+    const Grid& grid() const { return facts_.grid; }
+    const glm::vec3& single_color() const { return single_color_; }
+    double upload_ms() const { return upload_ms_; }
+    double table_ms() const { return table_ms_; }
+
+  private:
+    void set_real(gl::Program& program, const char* name, const glm::dvec3& value) const;
+
+    Facts facts_;
+    SlicePlan plan_;
+    ValueRange range_;  // of scalars, as [0, 1] in shaders
+    glm::vec3 single_color_{0};
+    OpticalProperties constant_;              // where no scalar is fetched
+    std::optional<GlTransferTables> tables_;  // elsewhere
+    VolumeTextures volume_;
+    double upload_ms_ = 0, table_ms_ = 0;
+};
+
+}  // namespace lamina
