@@ -19,7 +19,8 @@ ProgramResult lamina_run(std::vector<std::string> arguments) {
 }
 
 TEST(Verbs, HelpGoesToStdoutAndNamesTheUsage) {
-    for (const char* verb : {"", "render", "compare", "generate", "info", "integrate"}) {
+    for (const char* verb :
+         {"", "render", "compare", "generate", "info", "integrate", "reproduce"}) {
         const ProgramResult result =
             std::string(verb).empty() ? lamina_run({"--help"}) : lamina_run({verb, "--help"});
         EXPECT_EQ(result.exit_code, 0);
@@ -29,7 +30,8 @@ TEST(Verbs, HelpGoesToStdoutAndNamesTheUsage) {
 }
 
 TEST(Verbs, VersionIsOneLineEverywhere) {
-    for (const char* verb : {"", "render", "compare", "generate", "info", "integrate"}) {
+    for (const char* verb :
+         {"", "render", "compare", "generate", "info", "integrate", "reproduce"}) {
         const ProgramResult result =
             std::string(verb).empty() ? lamina_run({"--version"}) : lamina_run({verb, "--version"});
         EXPECT_EQ(result.exit_code, 0) << verb;

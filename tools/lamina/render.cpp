@@ -203,11 +203,11 @@ class RenderRun {
                     stats_.counts["clamped_colors"], name_of(scene_.target)));
         }
         GlSliceRenderer renderer(*volume_, scene_.transfer_function, facts_, plan_.slice,
-                                 scene_.width, scene_.height);
+                                 context_->capabilities(), scene_.width, scene_.height);
         const View view(scene_.camera, scene_.width, scene_.height);
         const Stopwatch frame_watch;
         {
-            Progress progress("slicing", renderer.batch_count());
+            Progress progress("slicing", renderer.step_count());
             if (options_.stats.empty())
                 renderer.draw(view, &progress);
             else

@@ -45,6 +45,27 @@ Json plan_to_json(const Plan& plan) {
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
     json["bricks"] = slice.bricks.size();
+    if (slice.emulation) {
+        const Emulation& emulation = *slice.emulation;
+        json["emulate"] = {
+            {"bits", emulation.bits},
+            {"alpha", name_of(emulation.alpha)},
+            {"over", name_of(emulation.over)},
+            {"by", slice.blending == Blending::fetch ? "framebuffer_fetch" : "texture_barrier"}};
+    }
+    if (slice.dither) {
+        json["dither"] = {{"period", slice.dither->period},
+                          {"seed", slice.dither->seed},
+                          {"color", slice.dither->color},
+                          {"increment", slice.dither->increment}};
+    }
+    if (slice.tree) {
+        json["tree"] = {{"factors", slice.tree->factors},
+                        {"nodes", name_of(slice.tree->nodes)},
+                        {"code", name_of(slice.tree->code)},
+                        {"alpha_bits", slice.tree->alpha_bits}};
+    }
+    if (slice.error_bound) json["error_bound"] = *slice.error_bound;
     if (slice.uses_table()) {
         json["table"] = {{"scalars", slice.table.scalar_nodes},
                          {"lengths", slice.table.length_layers},

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/line_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace lamina {
+namespace {
+
+// Pixels of the drawing; the plot's own rectangle within it.
+constexpr double drawing_width = 760, drawing_height = 440;
+constexpr double left = 70, top = 44, width = 460, height = 330;
+constexpr double right = left + width, bottom = top + height;
+
+struct Pen {
+    const char* color;
+    const char* dashes;
+};
+constexpr std::array<Pen, 7> pens{{{"#000000", "none"},
+                                   {"#d55e00", "none"},
+                                   {"#0072b2", "7 3"},
+                                   {"#009e73", "2 3"},
+                                   {"#cc79a7", "10 3 2 3"},
+                                   {"#e69f00", "4 2"},
+                                   {"#56b4e9", "12 3"}}};
+
+std::string stroke_of(std::size_t line) {
+    const Pen& pen = pens[line % pens.size()];
+    return fmt::format(R"(stroke="{}" stroke-dasharray="{}" stroke-width="1.6" fill="none")",
+                       pen.color, pen.dashes);
+}
+
+std::string escaped(const std::string& text) {
+    std::string xml;
+    for (const char c : text) {
+        if (c == '&')
+            xml += "&amp;";
+        else if (c == '<')
+            xml += "&lt;";
+        else if (c == '>')
+            xml += "&gt;";
+        else
+            xml += c;
+    }
+    return xml;
+}
+
+// About five steps of 1, 2 or 5 times a power of ten.
+double tick_step(double range) {
+    const double power = std::pow(10, std::floor(std::log10(range / 4)));
+    for (const double factor : {1.0, 2.0, 5.0}) {
+        if (range / (factor * power) <= 6) return factor * power;
+    }
+    return 10 * power;
+}
+
+std::vector<double> ticks(const PlotAxis& axis) {
+    std::vector<double> at;
+    if (axis.powers_of_two) {
+        const int first = static_cast<int>(std::ceil(std::log2(axis.low)));
+        const int last = static_cast<int>(std::floor(std::log2(axis.high)));
+        for (int e = first; e <= last; ++e) at.push_back(std::exp2(e));
+        return at;
+    }
+    const double step = tick_step(axis.high - axis.low);
+    const auto first = static_cast<int>(std::ceil(axis.low / step - 1e-9));
+    for (int i = first; i * step <= axis.high + 1e-9 * step; ++i) at.push_back(i * step);
+    return at;
+}
+
+// 0 at axis.low, 1 at axis.high.
+double share_of(const PlotAxis& axis, double value) {
+    const double inside = std::clamp(value, axis.low, axis.high);
+    return axis.powers_of_two ? std::log2(inside / axis.low) / std::log2(axis.high / axis.low)
+                              : (inside - axis.low) / (axis.high - axis.low);
+}
+
+std::string text_at(double x, double y, const char* anchor, const std::string& text,
+                    const std::string& more = {}) {
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y,
+                       anchor, more, escaped(text));
+}
+
+}  // namespace
+
+LinePlot::LinePlot(std::string title, PlotAxis x, PlotAxis y)
+    : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)) {}
+
+void LinePlot::add(std::string name, std::vector<double> x, std::vector<double> y) {
+    assert(x.size() == y.size());
+    lines_.push_back({std::move(name), std::move(x), std::move(y)});
+}
+
+double LinePlot::across(double x) const {
+    return left + width * share_of(x_, x);
+}
+double LinePlot::down(double y) const {
+    return bottom - height * share_of(y_, y);
+}
+
+std::string LinePlot::grid() const {
+    std::string svg;
+    for (const double x : ticks(x_)) {
+        svg += fmt::format("<path d=\"M{0:.1f} {1}V{2}\" stroke=\"#dddddd\"/>\n", across(x), top,
+                           bottom);
+        svg += text_at(across(x), bottom + 18, "middle", fmt::format("{:g}", x));
+    }
+    for (const double y : ticks(y_)) {
+        svg += fmt::format("<path d=\"M{0} {1:.1f}H{2}\" stroke=\"#dddddd\"/>\n", left, down(y),
+                           right);
+        svg += text_at(left - 8, down(y) + 4, "end", fmt::format("{:g}", y));
+    }
+    return svg;
+}
+
+std::string LinePlot::frame() const {
+    const double middle = 0.5 * (top + bottom);
+    return fmt::format("<path d=\"M{0} {1}V{2}H{3}\" stroke=\"#000000\" fill=\"none\"/>\n", left,
+                       top, bottom, right) +
+           text_at(0.5 * (left + right), bottom + 42, "middle", x_.label) +
+           text_at(20, middle, "middle", y_.label,
+                   fmt::format(" transform=\"rotate(-90 20 {:.1f})\"", middle)) +
+           text_at(left, top - 18, "start", title_, " font-weight=\"bold\"");
+}
+
+std::string LinePlot::points_of(const Line& line) const {
+    std::string points;
+    for (std::size_t i = 0; i < line.x.size(); ++i) {
+        points +=
+            fmt::format("{}{:.2f},{:.2f}", i == 0 ? "" : " ", across(line.x[i]), down(line.y[i]));
+    }
+    return points;
+}
+
+std::string LinePlot::legend_entry(std::size_t index) const {
+    const double y = top + 10 + 20 * static_cast<double>(index), x = right + 16;
+    return fmt::format("<path d=\"M{:.1f} {:.1f}h32\" {}/>\n", x, y, stroke_of(index)) +
+           text_at(x + 40, y + 4, "start", lines_[index].name);
+}
+
+std::string LinePlot::svg() const {
+    std::string svg = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+        "height=\"{1}\" font-family=\"sans-serif\" font-size=\"13\">\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+        drawing_width, drawing_height);
+    svg += grid() + frame();
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        svg += fmt::format("<polyline points=\"{}\" {}/>\n", points_of(lines_[i]), stroke_of(i));
+        svg += legend_entry(i);
+    }
+    return svg + "</svg>\n";
+}
+
+}  // namespace lamina

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lamina {
+
+// The whole file at once, through AtomicFile. Throws Error.
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+// Numbers in columns: a line of names, then one line a row.
+class CsvTable {
+  public:
+    explicit CsvTable(const std::vector<std::string>& columns);
+    // As many cells as columns, ready to print; none may hold a comma.
+    void add_row(const std::vector<std::string>& cells);
+    const std::string& text() const { return text_; }
+
+  private:
+    std::size_t columns_;
+    std::string text_;
+};
+
+}  // namespace lamina

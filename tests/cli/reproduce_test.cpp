@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+ProgramResult reproduce(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {LAMINA_BINARY, "reproduce"});
+    return run_program(arguments);
+}
+
+TEST(Reproduce, WritesOneItem) {
+    const TemporaryFolder folder;
+    const std::string output = folder / "new/place";
+    const ProgramResult result = reproduce({"lamar", "table3", "-o", output});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out.find("table3"), 0u);
+    const json report = json::parse(read_bytes_of(folder / "new/place/lamar.json"));
+    EXPECT_EQ(report.size(), 1u);
+    EXPECT_EQ(report["table3"]["agrees"], false);
+    EXPECT_TRUE(std::filesystem::exists(folder / "new/place/table3.csv"));
+}
+
+// Sections 4.2 and 5 against what is measured.
+TEST(Reproduce, JudgesOrderAndDithering) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(reproduce({"lamar", "order", "-o", folder / "order"}).exit_code, 0);
+    const json order = json::parse(read_bytes_of(folder / "order/lamar.json"))["order"];
+    EXPECT_EQ(order["agrees"], false);
+    for (const json& row : order["values"]["equal_fragments"]) {
+        // White: over() and under() of equal codes are the same whole number.
+        if (row["color"] == 1.0) {
+            EXPECT_EQ(row["different_columns"], 0);
+        }
+    }
+    ASSERT_EQ(reproduce({"lamar", "dithering", "-o", folder / "dithering"}).exit_code, 0);
+    const json dithering = json::parse(read_bytes_of(folder / "dithering/lamar.json"))["dithering"];
+    EXPECT_EQ(dithering["agrees"], true) << dithering["note"];
+    for (const json& row : dithering["values"]["periods"]) {
+        // A pattern that ends within the ray shows 1 / (255 P) a sample and more.
+        if (row["color"] == 1.0 && row["period"] <= row["samples"]) {
+            EXPECT_EQ(row["first_column_shown"], row["first_column_predicted"]);
+        }
+    }
+}
+
+TEST(Reproduce, BadNamesAreExitTwo) {
+    const TemporaryFolder folder;
+    const ProgramResult item = reproduce({"lamar", "figure99", "-o", folder / "x"});
+    EXPECT_EQ(item.exit_code, 2);
+    EXPECT_NE(item.err.find("figure9,"), std::string::npos) << item.err;  // among the choices
+    EXPECT_EQ(reproduce({"newton", "-o", folder / "x"}).exit_code, 2);
+    EXPECT_EQ(reproduce({"lamar"}).exit_code, 2);
+    EXPECT_TRUE(folder.empty());
+}
+
+TEST(Reproduce, AFileInTheWayIsExitOne) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "x", "");
+    const ProgramResult result = reproduce({"lamar", "table2", "-o", folder / "x"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("x: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina

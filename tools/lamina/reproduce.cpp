@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "study/lamar.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+struct ReproduceOptions {
+    std::string paper, item, output;
+    bool quiet = false;
+};
+
+std::vector<std::string> item_names() {
+    std::vector<std::string> names;
+    for (const LamarItem& item : lamar_items()) names.push_back(item.name);
+    return names;
+}
+
+std::vector<LamarItem> chosen_items(const ReproduceOptions& options) {
+    if (options.paper != "lamar") {
+        throw UsageError(fmt::format("reproduce {}: unknown paper, expected lamar", options.paper));
+    }
+    if (options.item.empty()) return lamar_items();
+    for (const LamarItem& item : lamar_items()) {
+        if (item.name == options.item) return {item};
+    }
+    throw UsageError(fmt::format("reproduce lamar {}: unknown item, expected one of {}",
+                                 options.item, fmt::join(item_names(), ", ")));
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail("{}: cannot make this folder: {}", folder, error.message());
+}
+
+void run(const ReproduceOptions& options) {
+    Progress::set_quiet(options.quiet);
+    const std::vector<LamarItem> items = chosen_items(options);
+    make_folder(options.output);
+    const std::filesystem::path folder = options.output;
+    AtomicFile file(folder / "lamar.json");
+    nlohmann::ordered_json report;
+    for (const LamarItem& item : items) {
+        report[item.name] = item.reproduce(folder);
+        fmt::print("{:<10} {}\n", item.name, report[item.name]["note"].get<std::string>());
+    }
+    file.write(report.dump(1) + "\n");
+    file.commit();
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, int& exit_code) {
+    (void)exit_code;
+    auto* const verb = app.add_subcommand(
+        "reproduce", "Make the tables and figures of a paper again, and compare");
+    const auto options = std::make_shared<ReproduceOptions>();
+    verb->add_option("PAPER", options->paper, "lamar")->required();
+    verb->add_option("ITEM", options->item,
+                     fmt::format("{}; all of them when left out", fmt::join(item_names(), ", ")));
+    verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
+        ->required();
+    verb->add_flag("--quiet", options->quiet, "no progress");
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace lamina
