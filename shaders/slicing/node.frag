@@ -37,7 +37,7 @@ void main() {
         float child_depth = decode_depth(code, float(samples) * sample_share);
         depth += child_depth;
         float weight = transmittance * opacity_from_depth(child_depth);
-        color += weight * child.rgb;
+        color += weight * largest_color * child.rgb;
         transmittance -= weight;
     }
     write_node(color, depth);

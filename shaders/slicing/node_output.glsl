@@ -13,6 +13,7 @@ layout(location = 1) out vec4 alpha_image;
 #endif
 uniform float node_share;  // of the ray's samples
 #endif
+uniform float largest_color;  // that the images of nodes stand for as 1: fixed point holds no more
 #if defined(MONOCHROME) && !defined(SINGLE_COLOR)
 uniform vec3 single_color;
 #endif
@@ -29,7 +30,7 @@ void write_node(vec3 color, float depth) {
 #ifdef MONOCHROME
     image = vec4(code, 0.0, 0.0, 0.0);
 #else
-    image = vec4(opacity > 0.0 ? color / opacity : vec3(0.0), code);
+    image = vec4(opacity > 0.0 ? color / (opacity * largest_color) : vec3(0.0), code);
 #ifdef ALPHA_APART
     alpha_image = vec4(code, 0.0, 0.0, 0.0);
 #endif

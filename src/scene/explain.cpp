@@ -48,7 +48,9 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
         for (int level = 0; level < shape.levels(); ++level) factors.push_back(shape.factor(level));
         std::string text = fmt::format("{}, nodes {}", to_text(factors), name_of(tree.nodes));
         if (tree.nodes == NodeArithmetic::shader) {
-            text += fmt::format(", code {}, alpha {} bits", name_of(tree.code), tree.alpha_bits);
+            text += fmt::format(", code {}", name_of(tree.code));
+            if (slice.target == Target::fixed8)
+                text += fmt::format(", alpha {} bits", tree.alpha_bits);
         }
         row("tree", text);
     }

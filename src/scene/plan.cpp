@@ -268,6 +268,9 @@ class SlicePlanner {
                              "would give, with one write a pixel and without its roundings")) {
             slice.tree = TreePlan{.factors = {slice.slabs}};
         }
+        if (slice.tree && is_fixed_point(slice.target)) {
+            slice.tree->largest_color = std::max(facts_.max_color, 1.0);
+        }
         if (slice.emulation) {
             slice.blending = capabilities_.framebuffer_fetch ? Blending::fetch : Blending::barrier;
         }

@@ -88,12 +88,19 @@ TreeChoice choose_tree(const TreeQuestion& question) {
     const double one_level = one_level_error_bound(question);
     if (question.slabs > 1 && one_level <= question.max_error) {
         return {TreePlan{.factors = {question.slabs}}, one_level,
-                fmt::format("one node of {} slabs, in float: rounds once, where blending would "
-                            "round up to {} times (bound {:.3g}), and takes less time",
-                            question.slabs, question.visible_slabs, straight)};
+                fmt::format("one node of {} slabs, in float, takes less time than blending, whose "
+                            "bound is {:.3g}",
+                            question.slabs, straight)};
     }
     if (straight <= question.max_error) {
         return {{}, straight, fmt::format("{} visible slabs round little", question.visible_slabs)};
+    }
+    if (question.largest_color > 1 &&
+        one_level - full_scale * (question.largest_color - 1) <= question.max_error) {
+        fail(
+            "render.max_error: found {:.4g}, not to be kept with colours up to {:.4g}, which the "
+            "target {} clamps to 1: take float16 or float32, or colours up to 1",
+            question.max_error, question.largest_color, name_of(question.target));
     }
     fail(
         "render.max_error: found {:.4g}, the best that the target {} can keep is {:.4g} over {} "

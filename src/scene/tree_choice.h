@@ -16,6 +16,7 @@ struct TreePlan {
     NodeArithmetic nodes = NodeArithmetic::shader;
     NodeCode code = NodeCode::minimax;
     int alpha_bits = 8;
+    double largest_color = 1;  // that the images of shader nodes stand for as 1
 };
 
 // What "tree": "auto" decides from.

@@ -127,14 +127,17 @@ void GlShaderTree::choose_bands(const Capabilities& capabilities, std::int64_t l
 gl::Program GlShaderTree::make_program(const char* fragment, const gl::Defines& defines) {
     gl::Program program("gl/full_screen.vert", fragment, defines);
     program.set("single_color", source_.single_color());
+    program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
     return program;
 }
 
 void GlShaderTree::make_programs() {
     const bool tree = !images_.empty();
     const auto make_leaf = [&](NodePlace place) {
-        return gl::Program("slicing/slab.vert", "slicing/leaf.frag",
-                           leaf_defines(plan_, source_.defines(), place));
+        gl::Program program("slicing/slab.vert", "slicing/leaf.frag",
+                            leaf_defines(plan_, source_.defines(), place));
+        program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
+        return program;
     };
     const auto make_encode = [&](NodePlace place) {
         gl::Program program = make_program("slicing/encode.frag", node_defines(plan_, place));

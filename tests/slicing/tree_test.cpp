@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compositing trees whose nodes are computed in a program, against the same slabs blended in
 // float32.
+#include <algorithm>
 #include <random>
 
 #include "slicing_fixture.h"
@@ -110,6 +111,20 @@ TEST_F(TreeTest, ColourGoesThroughTheTree) {
                 << example.name;
         }
     }
+}
+
+// Nodes' images in fixed point hold colours above 1 by a scale; only the picture is clamped.
+// Colours are coarser by that scale: half a code of it for each of two levels, beside the alpha
+// codes.
+TEST_F(TreeTest, ColoursAboveOneGoThroughTheTree) {
+    const Example faint{
+        "faint, bright", generated("mixing"),
+        TransferFunction::linear({knot(0, {3, 0, .5}, 0), knot(255, {.5, 3, 1}, .2)})};
+    const Image expected =
+        render(faint.volume, scene_of(faint, 1024, Target::float32, {}), capabilities());
+    ASSERT_LE(*std::max_element(expected.rgba.begin(), expected.rgba.end()), 1);
+    const Scene scene = scene_of(faint, 1024, Target::fixed8, {32, 32});
+    EXPECT_LE(linf(render(faint.volume, scene, capabilities()), expected), 3 * 1.64 + 3 * .5 + .5);
 }
 
 // NUMERICS section 3: Phi of a thin dense sheet rounds to 1.
