@@ -10,15 +10,19 @@
 
 namespace lamina {
 
-// One table or figure. `reproduce` writes its CSV and pictures into `folder`, which exists, and
-// returns {values, paper, agrees, note, ...} (see Findings::result). Errors in units of 1/255.
+class LamarStage;
+
+// One table or figure: `reproduce`, or `draw` where it needs OpenGL. Either writes its CSV and
+// pictures into `folder`, which exists, and returns {values, paper, agrees, note, ...} (see
+// Findings::result). Errors in units of 1/255.
 struct LamarItem {
     std::string name;
-    nlohmann::ordered_json (*reproduce)(const std::filesystem::path& folder);
+    nlohmann::ordered_json (*reproduce)(const std::filesystem::path& folder) = nullptr;
+    nlohmann::ordered_json (*draw)(const std::filesystem::path& folder,
+                                   LamarStage& stage) = nullptr;
 };
 
-// In the order of the paper; behind them `order` and `dithering`, which answer questions that it
-// leaves open.
+// In the order of the paper; behind them what answers questions that it leaves open.
 const std::vector<LamarItem>& lamar_items();
 
 nlohmann::ordered_json reproduce_table1(const std::filesystem::path& folder);
@@ -36,5 +40,18 @@ nlohmann::ordered_json reproduce_order(const std::filesystem::path& folder);
 
 // Section 5: period against the smallest opacity, increments, colour, thin structures, boundaries.
 nlohmann::ordered_json reproduce_dithering(const std::filesystem::path& folder);
+
+// What the paper draws. Figure 1 needs the bonsai of LAMINA_DATA; without, its `agrees` is null.
+// The Richtmyer-Meshkov data are not to be had: mixing_scene.h stands in.
+nlohmann::ordered_json draw_figure1(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_table4(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_figure6(const std::filesystem::path& folder, LamarStage& stage);
+nlohmann::ordered_json draw_figure10(const std::filesystem::path& folder, LamarStage& stage);
+
+// Both orders on the mixing liquids.
+nlohmann::ordered_json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage);
+
+// Run times, which the paper does not give.
+nlohmann::ordered_json draw_times(const std::filesystem::path& folder, LamarStage& stage);
 
 }  // namespace lamina

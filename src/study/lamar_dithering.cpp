@@ -26,23 +26,6 @@ const char* word_of(OverRounding over) {
     return over == OverRounding::separate ? "separate" : "fused";
 }
 
-// Rows of the same keys as CSV.
-std::string csv_of(const Json& rows) {
-    std::vector<std::string> names;
-    for (const auto& [key, value] : rows.front().items()) names.push_back(key);
-    CsvTable csv(names);
-    for (const Json& row : rows) {
-        std::vector<std::string> cells;
-        for (const auto& [key, value] : row.items()) {
-            cells.push_back(value.is_string()         ? value.get<std::string>()
-                            : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
-                                                      : value.dump());
-        }
-        csv.add_row(cells);
-    }
-    return csv.text();
-}
-
 void append(Json& row, const ErrorNorms& e) {
     row["linf"] = e.linf;
     row["l1"] = e.l1;
@@ -260,9 +243,9 @@ void judge_spans(Findings& findings, const Json& spans) {
 Json reproduce_dithering(const std::filesystem::path& folder) {
     const Json periods = measure_periods(), by_increment = measure_increments(),
                spans = measure_spans();
-    write_text(folder / "dithering_periods.csv", csv_of(periods));
-    write_text(folder / "dithering_increments.csv", csv_of(by_increment));
-    write_text(folder / "dithering_spans.csv", csv_of(spans));
+    write_text(folder / "dithering_periods.csv", csv_of_rows(periods));
+    write_text(folder / "dithering_increments.csv", csv_of_rows(by_increment));
+    write_text(folder / "dithering_spans.csv", csv_of_rows(spans));
     write_text(folder / "dithering_periods.svg",
                error_plot(periods, "Dithering: error of the ramp against the period",
                           {"period P", 4, 4096, true}, "period"));

@@ -25,4 +25,20 @@ void CsvTable::add_row(const std::vector<std::string>& cells) {
     text_ += fmt::format("{}\n", fmt::join(cells, ","));
 }
 
+std::string csv_of_rows(const nlohmann::ordered_json& rows) {
+    std::vector<std::string> names;
+    for (const auto& [key, value] : rows.front().items()) names.push_back(key);
+    CsvTable csv(names);
+    for (const nlohmann::ordered_json& row : rows) {
+        std::vector<std::string> cells;
+        for (const auto& [key, value] : row.items()) {
+            cells.push_back(value.is_string()         ? value.get<std::string>()
+                            : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
+                                                      : value.dump());
+        }
+        csv.add_row(cells);
+    }
+    return csv.text();
+}
+
 }  // namespace lamina

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,8 @@ class CsvTable {
     std::size_t columns_;
     std::string text_;
 };
+
+// Objects of the same keys and plain values, one a row.
+std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace lamina

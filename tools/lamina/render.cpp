@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
+#include "context_kind.h"
 #include "gl/context.h"
 #include "gl/memory.h"
 #include "picture_file.h"
@@ -79,13 +80,6 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
         }
     }
     return omissions;
-}
-
-gl::ContextKind context_kind(const std::string& word) {
-    if (word == "auto") return gl::ContextKind::automatic;
-    if (word == "osmesa") return gl::ContextKind::osmesa;
-    if (word == "egl") return gl::ContextKind::egl;
-    throw UsageError(fmt::format("--context {}: expected auto, osmesa or egl", word));
 }
 
 // Scene, picture and statistics are three files.

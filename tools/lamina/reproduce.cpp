@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -13,7 +14,10 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "context_kind.h"
+#include "gl/context.h"
 #include "study/lamar.h"
+#include "study/lamar_stage.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -21,6 +25,7 @@ namespace {
 
 struct ReproduceOptions {
     std::string paper, item, output;
+    std::string context = "auto";
     bool quiet = false;
 };
 
@@ -48,16 +53,37 @@ void make_folder(const std::string& folder) {
     if (error) fail("{}: cannot make this folder: {}", folder, error.message());
 }
 
+// Makes the context when an item first draws, and keeps it.
+class Stagehand {
+  public:
+    explicit Stagehand(gl::ContextKind kind) : kind_(kind) {}
+
+    nlohmann::ordered_json make(const LamarItem& item, const std::filesystem::path& folder) {
+        if (item.draw == nullptr) return item.reproduce(folder);
+        if (!context_) {
+            context_ = gl::Context::create(kind_);
+            stage_.emplace(context_->capabilities());
+        }
+        return item.draw(folder, *stage_);
+    }
+
+  private:
+    gl::ContextKind kind_;
+    std::unique_ptr<gl::Context> context_;
+    std::optional<LamarStage> stage_;
+};
+
 void run(const ReproduceOptions& options) {
     Progress::set_quiet(options.quiet);
+    Stagehand stagehand(context_kind(options.context));
     const std::vector<LamarItem> items = chosen_items(options);
     make_folder(options.output);
     const std::filesystem::path folder = options.output;
     AtomicFile file(folder / "lamar.json");
     nlohmann::ordered_json report;
     for (const LamarItem& item : items) {
-        report[item.name] = item.reproduce(folder);
-        fmt::print("{:<10} {}\n", item.name, report[item.name]["note"].get<std::string>());
+        report[item.name] = stagehand.make(item, folder);
+        fmt::print("{:<12} {}\n", item.name, report[item.name]["note"].get<std::string>());
     }
     file.write(report.dump(1) + "\n");
     file.commit();
@@ -75,6 +101,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
                      fmt::format("{}; all of them when left out", fmt::join(item_names(), ", ")));
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
+    verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");
     verb->add_flag("--quiet", options->quiet, "no progress");
     verb->callback([options] { run(*options); });
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/interleaved_times.h"
+
+#include <algorithm>
+#include <cassert>
+#include <ctime>
+
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/stopwatch.h"
+
+namespace lamina {
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double cpu_milliseconds() {
+    return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+}  // namespace
+
+std::vector<FrameTimes> time_interleaved(const std::string& label,
+                                         const std::vector<TimedFrame>& frames, int rounds) {
+    assert(rounds >= 3);
+    Progress progress(label, static_cast<std::int64_t>(frames.size()) * (rounds + 1));
+    for (const TimedFrame& frame : frames) {
+        frame.warm_up();
+        progress.advance();
+    }
+    std::vector<std::vector<double>> ms(frames.size()), cpu(frames.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            check_interrupt();
+            const double cpu_before = cpu_milliseconds();
+            const Stopwatch watch;
+            frames[i].draw();
+            ms[i].push_back(watch.milliseconds());
+            cpu[i].push_back(cpu_milliseconds() - cpu_before);
+            progress.advance();
+        }
+    }
+    std::vector<FrameTimes> times;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto [fastest, slowest] = std::minmax_element(ms[i].begin(), ms[i].end());
+        times.push_back({median(ms[i]), median(cpu[i]), *slowest / *fastest});
+    }
+    return times;
+}
+
+}  // namespace lamina

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lamina {
+
+// Something to time: `draw` makes one frame and returns when it is complete; `warm_up` makes it
+// ready.
+struct TimedFrame {
+    std::string name;
+    std::function<void()> warm_up, draw;
+};
+
+struct FrameTimes {
+    double ms = 0;      // median, by the clock
+    double cpu_ms = 0;  // median, of all threads of the process
+    double spread = 1;  // slowest over fastest, by the clock
+};
+
+// Rounds A B C, A B C ...: what slows the machine for a while slows all of them. At least three
+// rounds.
+std::vector<FrameTimes> time_interleaved(const std::string& label,
+                                         const std::vector<TimedFrame>& frames, int rounds);
+
+}  // namespace lamina
