@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace lamina {
+
+// The bytes of a binary array of a VTK XML file, raw or base64. Base64 may be several runs, each
+// padded by itself: VTK codes the header and the compressed blocks apart.
+class EncodedBytes {
+  public:
+    // `what`: the file and array, for messages.
+    EncodedBytes(std::string_view text, bool base64, std::string what)
+        : text_(text), base64_(base64), what_(std::move(what)) {}
+
+    // At most so many bytes can still be read.
+    std::size_t at_most_left() const { return base64_ ? left() / 4 * 3 + decoded_count_ : left(); }
+    void read(char* bytes, std::size_t count);  // throws Error when there are fewer, or no base64
+
+  private:
+    std::size_t left() const { return text_.size() - position_; }
+    bool decode_four();
+
+    std::string_view text_;
+    bool base64_;
+    std::string what_;
+    std::size_t position_ = 0;
+    char decoded_[3] = {};  // the last decoded_count_ of them are not yet read
+    std::size_t decoded_count_ = 0;
+    std::size_t decoded_at_ = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/face_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numeric>
+
+namespace lamina {
+namespace {
+
+constexpr std::int32_t faces_per_leaf = 4;
+
+FaceTree::Box box_of(const TetMesh& mesh, const TetFace& face) {
+    const Tet& tet = mesh.tets()[static_cast<std::size_t>(face.tet)];
+    FaceTree::Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    for (const std::int32_t corner : corners_of_face(tet, static_cast<std::size_t>(face.face))) {
+        const glm::dvec3& point = mesh.points()[static_cast<std::size_t>(corner)];
+        box.min = glm::min(box.min, point);
+        box.max = glm::max(box.max, point);
+    }
+    return box;
+}
+
+}  // namespace
+
+FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces) : order_(faces.size()) {
+    std::vector<Box> boxes;
+    boxes.reserve(faces.size());
+    for (const TetFace& face : faces) boxes.push_back(box_of(mesh, face));
+    std::iota(order_.begin(), order_.end(), 0);
+    nodes_.reserve(faces.size());
+    if (!faces.empty()) build(boxes, 0, static_cast<std::int32_t>(faces.size()));
+}
+
+void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_t end) {
+    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
+    Box centers = box;
+    for (std::int32_t i = first; i < end; ++i) {
+        const Box& face = boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
+        box.min = glm::min(box.min, face.min);
+        box.max = glm::max(box.max, face.max);
+        centers.min = glm::min(centers.min, 0.5 * face.min + 0.5 * face.max);
+        centers.max = glm::max(centers.max, 0.5 * face.min + 0.5 * face.max);
+    }
+    const std::size_t self = nodes_.size();
+    nodes_.push_back({box, first, end, -1});
+    if (end - first <= faces_per_leaf) return;
+    const glm::dvec3 extent = centers.max - centers.min;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    const std::int32_t middle = first + (end - first) / 2;
+    const auto center = [&](std::int32_t face) {
+        const Box& b = boxes[static_cast<std::size_t>(face)];
+        return 0.5 * b.min[axis] + 0.5 * b.max[axis];
+    };
+    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end,
+                     [&](std::int32_t a, std::int32_t b) { return center(a) < center(b); });
+    build(boxes, first, middle);
+    nodes_[self].right = static_cast<std::int32_t>(nodes_.size());
+    build(boxes, middle, end);
+}
+
+}  // namespace lamina

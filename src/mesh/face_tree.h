@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "mesh/tet_mesh.h"
+
+namespace lamina {
+
+// A hierarchy of boxes around faces of a mesh (its open ones, as a rule), to find those that a ray,
+// a pyramid or anything else can meet.
+class FaceTree {
+  public:
+    struct Box {
+        glm::dvec3 min, max;
+        bool empty() const { return !(min.x <= max.x); }
+        void add(const glm::dvec3& point) { add({point, point}); }
+        void add(const Box& other) {
+            min = glm::min(min, other.min);
+            max = glm::max(max, other.max);
+        }
+    };
+    static constexpr Box nothing() { return {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)}; }
+
+    FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
+
+    // Calls visit(index into the faces) for all faces below the boxes for which meets(box) holds.
+    template <typename Meets, typename Visit>
+    void visit(const Meets& meets, const Visit& visit) const {
+        std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
+        std::size_t waiting = 0;
+        if (!nodes_.empty()) stack[waiting++] = 0;
+        while (waiting > 0) {
+            const Node& node = nodes_[static_cast<std::size_t>(stack[--waiting])];
+            if (node.box.empty() || !meets(node.box)) continue;
+            if (node.right >= 0) {
+                stack[waiting++] = node.right;
+                stack[waiting++] = static_cast<std::int32_t>(&node - nodes_.data()) + 1;
+            } else {
+                for (std::int32_t i = node.first; i < node.end; ++i)
+                    visit(order_[static_cast<std::size_t>(i)]);
+            }
+        }
+    }
+
+    // Shrinks the boxes to box_of(index) of the faces. Where that is empty() the face may or may not
+    // be visited, until the next refit().
+    template <typename BoxOf>
+    void refit(const BoxOf& box_of) {
+        for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
+            Node& node = nodes_[i];
+            node.box = nothing();
+            if (node.right >= 0) {
+                node.box.add(nodes_[i + 1].box);
+                node.box.add(nodes_[static_cast<std::size_t>(node.right)].box);
+                continue;
+            }
+            for (std::int32_t at = node.first; at < node.end; ++at)
+                node.box.add(box_of(order_[static_cast<std::size_t>(at)]));
+        }
+    }
+
+  private:
+    struct Node {
+        Box box;
+        std::int32_t first, end;  // into order_
+        std::int32_t right;       // the left child follows its parent; -1: a leaf
+    };
+    void build(std::span<const Box> boxes, std::int32_t first, std::int32_t end);
+
+    std::vector<Node> nodes_;
+    std::vector<std::int32_t> order_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh_data.h"
+
+namespace lamina {
+
+// Cells as unstructured grids of VTK hold them: cell i has type types[i] and the points
+// connectivity[ends[i - 1]] ... connectivity[ends[i] - 1].
+struct MeshCells {
+    std::vector<std::int64_t> connectivity;
+    std::vector<std::int64_t> ends;
+    std::vector<std::int64_t> types;
+};
+
+// One unstructured grid, or one piece of it, as a file has it.
+struct MeshPiece {
+    std::string label;  // "FILE" or "FILE: Piece 2", for messages
+    std::vector<glm::dvec3> points;
+    MeshCells cells;
+    std::vector<MeshScalar> point_scalars;
+    std::vector<MeshScalar> cell_scalars;  // one value a cell
+};
+
+std::vector<glm::dvec3> points_from_values(const std::vector<double>& values);
+
+// The scalar that an array stands for: itself when it has one component, its length when it has
+// three. Arrays with other numbers of components stand for none.
+inline bool makes_scalar(std::int64_t components) {
+    return components == 1 || components == 3;
+}
+MeshScalar scalar_from_values(std::string name, std::int64_t components,
+                              std::vector<double> values);
+
+// Puts pieces together to one mesh: their points one after the other, their cells as tets. Throws
+// Error for cells that are no good.
+class MeshAssembly {
+  public:
+    explicit MeshAssembly(std::string file) : file_(std::move(file)) {}
+
+    void add(MeshPiece piece);
+    MeshData finish();  // throws Error when there is no point or no tet
+
+  private:
+    std::vector<std::int64_t> add_cells(const MeshPiece& piece, std::int32_t first_point);
+
+    std::string file_;
+    MeshData mesh_;
+    bool first_ = true;
+};
+
+}  // namespace lamina

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/ray_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "mesh/predicates.h"
+
+namespace lamina {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// x and y of a point at distance P (1-norm) from the ray's origin are off by at most: half an ulp
+// from each difference, three products and two sums, and the axes, which are across the ray but for
+// 4 ulps: below 8 epsilon P in all.
+constexpr double place_error = 8 * epsilon;
+
+// An open face that is met this share of the scale before the last exit still counts as met after
+// it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
+constexpr double touching = 1e-12;
+
+double norm1(const glm::dvec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+// a * b - c * d to 2 ulps of itself (Kahan; Jeannerod, Louvet, Muller 2013): faces seen edge-on
+// keep their weights.
+double difference_of_products(double a, double b, double c, double d) {
+    const double cd = c * d;
+    return std::fma(a, b, -cd) + std::fma(-c, d, cd);
+}
+
+// The place nearest to the line (0, 0) on the segment from a to b.
+struct Nearest {
+    double share;  // of b
+    double distance;
+};
+Nearest nearest(double ax, double ay, double bx, double by) {
+    const double dx = bx - ax, dy = by - ay;
+    const double square = dx * dx + dy * dy;
+    const double share = square > 0 ? std::clamp(-(ax * dx + ay * dy) / square, 0.0, 1.0) : 0.5;
+    return {share, std::hypot(ax + share * dx, ay + share * dy)};
+}
+
+}  // namespace
+
+void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction) {
+    origin_ = origin;
+    direction_ = direction;
+    direction_square_ = glm::dot(direction, direction);
+    const glm::dvec3 d = direction / std::sqrt(direction_square_);
+    const glm::dvec3 a = glm::abs(d);
+    const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
+                            : a.y <= a.z             ? glm::dvec3(0, 1, 0)
+                                                     : glm::dvec3(0, 0, 1);
+    across_x_ = glm::normalize(glm::cross(axis, d));
+    across_y_ = glm::cross(d, across_x_);
+    find_crossings();
+}
+
+RayWalk::Seen RayWalk::see(std::int32_t point) const {
+    const glm::dvec3 p = mesh_.points()[static_cast<std::size_t>(point)] - origin_;
+    return {point, glm::dot(p, across_x_), glm::dot(p, across_y_),
+            glm::dot(p, direction_) / direction_square_, place_error * norm1(p)};
+}
+
+RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const {
+    const double area = difference_of_products(a.x, b.y, a.y, b.x);
+    const double error = (std::abs(a.x) + std::abs(a.y) + a.reach) * b.reach +
+                         (std::abs(b.x) + std::abs(b.y)) * a.reach + epsilon * std::abs(area);
+    if (area > error) return {area, 1};
+    if (-area > error) return {area, -1};
+    const int sign = exact_side(mesh_.points()[static_cast<std::size_t>(a.point)],
+                                mesh_.points()[static_cast<std::size_t>(b.point)]);
+    return {area * sign > 0 ? area : 0, sign};
+}
+
+// The sign of det(d, p - o, q - o); where it is 0, that of the line moved by o += (e, e^2, e^3) and
+// then turned by d += (f, f^2, f^3), f infinitely smaller than any power of e: its terms in order
+// of their size (E = q - p). Two points p != q leave one of them unequal to 0.
+int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
+    const glm::dvec3 none(0);
+    if (const int sign = sign_of_determinant(direction_, none, p, origin_, q, origin_)) return sign;
+    const std::array<glm::dvec3, 3> axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0),
+                                         glm::dvec3(0, 0, 1)};
+    for (const glm::dvec3& axis : axes) {  // e_i . (d x E)
+        if (const int sign = sign_of_determinant(axis, none, direction_, none, q, p)) return sign;
+    }
+    const auto sign_of = [](double a, double b) { return a > b ? 1 : a < b ? -1 : 0; };
+    for (int i = 0; i < 3; ++i) {  // f^(i+1) times (P x Q)_i - (e x E)_i
+        const auto axis = static_cast<std::size_t>(i);
+        if (const int sign = sign_of_determinant(axes[axis], none, p, origin_, q, origin_))
+            return sign;
+        // -(e x E)_i = e_k E_j - e_j E_k with j, k after i: the lower power of e first.
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int by_k = sign_of(q[j], p[j]), by_j = -sign_of(q[k], p[k]);
+        if (const int sign = j < k ? by_j : by_k) return sign;
+        if (const int sign = j < k ? by_k : by_j) return sign;
+    }
+    return 1;  // one point in two places of the mesh: an edge without length
+}
+
+FaceCrossing RayWalk::crossing(const Front& front) {
+    const auto& [corners, sides] = front;
+    FaceCrossing result;
+    for (std::size_t i = 0; i < 3; ++i) result.corners[i] = corners[i].point;
+    if (sides[0].area > 0 && sides[1].area > 0 && sides[2].area > 0) {
+        const double sum = sides[0].area + sides[1].area + sides[2].area;
+        result.weights = {sides[1].area / sum, sides[2].area / sum, sides[0].area / sum};
+    } else {  // within rounding of an edge or of a corner, and there it is
+        double best = INFINITY;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const Nearest place = nearest(corners[i].x, corners[i].y, corners[j].x, corners[j].y);
+            if (place.distance >= best) continue;
+            best = place.distance;
+            result.weights = {0, 0, 0};
+            result.weights[i] = 1 - place.share;
+            result.weights[j] = place.share;
+        }
+    }
+    // From one corner's parameter, so that far from the origin no digits are lost.
+    result.at = corners[0].at + (result.weights[1] * (corners[1].at - corners[0].at) +
+                                 result.weights[2] * (corners[2].at - corners[0].at));
+    return result;
+}
+
+// With the corners counter-clockwise for a line that comes in.
+RayWalk::Front RayWalk::front_of(const TetFace& face) const {
+    const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
+                                           static_cast<std::size_t>(face.face));
+    Front front{{see(a), see(c), see(b)}, {}};
+    const auto& p = front.corners;
+    front.sides = {side(p[0], p[1]), side(p[1], p[2]), side(p[2], p[0])};
+    return front;
+}
+
+bool RayWalk::meets(const FaceTree::Box& box) const {
+    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max - origin_;
+    const glm::dvec3 half = 0.5 * box.max - 0.5 * box.min;
+    const double margin = 2 * place_error * (norm1(center) + norm1(half) + norm1(origin_));
+    return std::abs(glm::dot(center, across_x_)) <= glm::dot(half, glm::abs(across_x_)) + margin &&
+           std::abs(glm::dot(center, across_y_)) <= glm::dot(half, glm::abs(across_y_)) + margin;
+}
+
+void RayWalk::find_crossings() {
+    entries_.clear();
+    exits_.clear();
+    const auto test = [&](std::int32_t index) {
+        const TetFace& face = mesh_.open_faces()[static_cast<std::size_t>(index)];
+        Front front = front_of(face);
+        const int sign = front.sides[0].sign;
+        if (front.sides[1].sign != sign || front.sides[2].sign != sign) return;
+        if (sign > 0) {
+            entries_.push_back({face, crossing(front).at});
+        } else {
+            for (Side& side : front.sides) side = side.turned();
+            exits_.push_back(crossing(front).at);
+        }
+    };
+    tree_.visit([&](const FaceTree::Box& box) { return meets(box); }, test);
+    std::sort(entries_.begin(), entries_.end(),
+              [](const Entry& a, const Entry& b) { return a.at < b.at; });
+    std::sort(exits_.begin(), exits_.end());
+    overlapping_ = entries_.size() != exits_.size();
+    for (std::size_t i = 0; i + 1 < entries_.size() && !overlapping_; ++i) {
+        const double scale =
+            std::max(std::abs(exits_[i]), std::abs(exits_.back() - entries_[0].at));
+        overlapping_ = entries_[i + 1].at < exits_[i] - touching * scale;
+    }
+}
+
+// Fills in where the line leaves segment.tet, and moves the front there; returns the tet behind.
+// The line passes inside the front's three edges. Turning about the line from corner to corner, the
+// edges to the fourth corner change from one side of the line to the other and back: the line
+// leaves through the face of the two corners i, j where they change from negative to positive.
+std::int32_t RayWalk::step(TetSegment& segment, Front& front) const {
+    const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
+    const auto& entered = segment.in.corners;
+    std::size_t apex = 0;
+    while (tet[apex] == entered[0] || tet[apex] == entered[1] || tet[apex] == entered[2]) ++apex;
+    const Seen top = see(tet[apex]);
+    const auto& p = front.corners;
+    const std::array<Side, 3> to_top{side(p[0], top), side(p[1], top), side(p[2], top)};
+    std::size_t i = 0;
+    while (i < 2 && !(to_top[i].sign < 0 && to_top[(i + 1) % 3].sign > 0)) ++i;
+    const std::size_t j = (i + 1) % 3;
+    const std::int32_t left_behind = entered[(j + 1) % 3];
+    front = {{p[i], p[j], top}, {front.sides[i], to_top[j], to_top[i].turned()}};
+    segment.out = crossing(front);
+    segment.out.at = std::max(segment.out.at, segment.in.at);
+    const auto face =
+        static_cast<std::size_t>(std::find(tet.begin(), tet.end(), left_behind) - tet.begin());
+    return mesh_.neighbors()[static_cast<std::size_t>(segment.tet)][face];
+}
+
+void RayWalk::list(std::vector<TetSegment>& segments) const {
+    segments.clear();
+    for (const Entry& entry : entries_) {
+        follow(entry, [&](const TetSegment& segment) {
+            segments.push_back(segment);
+            return true;
+        });
+    }
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const TetSegment& a, const TetSegment& b) { return a.in.at < b.in.at; });
+}
+
+}  // namespace lamina

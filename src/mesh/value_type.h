@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The number types of arrays in mesh files.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace lamina {
+
+enum class ValueType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+// Calls `action` with a zero of the C++ type that `type` stands for.
+template <typename Action>
+auto with_type(ValueType type, const Action& action) {
+    switch (type) {
+        case ValueType::int8:
+            return action(std::int8_t{});
+        case ValueType::uint8:
+            return action(std::uint8_t{});
+        case ValueType::int16:
+            return action(std::int16_t{});
+        case ValueType::uint16:
+            return action(std::uint16_t{});
+        case ValueType::int32:
+            return action(std::int32_t{});
+        case ValueType::uint32:
+            return action(std::uint32_t{});
+        case ValueType::int64:
+            return action(std::int64_t{});
+        case ValueType::uint64:
+            return action(std::uint64_t{});
+        case ValueType::float32:
+            return action(float{});
+        case ValueType::float64:
+            break;
+    }
+    return action(double{});
+}
+
+inline std::size_t bytes_of(ValueType type) {
+    return with_type(type, [](auto zero) { return sizeof(zero); });
+}
+
+inline bool is_integer(ValueType type) {
+    return type != ValueType::float32 && type != ValueType::float64;
+}
+
+// A stored value as To (double or int64). Integers beyond int64 become its largest, which no count
+// or index reaches.
+template <typename To, typename From>
+To value_as(From value) {
+    if constexpr (std::is_same_v<From, std::uint64_t> && std::is_same_v<To, std::int64_t>) {
+        constexpr auto most = std::numeric_limits<std::int64_t>::max();
+        return value > static_cast<std::uint64_t>(most) ? most : static_cast<To>(value);
+    } else {
+        return static_cast<To>(value);
+    }
+}
+
+// `count` values of `type` that lie, unaligned, at `bytes`; `swap`: in the other byte order.
+template <typename To>
+std::vector<To> values_from_bytes(ValueType type, const char* bytes, std::size_t count, bool swap) {
+    return with_type(type, [&](auto zero) {
+        using From = decltype(zero);
+        std::vector<To> values(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            char word[sizeof(From)];
+            std::memcpy(word, bytes + i * sizeof(From), sizeof(From));
+            if (swap) std::reverse(word, word + sizeof(From));
+            From value;
+            std::memcpy(&value, word, sizeof(From));
+            values[i] = value_as<To>(value);
+        }
+        return values;
+    });
+}
+
+}  // namespace lamina

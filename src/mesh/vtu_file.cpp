@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/vtu_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "mesh/file_bytes.h"
+#include "mesh/text_reader.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::ptrdiff_t most_marks = 1'000'000;  // of tags and attributes, 100 bytes or so each
+
+std::optional<ValueType> type_named(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(ValueType::float64); ++i) {
+        if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
+    }
+    return std::nullopt;
+}
+
+// The text in an element; VTK's writer may put information keys before or after it.
+std::string text_of(pugi::xml_node node, std::string_view& text) {
+    std::string joined;
+    int parts = 0;
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) continue;
+        if (parts++ > 0) joined.append(text).append(" ");
+        text = child.value();
+    }
+    if (parts > 1) joined.append(text);
+    return parts > 1 ? joined : std::string();
+}
+
+std::string said(const char* value) {
+    return *value == '\0' ? "''" : next_word(TextReader(value));
+}
+
+}  // namespace
+
+VtuFile::VtuFile(const std::filesystem::path& path)
+    : name_(path.string()), bytes_(read_file_bytes(path)) {
+    cut_off_appended_data();
+    parse();
+}
+
+// Raw appended data are no XML.
+void VtuFile::cut_off_appended_data() {
+    const std::size_t tag = bytes_.find("<AppendedData");
+    if (tag == std::string::npos) {
+        xml_ = std::move(bytes_);
+        return;
+    }
+    const std::size_t tag_end = bytes_.find('>', tag);
+    const std::size_t mark =
+        tag_end == std::string::npos ? tag_end : bytes_.find_first_not_of(" \t\r\n", tag_end + 1);
+    if (mark == std::string::npos || bytes_[mark] != '_') {
+        fail("{}: AppendedData: no underscore before its data", name_);
+    }
+    const std::size_t end = bytes_.rfind("</AppendedData");
+    if (end == std::string::npos || end <= mark ||
+        bytes_.find("</VTKFile", end) == std::string::npos) {
+        fail("{}: truncated: no </AppendedData> and </VTKFile> after its {} bytes of appended data",
+             name_, bytes_.size() - mark - 1);
+    }
+    has_appended_ = true;
+    appended_ = std::string_view(bytes_).substr(mark + 1, end - mark - 1);
+    xml_ = bytes_.substr(0, tag_end + 1) + "</AppendedData></VTKFile>";
+}
+
+void VtuFile::parse() {
+    const std::ptrdiff_t marks =
+        std::count_if(xml_.begin(), xml_.end(), [](char c) { return c == '<' || c == '='; });
+    if (marks > most_marks) {
+        fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
+    }
+    if (xml_.find("<VTKFile") == std::string::npos) {
+        fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
+    }
+    const pugi::xml_parse_result result = document_.load_buffer_inplace(
+        xml_.data(), xml_.size(), pugi::parse_escapes | pugi::parse_cdata, pugi::encoding_utf8);
+    if (!result) {
+        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml_.size(),
+             result.description());
+    }
+    read_root(document_.child("VTKFile"));
+}
+
+void VtuFile::read_root(pugi::xml_node root) {
+    const std::string type = root.attribute("type").value();
+    if (type != "UnstructuredGrid") {
+        fail("{}: VTKFile type: found {}, expected 'UnstructuredGrid'", name_, said(type.c_str()));
+    }
+    grid_ = root.child("UnstructuredGrid");
+    if (!grid_) fail("{}: no <UnstructuredGrid> in it", name_);
+    const std::string order = root.attribute("byte_order").as_string("LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian") {
+        fail("{}: byte_order: found {}, expected 'LittleEndian' or 'BigEndian'", name_,
+             said(order.c_str()));
+    }
+    encoding_.swap_bytes = (order == "BigEndian") != (std::endian::native == std::endian::big);
+    const std::string header = root.attribute("header_type").as_string("UInt32");
+    if (header != "UInt32" && header != "UInt64") {
+        fail("{}: header_type: found {}, expected 'UInt32' or 'UInt64'", name_,
+             said(header.c_str()));
+    }
+    encoding_.header_type = header == "UInt32" ? ValueType::uint32 : ValueType::uint64;
+    encoding_.compressor = root.attribute("compressor").value();
+    if (!has_appended_) return;
+    const std::string appended = root.child("AppendedData").attribute("encoding").value();
+    if (appended != "raw" && appended != "base64") {
+        fail("{}: AppendedData encoding: found {}, expected 'raw' or 'base64'", name_,
+             said(appended.c_str()));
+    }
+    appended_base64_ = appended == "base64";
+}
+
+std::int64_t VtuFile::count_in(pugi::xml_node node, const char* attribute,
+                               const std::string& what) const {
+    const char* const text = node.attribute(attribute).value();
+    TextReader reader(text);
+    std::int64_t count = 0;
+    if (!reader.read(count) || !reader.at_end() || count < 0) {
+        fail("{}: {}: found {}, expected a whole number >= 0", what, attribute,
+             node.attribute(attribute) ? said(text) : "none");
+    }
+    return count;
+}
+
+std::int64_t VtuFile::components_of(pugi::xml_node array, const std::string& what) const {
+    if (!array.attribute("NumberOfComponents")) return 1;
+    const std::int64_t count = count_in(array, "NumberOfComponents", what);
+    return count == 0 ? 1 : count;  // VTK takes 0 for 1
+}
+
+ValueType VtuFile::type_of(pugi::xml_node array, const std::string& what) const {
+    const char* const text = array.attribute("type").value();
+    if (const auto type = type_named(text)) return *type;
+    fail("{}: type: found {}, expected Int8 ... UInt64, Float32 or Float64", what, said(text));
+}
+
+VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) const {
+    if (!has_appended_) fail("{}: format 'appended', but the file has no AppendedData", what);
+    const std::int64_t offset = count_in(array, "offset", what);
+    if (static_cast<std::uint64_t>(offset) > appended_.size()) {
+        fail("{}: offset: found {}, the file has {} bytes of appended data", what, offset,
+             appended_.size());
+    }
+    return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
+}
+
+template <typename To>
+std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                                const std::string& what) const {
+    std::int64_t count = 0;
+    if (__builtin_mul_overflow(tuples, components, &count)) {
+        fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
+             components);
+    }
+    const ValueType type = type_of(array, what);
+    if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
+        fail("{}: type: found {}, expected an integer type", what, name_of(type));
+    }
+    const std::string format = array.attribute("format").as_string("ascii");
+    if (format == "appended") {
+        return read_vtu_data<To>(appended_at(array, what), encoding_, type, count, what);
+    }
+    std::string_view text;
+    const std::string joined = text_of(array, text);
+    if (!joined.empty()) text = joined;
+    if (format == "binary") {
+        return read_vtu_data<To>({text, true}, encoding_, type, count, what);
+    }
+    if (format != "ascii") {
+        fail("{}: format: found {}, expected 'ascii', 'binary' or 'appended'", what,
+             said(format.c_str()));
+    }
+    TextReader reader(text);
+    auto values = read_text_values<To>(reader, type, count, what);
+    if (!reader.at_end()) {
+        fail("{}: found more than the {} values expected: {}", what, count, next_word(reader));
+    }
+    return values;
+}
+
+template std::vector<double> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                             const std::string&) const;
+template std::vector<std::int64_t> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                   const std::string&) const;
+
+}  // namespace lamina

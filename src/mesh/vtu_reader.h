@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "mesh/mesh_data.h"
+
+namespace lamina {
+
+// Reads a VTK XML unstructured grid: ascii, binary or appended (raw, base64) arrays, uncompressed
+// or with zlib, of either byte order and header type, in one piece or several. Throws Error.
+MeshData read_vtu(const std::filesystem::path& path);
+
+}  // namespace lamina

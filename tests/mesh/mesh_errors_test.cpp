@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kind of bad mesh file: one line that names the file, what was found and what was expected.
+#include <sys/resource.h>
+
+#include <random>
+
+#include "mesh_files.h"
+
+namespace lamina {
+namespace {
+
+using testing::all_vtu_styles;
+using testing::make_vtu;
+using testing::mixed_grid;
+using testing::TestGrid;
+using testing::VtkMaker;
+using testing::VtuMaker;
+using testing::VtuStyle;
+
+class MeshErrors : public testing::MeshFiles {
+  protected:
+    void expect_bad(const std::string& name, const std::string& bytes,
+                    std::initializer_list<std::string> parts) {
+        const auto path = write(name, bytes);
+        SCOPED_TRACE(bytes.substr(0, 300));
+        const std::string message = error_of([&] { read_mesh(path); });
+        const std::string stem = name.substr(0, name.find('.') + 1);  // of the pair either
+        expect_error([&] { throw Error(message); }, {stem});
+        expect_error([&] { throw Error(message); }, parts);
+    }
+
+    // Either a mesh or an Error: never anything else.
+    void expect_survives(const std::string& name, const std::string& bytes) {
+        const auto path = write(name, bytes);
+        try {
+            const MeshData mesh = read_mesh(path);
+            for (const Tet& tet : mesh.tets) {
+                for (const std::int32_t corner : tet) {
+                    ASSERT_GE(corner, 0);
+                    ASSERT_LT(corner, static_cast<std::int64_t>(mesh.points.size()));
+                }
+            }
+            ++read_;
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            ++refused_;
+        }
+    }
+    int read_ = 0, refused_ = 0;
+};
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(MeshErrors, NoFile) {
+    for (const std::string name : {"none.vtu", "none.vtk", "none.node", "none.ele"}) {
+        expect_error([&] { read_mesh(folder() / name); }, {name, "no such file"});
+    }
+    std::filesystem::create_directory(folder() / "dir.vtu");
+    expect_error([&] { read_mesh(folder() / "dir.vtu"); }, {"dir.vtu", "not a regular file"});
+}
+
+TEST_F(MeshErrors, NotThatKindOfFile) {
+    expect_bad("a.vtu", "", {"not a VTK XML file"});
+    expect_bad("a.vtu", "solid cube", {"not a VTK XML file"});
+    expect_bad("a.vtu", "<VTKFile type=\"PolyData\"></VTKFile>", {"'PolyData'"});
+    expect_bad("a.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>", {"<UnstructuredGrid>"});
+    expect_bad("a.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>",
+               {"<Piece>"});
+    expect_bad("a.vtk", "", {"not a legacy VTK file"});
+    expect_bad("a.vtk", "# vtk DataFile Version 9.0\n\nASCII\n", {"version", "'9.0'"});
+    expect_bad("a.vtk", "# vtk DataFile Version 3.0\ntitle\nHEX\n", {"'hex'", "ASCII or BINARY"});
+    expect_bad("a.vtk", "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\n",
+               {"line 4", "polydata", "UNSTRUCTURED_GRID"});
+}
+
+TEST_F(MeshErrors, VtuAttributes) {
+    const std::string good = make_vtu(mixed_grid());
+    const std::string points = "NumberOfPoints=\"24\"", cells = "NumberOfCells=\"8\"";
+    for (const std::string count : {"-24", "2.4", "", "many", "99999999999999999999"}) {
+        expect_bad("a.vtu", with(good, points, "NumberOfPoints=\"" + count + "\""),
+                   {"NumberOfPoints", "'" + count + "'", "whole number"});
+    }
+    expect_bad("a.vtu", with(good, points, ""), {"NumberOfPoints: found none"});
+    expect_bad("a.vtu", with(good, points, "NumberOfPoints=\"25\""), {"Points: value 73 of 75"});
+    expect_bad("a.vtu", with(good, points, "NumberOfPoints=\"23\""), {"found more"});
+    expect_bad("a.vtu", with(good, cells, "NumberOfCells=\"9\""), {"types", "9"});
+    expect_bad("a.vtu", with(good, "LittleEndian", "MiddleEndian"), {"byte_order", "Middle"});
+    expect_bad("a.vtu", with(good, "byte_order", "header_type=\"Int8\" byte_order"),
+               {"header_type", "'Int8'"});
+    expect_bad("a.vtu", with(good, "Name=\"types\"", "Name=\"typos\""), {"no array 'types'"});
+    expect_bad("a.vtu", with(good, "<Cells>", "<Cello>"), {"XML"});
+    expect_bad("a.vtu", with(with(good, "<Cells>", "<Cel>"), "</Cells>", "</Cel>"), {"no <Cells>"});
+    expect_bad("a.vtu", with(with(good, "<Points>", "<P>"), "</Points>", "</P>"), {"no <Points>"});
+    expect_bad("a.vtu",
+               with(good, "Name=\"Points\" NumberOfComponents=\"3\"",
+                    "Name=\"Points\" NumberOfComponents=\"2\""),
+               {"Points: NumberOfComponents: found 2, expected 3"});
+    expect_bad("a.vtu", with(good, "Int64\" Name=\"connectivity", "Float64\" Name=\"connectivity"),
+               {"connectivity", "Float64", "integer"});
+    expect_bad("a.vtu", with(good, "type=\"Float32\"", "type=\"Float16\""), {"'Float16'"});
+    expect_bad("a.vtu", with(good, "format=\"ascii\"", "format=\"morse\""), {"'morse'"});
+    expect_bad("a.vtu", with(good, "format=\"ascii\"", "format=\"appended\" offset=\"0\""),
+               {"no AppendedData"});
+}
+
+TEST_F(MeshErrors, VtuNumbers) {
+    const std::string good = make_vtu(mixed_grid());
+    expect_bad("a.vtu", with(good, "-1.5 ", "-1.5x "), {"pressure", "'-1.5x'", "Float32"});
+    expect_bad("a.vtu", with(good, "-1.5 ", "1e39 "), {"pressure", "'1e39'", "Float32"});
+    expect_bad("a.vtu", with(good, "60000 ", "70000 "), {"region", "'70000'", "UInt16"});
+    expect_bad("a.vtu", with(good, "60000 ", "1.5 "), {"region", "'1.5'", "UInt16"});
+    expect_bad("a.vtu", with(good, "60000 ", ""), {"region", "value 8 of 8"});
+    expect_bad("a.vtu", with(good, "60000 ", std::string(100000, '9') + " "), {"999...'"});
+}
+
+TEST_F(MeshErrors, Cells) {
+    const auto both = [&](const TestGrid& grid, std::initializer_list<std::string> parts) {
+        expect_bad("a.vtu", make_vtu(grid), parts);
+        expect_bad("a.vtu", make_vtu(grid, {"raw", true}), parts);
+        expect_bad("a.vtk", VtkMaker(false, false).file(grid), parts);
+        expect_bad("a.vtk", VtkMaker(true, true).file(grid), parts);
+    };
+    TestGrid grid = mixed_grid();
+    grid.cells[2].corners[5] = 24;
+    both(grid, {"cell 2", "index 24", "0 to 23"});
+    grid.cells[2].corners[5] = -1;
+    both(grid, {"cell 2", "index -1"});
+    grid = mixed_grid();
+    grid.cells[3].corners[0] = 2000000000;
+    both(grid, {"cell 3", "index 2000000000"});
+    grid = mixed_grid();
+    grid.cells[5].type = 25;
+    both(grid, {"cell 5", "cell type 25"});
+    grid.cells[5].type = 42;
+    both(grid, {"cell 5", "cell type 42"});
+    grid = mixed_grid();
+    grid.cells[0].corners.pop_back();
+    both(grid, {"cell 0", "tetrahedron", "found 3 points, expected 4"});
+    grid = mixed_grid();
+    grid.cells = {{3, {0, 1}}, {5, {0, 1, 2}}};
+    grid.cell_arrays.clear();
+    both(grid, {"2 cells", "without volume"});
+    grid.cells.clear();
+    both(grid, {"no cells"});
+    grid = TestGrid();
+    both(grid, {"no points"});
+}
+
+TEST_F(MeshErrors, VtuOffsets) {
+    const std::string good = make_vtu(mixed_grid());
+    expect_bad("a.vtu", with(good, "4 7 15 21", "4 17 15 21"), {"offsets", "15", "cell 2"});
+    expect_bad("a.vtu", with(good, "4 7 15 21", "-4 7 15 21"), {"offsets", "-4", "cell 0"});
+    expect_bad("a.vtu", with(good, "36\n40", "36\n41"), {"connectivity", "41"});
+    expect_bad("a.vtu", with(good, "36\n40", "36\n39"), {"connectivity", "more", "39"});
+    expect_bad("a.vtu", with(good, "36\n40", "36\n-40"), {"offsets", "-40"});
+    expect_bad("a.vtu", with(good, "36\n40", "36\n4000000000000000000"), {"connectivity", "4000"});
+}
+
+TEST_F(MeshErrors, VtuPiecesThatDoNotGoTogether) {
+    TestGrid other = mixed_grid();
+    other.point_arrays[0].name = "density";
+    expect_bad("a.vtu", VtuMaker(VtuStyle()).file({mixed_grid(), other}),
+               {"Piece 2", "no array 'pressure'"});
+    other.point_arrays.clear();
+    expect_bad("a.vtu", VtuMaker(VtuStyle()).file({mixed_grid(), other}),
+               {"Piece 2", "0 scalars", "expected 3"});
+    // An index into the next piece is out of range, though there is such a point.
+    other = mixed_grid();
+    other.cells[0].corners[0] = 30;
+    expect_bad("a.vtu", VtuMaker(VtuStyle()).file({other, mixed_grid()}),
+               {"Piece 1", "index 30", "0 to 23"});
+}
+
+TEST_F(MeshErrors, VtuAppendedData) {
+    const std::string good = make_vtu(mixed_grid(), {"raw"});
+    expect_bad("a.vtu", with(good, "offset=\"0\"", "offset=\"999999\""), {"offset", "999999"});
+    expect_bad("a.vtu", with(good, "offset=\"0\"", "offset=\"-1\""), {"offset", "'-1'"});
+    expect_bad("a.vtu", with(good, "offset=\"0\"", ""), {"offset: found none"});
+    expect_bad("a.vtu", with(good, "encoding=\"raw\"", "encoding=\"hex\""), {"encoding", "'hex'"});
+    expect_bad("a.vtu", with(good, "\n  _", "\n   "), {"underscore"});
+    expect_bad("a.vtu", with(good, "</AppendedData>", ""), {"truncated"});
+    expect_bad("a.vtu", with(good, "offset=\"0\"", "offset=\"4\""), {"pressure", "expected 96"});
+    expect_bad("a.vtu", with(make_vtu(mixed_grid(), {"base64"}), "\n  _", "\n  _!"),
+               {"Points", "expected base64"});
+}
+
+TEST_F(MeshErrors, VtuCompressors) {
+    for (const std::string name : {"vtkLZ4DataCompressor", "vtkLZMADataCompressor", "zip"}) {
+        expect_bad("a.vtu",
+                   with(make_vtu(mixed_grid(), {"raw", true}), "vtkZLibDataCompressor", name),
+                   {"'" + name + "'", "vtkZLibDataCompressor", "write the file again"});
+    }
+    // In a file of text no compressor is at work, whatever the first line says.
+    read("a.vtu", with(make_vtu(mixed_grid()), "byte_order", "compressor=\"zip\" byte_order"));
+}
+
+std::string words(std::initializer_list<std::uint32_t> values) {
+    std::vector<double> doubles(values.begin(), values.end());
+    return testing::bytes_of_array("UInt32", doubles, false);
+}
+
+TEST_F(MeshErrors, VtuZlibHeaders) {
+    const TestGrid grid = mixed_grid();
+    const std::string good = make_vtu(grid, {"raw", true});
+    const auto data = good.find('_', good.find("<AppendedData")) + 1;
+    const auto put = [&](std::size_t word, std::uint32_t value) {
+        std::string bad = good;
+        return bad.replace(data + 4 * word, 4, words({value}));
+    };
+    // 24 floats: 96 bytes in blocks of 56 and 40.
+    expect_bad("a.vtu", put(0, 0xffffffff), {"pressure", "4294967295 compressed blocks"});
+    expect_bad("a.vtu", put(1, 0xffffffff), {"pressure", "more than zlib can hold"});
+    expect_bad("a.vtu", put(2, 41), {"pressure", "found 97", "expected 96"});
+    expect_bad("a.vtu", put(3, 0xfffffff0), {"pressure", "end of the file"});
+    expect_bad("a.vtu", put(5, 0x12345678), {"pressure", "damaged zlib data in block 1"});
+    expect_bad("a.vtu", put(0, 0), {"pressure", "found 0", "expected 96"});
+}
+
+// A small file may promise what it likes: memory is taken for what can be there.
+TEST_F(MeshErrors, ABillionTetsInASmallFile) {
+    rusage before{}, after{};
+    getrusage(RUSAGE_SELF, &before);
+    for (const std::string count : {"1000000000", "4000000000000000000"}) {
+        for (const VtuStyle& style : all_vtu_styles()) {
+            const std::string good = make_vtu(mixed_grid(), style);
+            expect_bad("a.vtu",
+                       with(good, "NumberOfCells=\"8\"", "NumberOfCells=\"" + count + "\""),
+                       {"types"});
+            expect_bad("a.vtu",
+                       with(good, "NumberOfPoints=\"24\"", "NumberOfPoints=\"" + count + "\""),
+                       {"Points"});
+        }
+        for (const bool binary : {false, true}) {
+            const std::string good = VtkMaker(binary, false).file(mixed_grid());
+            expect_bad("a.vtk", with(good, "CELLS 8 48", "CELLS " + count + " 48"), {"CELLS"});
+            expect_bad("a.vtk", with(good, "CELLS 8 48", "CELLS 8 " + count), {"CELLS"});
+            expect_bad("a.vtk", with(good, "POINTS 24", "POINTS " + count), {"POINTS"});
+            expect_bad("a.vtk", with(good, "CELL_TYPES 8", "CELL_TYPES " + count), {"CELL_TYPES"});
+            expect_bad("a.vtk", with(good, "region 1 8", "region 1 " + count), {"region"});
+            expect_bad("a.vtk", with(good, "region 1 8", "region " + count + " 8"), {"region"});
+            expect_bad("a.vtk", with(good, "POINT_DATA 24", "POINT_DATA " + count), {"pressure"});
+            const std::string five = VtkMaker(binary, true).file(mixed_grid());
+            expect_bad("a.vtk", with(five, "CELLS 9 40", "CELLS " + count + " 40"), {"OFFSETS"});
+            expect_bad("a.vtk", with(five, "CELLS 9 40", "CELLS 9 " + count), {"CONNECTIVITY"});
+        }
+        write("a.ele", count + " 4 0\n1 1 2 3 4\n");
+        expect_bad("a.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", {"line 1", count});
+        expect_bad("a.node", count + " 3 0 0\n1 0 0 0\n", {"line 1", count});
+    }
+    getrusage(RUSAGE_SELF, &after);
+    // In kilobytes: a billion tets would take more than ten million.
+    EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 1'000'000);
+}
+
+TEST_F(MeshErrors, LegacyVtk) {
+    const std::string good = VtkMaker(false, false).file(mixed_grid());
+    expect_bad("a.vtk", with(good, "POINTS 24 double", "POINTS -24 double"),
+               {"line 8", "POINTS", "'-24'"});
+    expect_bad("a.vtk", with(good, "POINTS 24 double", "POINTS 24 quaternion"), {"'quaternion'"});
+    expect_bad("a.vtk", with(good, "POINTS 24 double", "POINTS 24 string"), {"POINTS", "numbers"});
+    expect_bad("a.vtk", with(good, "POINTS 24", "POINTS 23"), {"line", "keyword"});
+    expect_bad("a.vtk", with(good, "POINTS 24", "POINTS 25"), {"POINTS", "'METADATA'"});
+    expect_bad("a.vtk", with(good, "CELLS 8 48", "CELLS 7 48"), {"CELLS"});
+    expect_bad("a.vtk", with(good, "CELL_TYPES 8", "CELL_TYPES 7"), {"keyword"});
+    expect_bad("a.vtk", with(good, "LOOKUP_TABLE default", ""), {"LOOKUP_TABLE"});
+    expect_bad("a.vtk", with(good, "POINT_DATA 24", "POINT_DATA 23"), {"keyword"});
+    expect_bad("a.vtk", with(good, "CELL_TYPES 8\n10", "CELL_TYPES 8\n10 x"), {"'x'"});
+    expect_bad("a.vtk", with(good, "region 1 8", "region 1 7"), {"'region'", "7", "expected 8"});
+    expect_bad("a.vtk", good + "POINTS 24 double\n", {"second POINTS"});
+    expect_bad("a.vtk", good + "SHAPES 24\n", {"'shapes'"});
+    const std::string head = good.substr(0, good.find("POINTS"));
+    expect_bad("a.vtk", head, {"no POINTS"});
+    expect_bad("a.vtk", good.substr(0, good.find("CELLS ")), {"no CELLS"});
+    expect_bad("a.vtk", good.substr(0, good.find("CELL_TYPES")), {"no CELL_TYPES"});
+    const std::string five = VtkMaker(false, true).file(mixed_grid());
+    expect_bad("a.vtk", with(five, "OFFSETS", "ENDS"), {"'ends'", "OFFSETS"});
+    expect_bad("a.vtk", with(five, "OFFSETS vtktypeint64\n0", "OFFSETS vtktypeint64\n1"),
+               {"OFFSETS", "found 1", "expected 0"});
+    expect_bad("a.vtk", with(five, "OFFSETS vtktypeint64\n0 4 7", "OFFSETS vtktypeint64\n0 40 7"),
+               {"offsets", "7", "cell 1"});
+    expect_bad("a.vtk", with(five, "OFFSETS vtktypeint64", "OFFSETS float"), {"integers"});
+    const std::string list = "CELLS 8 48\n4 0 1 2 4 3";
+    expect_bad("a.vtk", with(good, list, "CELLS 8 48\n400 0 1 2 4 3"), {"CELLS", "cell 0"});
+    expect_bad("a.vtk", with(good, list, "CELLS 8 48\n-4 0 1 2 4 3"), {"CELLS", "cell 0"});
+}
+
+TEST_F(MeshErrors, TetGen) {
+    const std::string nodes = "4 3 1 0\n1 0 0 0 5\n2 1 0 0 5\n3 0 1 0 5\n4 0 0 1 5\n";
+    const std::string tets = "2 4 0\n1 1 2 3 4\n2 4 3 2 1\n";
+    const auto bad_node = [&](const std::string& text, std::initializer_list<std::string> parts) {
+        write("a.ele", tets);
+        expect_bad("a.node", text, parts);
+    };
+    const auto bad_ele = [&](const std::string& text, std::initializer_list<std::string> parts) {
+        write("a.node", nodes);
+        expect_bad("a.ele", text, parts);
+    };
+    bad_node("", {"no numbers"});
+    bad_node("# nothing\n\n", {"no numbers"});
+    bad_node("0 3 0 0\n", {"no points"});
+    bad_node("-4 3 0 0\n", {"line 1", "number of points", "-4"});
+    bad_node("4.5 3 0 0\n", {"line 1", "number of points", "'4.5'"});
+    bad_node("4 2 0 0\n1 0 0\n", {"dimension", "found 2", "expected 3"});
+    bad_node("4 3 1 2\n", {"boundary markers"});
+    bad_node("4 3 999999999 0\n", {"999999999 attributes"});
+    bad_node(with(nodes, "3 0 1 0 5", "3 0 1 0"), {"line 4", "attribute", "the end of the line"});
+    bad_node(with(nodes, "3 0 1 0 5", "3 0 1 0 5 6"), {"line 4", "'6'", "after the point"});
+    bad_node(with(nodes, "3 0 1 0 5", "3 0 one 0 5"), {"line 4", "coordinate", "'one'"});
+    bad_node(with(nodes, "3 0 1 0 5", "5 0 1 0 5"), {"line 4", "found 5", "expected 3"});
+    bad_node(with(nodes, "1 0 0 0 5", "2 0 0 0 5"), {"line 2", "found 2", "expected 0 or 1"});
+    bad_node(with(nodes, "4 0 0 1 5\n", ""), {"found 3 points", "expected 4"});
+    bad_node(nodes + "5 0 0 1 5\n", {"line 6", "'5'", "4 points promised"});
+    bad_ele("", {"no numbers"});
+    bad_ele("0 4 0\n", {"no tetrahedra"});
+    bad_ele(with(tets, "2 4 0", "2 8 0"), {"line 1", "found 8", "4 or 10"});
+    bad_ele(with(tets, "2 4 0", "2 4 1"), {"line 2", "attribute", "the end of the line"});
+    bad_ele(with(tets, "4 3 2 1", "5 3 2 1"), {"line 3", "found 5", "1 to 4"});
+    bad_ele(with(tets, "4 3 2 1", "0 3 2 1"), {"line 3", "found 0", "1 to 4"});
+    bad_ele(with(tets, "4 3 2 1", "4 3 2"), {"line 3", "the end of the line"});
+    bad_ele(with(tets, "2 4 3 2 1\n", ""), {"found 1 tetrahedra", "expected 2"});
+    std::filesystem::remove(folder() / "a.node");
+    expect_bad("a.ele", tets, {"a.node", "no such file", "a.ele"});
+    std::filesystem::remove(folder() / "a.ele");
+    expect_bad("a.node", nodes, {"a.ele", "no such file", "a.node"});
+}
+
+TEST_F(MeshErrors, XmlOfAnyDepthAndLength) {
+    const std::string head = "<VTKFile type=\"UnstructuredGrid\">";
+    std::string deep;
+    for (int i = 0; i < 300000; ++i) deep += "<a>";
+    expect_bad("a.vtu", head + deep, {"XML"});
+    for (int i = 0; i < 300000; ++i) deep += "</a>";
+    expect_bad("a.vtu", head + deep + "</VTKFile>", {"<UnstructuredGrid>"});
+    std::string many;
+    for (int i = 0; i < 1100000; ++i) many += "<a/>";
+    expect_bad("a.vtu", head + many + "</VTKFile>", {"tags", "at most 1000000"});
+    expect_bad("a.vtu", head + "<!DOCTYPE a [<!ENTITY b \"&b;&b;\">]>&b;</VTKFile>", {"a.vtu"});
+}
+
+// Cut off anywhere: an error, or all that matters was there already.
+TEST_F(MeshErrors, TruncatedAnywhere) {
+    for (const VtuStyle& style : {VtuStyle{"ascii"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
+        const std::string good = make_vtu(mixed_grid(), style);
+        const std::size_t end = good.rfind("</VTKFile>");
+        for (std::size_t length = 0; length < end; length += end / 61) {
+            SCOPED_TRACE(length);
+            expect_bad("a.vtu", good.substr(0, length), {});
+        }
+    }
+    for (const bool binary : {false, true}) {
+        const std::string good = VtkMaker(binary, binary).file(mixed_grid());
+        // Whole without its cell data, which come last.
+        const std::size_t end = good.find("CELL_DATA"), points = good.find("POINT_DATA");
+        for (std::size_t length = 0; length < end; length += end / 61) {
+            const std::string some = good.substr(0, length);
+            if (length < points - 10) {
+                expect_bad("a.vtk", some, {});
+            } else {
+                expect_survives("a.vtk", some);
+            }
+        }
+    }
+}
+
+// Bytes changed at random, in every format: an Error or a mesh with valid indices.
+TEST_F(MeshErrors, DamagedAnywhere) {
+    std::mt19937 random(4);
+    std::vector<std::pair<std::string, std::string>> files;
+    for (const VtuStyle& style : all_vtu_styles()) {
+        files.emplace_back("a.vtu", make_vtu(mixed_grid(), style));
+    }
+    for (int i = 0; i < 4; ++i) {
+        files.emplace_back("a.vtk", VtkMaker(i % 2 != 0, i / 2 != 0).file(mixed_grid()));
+    }
+    write("b.ele", "2 4 1\n1 1 2 3 4 9\n2 4 3 2 1 9\n");
+    files.emplace_back("b.node", "4 3 1 0\n1 0 0 0 5\n2 1 0 0 5\n3 0 1 0 5\n4 0 0 1 5\n");
+    constexpr char likely[] = "0123456789-+.e \n\"<>=_AZ\x00\x01\x7f\xff";
+    for (const auto& [name, good] : files) {
+        for (int round = 0; round < 15; ++round) {
+            std::string bad = good;
+            const int changes = 1 + static_cast<int>(random() % 4);
+            for (int i = 0; i < changes; ++i)
+                bad[random() % bad.size()] = likely[random() % (sizeof likely - 1)];
+            expect_survives(name, bad);
+        }
+    }
+    EXPECT_GT(refused_, 100);  // the damage was felt, and not always
+    EXPECT_GT(read_, 20);
+}
+
+}  // namespace
+}  // namespace lamina
