@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/mesh_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "mesh/ray_walk.h"
+#include "reference/segment_sum.h"
+#include "reference/transfer_intervals.h"
+
+namespace lamina {
+namespace {
+
+// Ends of segments are good to this many epsilons of the largest distance and coordinate on the ray
+// (mesh/ray_walk.cpp: 8 for a corner's place, as much for weights and parameter).
+constexpr double place_epsilons = 16;
+
+struct RowTotals {
+    double error_estimate = 0;
+    std::int64_t segments = 0, overlapping = 0;
+};
+
+class RowTracer {
+  public:
+    RowTracer(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> scalar,
+              const std::vector<char>& no_value, const TransferFunction& transfer_function,
+              const TransferIntervals& intervals, const View& view)
+        : mesh_(mesh),
+          open_faces_(open_faces),
+          scalar_(scalar),
+          no_value_(no_value),
+          transfer_function_(transfer_function),
+          intervals_(intervals),
+          view_(view) {
+        const glm::dvec3 lo = mesh.bounds().min - view.eye, hi = mesh.bounds().max - view.eye;
+        reach_ = glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
+    }
+
+    RowTotals trace(int row, PreciseImage& image) const {
+        RowTotals totals;
+        RayWalk walk(mesh_, open_faces_);
+        std::vector<TetSegment> listed;
+        for (int column = 0; column < view_.width; ++column) {
+            const View::Ray ray = view_.ray(column, row);
+            const double world_per_z = glm::length(ray.direction);
+            SegmentSum sum(transfer_function_, intervals_,
+                           place_epsilons * std::numeric_limits<double>::epsilon() * reach_);
+            walk.aim(ray.origin, ray.direction);
+            const auto add = [&](const TetSegment& segment) {
+                add_segment(segment, world_per_z, sum);
+                return !sum.opaque();
+            };
+            if (walk.overlapping()) {
+                ++totals.overlapping;
+                walk.list(listed);
+                for (const TetSegment& segment : listed) add(segment);
+            } else {
+                for (const RayWalk::Entry& entry : walk.entries()) {
+                    if (!sum.opaque()) walk.follow(entry, add);
+                }
+            }
+            double* const pixel = image.pixel(column, row);
+            for (int channel = 0; channel < 3; ++channel) pixel[channel] = sum.color()[channel];
+            pixel[3] = sum.alpha();
+            totals.error_estimate = std::max(totals.error_estimate, sum.error_estimate());
+            totals.segments += sum.segments();
+        }
+        return totals;
+    }
+
+  private:
+    // The part in front of the eye (or of its plane).
+    void add_segment(const TetSegment& segment, double world_per_z, SegmentSum& sum) const {
+        if (segment.out.at <= 0) return;
+        if (!no_value_.empty() && no_value_[static_cast<std::size_t>(segment.tet)] != 0) return;
+        double front = segment.in.interpolate(scalar_);
+        const double back = segment.out.interpolate(scalar_);
+        double from = segment.in.at;
+        if (from < 0) {
+            front += (back - front) * (-from / (segment.out.at - from));
+            from = 0;
+        }
+        sum.add(front, back, (segment.out.at - from) * world_per_z);
+    }
+
+    const TetMesh& mesh_;
+    const FaceTree& open_faces_;
+    std::span<const double> scalar_;
+    const std::vector<char>& no_value_;
+    const TransferFunction& transfer_function_;
+    const TransferIntervals& intervals_;
+    const View& view_;
+    double reach_;
+};
+
+// Marks tets with a value that is no finite number; empty where there are none.
+std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double> scalar) {
+    if (std::all_of(scalar.begin(), scalar.end(), [](double s) { return std::isfinite(s); }))
+        return {};
+    std::vector<char> marked;
+    marked.reserve(mesh.tets().size());
+    for (const Tet& tet : mesh.tets()) {
+        marked.push_back(std::any_of(tet.begin(), tet.end(), [&](std::int32_t corner) {
+            return !std::isfinite(scalar[static_cast<std::size_t>(corner)]);
+        }));
+    }
+    return marked;
+}
+
+}  // namespace
+
+MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
+                           std::span<const double> scalar,
+                           const TransferFunction& transfer_function, const View& view) {
+    MeshTraceResult result{PreciseImage(view.width, view.height)};
+    const TransferIntervals intervals(transfer_function);
+    const std::vector<char> no_value = tets_without_value(mesh, scalar);
+    const RowTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals, view);
+    std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
+    Progress progress("tracing", view.height);
+    parallel_for(view.height, 1, [&](std::int64_t row) {
+        rows[static_cast<std::size_t>(row)] = tracer.trace(static_cast<int>(row), result.image);
+        progress.advance();
+    });
+    for (const RowTotals& row : rows) {
+        result.error_estimate = std::max(result.error_estimate, row.error_estimate);
+        result.segments += row.segments;
+        result.overlapping_rays += row.overlapping;
+    }
+    return result;
+}
+
+}  // namespace lamina

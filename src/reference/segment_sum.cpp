@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/segment_sum.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optics/opacity.h"
+#include "optics/segment_integral.h"
+
+namespace lamina {
+namespace {
+
+// What is behind this transmittance, times the brightest colour, is lost in rounding.
+constexpr double least_transmittance = 1e-17;
+// Of a segment's colour and opacity, relative (optics/segment_integral.h).
+constexpr double segment_error = 1e-13;
+
+}  // namespace
+
+SegmentSum::SegmentSum(const TransferFunction& transfer_function,
+                       const TransferIntervals& intervals, double place_error)
+    : transfer_function_(transfer_function),
+      intervals_(intervals),
+      place_error_(place_error),
+      brightest_(std::max(1.0, intervals.brightest())),
+      depth_limit_(std::log(brightest_ / least_transmittance)) {}
+
+void SegmentSum::add(double front, double back, double length) {
+    const auto [lo, hi] = std::minmax(front, back);
+    if (!(length > 0) || !intervals_.visible(lo, hi)) return;
+    ++segments_;
+    const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
+    const double transmittance = std::exp(-(depth_ + depth_rest_));
+    color_ += transmittance * segment.color;
+    // An end that is off moves this much depth from one side of it to the other.
+    const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
+    error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
+    add_depth(segment.optical_depth);
+}
+
+void SegmentSum::add_depth(double depth) {
+    const double sum = depth_ + depth;
+    depth_rest_ += depth_ >= depth ? (depth_ - sum) + depth : (depth - sum) + depth_;
+    depth_ = sum;
+}
+
+double SegmentSum::alpha() const {
+    return opacity_from_depth(depth_ + depth_rest_);
+}
+
+double SegmentSum::error_estimate() const {
+    return error_ + (opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0);
+}
+
+}  // namespace lamina

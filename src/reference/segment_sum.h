@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "optics/transfer_function.h"
+#include "reference/transfer_intervals.h"
+
+namespace lamina {
+
+// Segments of one ray with a linear scalar each, composited front to back in double precision.
+class SegmentSum {
+  public:
+    // `place_error`: bound of the error of every end of a segment, in world units. Both transfer
+    // functions are the same one, and must outlive the sum.
+    SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
+               double place_error);
+
+    // The next segment: the scalar runs linearly from `front` to `back` over `length` world units.
+    void add(double front, double back, double length);
+
+    // True once what follows is lost in rounding.
+    bool opaque() const { return depth_ + depth_rest_ >= depth_limit_; }
+
+    const glm::dvec3& color() const { return color_; }  // associated
+    double alpha() const;
+    double error_estimate() const;  // of the worst channel
+    std::int64_t segments() const { return segments_; }
+
+  private:
+    void add_depth(double depth);
+
+    const TransferFunction& transfer_function_;
+    const TransferIntervals& intervals_;
+    double place_error_;
+    double brightest_;
+    double depth_limit_;
+    double depth_ = 0;
+    double depth_rest_ = 0;  // Neumaier's compensation
+    glm::dvec3 color_{0};
+    double error_ = 0;
+    std::int64_t segments_ = 0;
+};
+
+}  // namespace lamina
