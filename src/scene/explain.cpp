@@ -20,6 +20,17 @@ const char* text_of(VolumeSampling sampling) {
     }
 }
 
+std::string line(const char* what, const std::string& value) {
+    return fmt::format("  {:<14} {}\n", what, value);
+}
+
+std::string left_out(const Plan& plan) {
+    std::string text = "left out\n";
+    for (const Omission& omission : plan.omitted)
+        text += line(omission.name.c_str(), omission.reason);
+    return plan.omitted.empty() ? text + "  nothing\n" : text;
+}
+
 template <typename Row>
 void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
     const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
@@ -63,11 +74,8 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
 }  // namespace
 
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities) {
-    std::string text;
-    const auto row = [&](const char* what, const std::string& value) {
-        text += fmt::format("  {:<14} {}\n", what, value);
-    };
-    text += "uses\n";
+    std::string text = "uses\n";
+    const auto row = [&](const char* what, const std::string& value) { text += line(what, value); };
     row("method", name_of(plan.method));
     if (plan.method == Method::slice) {
         const SlicePlan& slice = plan.slice;
@@ -89,10 +97,16 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
         }
     }
-    text += "left out\n";
-    for (const Omission& omission : plan.omitted) row(omission.name.c_str(), omission.reason);
-    if (plan.omitted.empty()) text += "  nothing\n";
-    return text;
+    return text + left_out(plan);
+}
+
+std::string explain(const Plan& plan, const MeshFacts& facts) {
+    std::string text = "uses\n";
+    text += line("method", fmt::format("{} of the mesh", name_of(plan.method)));
+    text += line("mesh", fmt::format("{} tets, {} points", facts.tets, facts.points));
+    text += line("scalar", fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo,
+                                       facts.range.hi));
+    return text + left_out(plan);
 }
 
 }  // namespace lamina

@@ -182,6 +182,12 @@ std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int
     return static_cast<std::int64_t>(found);
 }
 
+bool JsonReader::flag_or(const std::string& key, bool otherwise) {
+    if (!has(key)) return otherwise;
+    if (!object_[key].is_boolean()) reject(key, "true or false");
+    return object_[key].get<bool>();
+}
+
 std::string JsonReader::text(const std::string& key) {
     if (!has(key) || !object_[key].is_string()) reject(key, "a string");
     return object_[key].get<std::string>();

@@ -46,6 +46,7 @@ class JsonReader {
     double number(const std::string& key);
     double number_or(const std::string& key, double otherwise);
     std::int64_t whole(const std::string& key, std::int64_t lo, std::int64_t hi);
+    bool flag_or(const std::string& key, bool otherwise);
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
     glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise);

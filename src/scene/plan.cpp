@@ -36,6 +36,8 @@ constexpr double thin_box_ratio = 20;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
+const Omission no_context{"context", "the tracer runs on the processor: no OpenGL context is made"};
+
 std::string percent(double share) {
     return fmt::format("{:.3g} %", 100 * share);
 }
@@ -354,8 +356,18 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
         return SlicePlanner(scene, facts, capabilities, omissions).make();
     Plan plan;
     plan.method = scene.method;
-    plan.omitted.push_back(
-        {"context", "the tracer runs on the processor: no OpenGL context is made"});
+    plan.omitted.push_back(no_context);
+    if (scene.has_mesh())
+        plan.omitted.push_back({"mesh", "the volume is traced: the mesh is not read"});
+    return plan;
+}
+
+Plan make_plan(const Scene& scene, const MeshFacts&) {
+    Plan plan;
+    plan.method = scene.method;
+    plan.omitted.push_back(no_context);
+    if (scene.has_volume() && !scene.mesh_request)
+        plan.omitted.push_back({"volume", "the mesh is traced: the volume is not read"});
     return plan;
 }
 

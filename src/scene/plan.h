@@ -10,6 +10,7 @@
 #include "compositing/dither.h"
 #include "scene/capabilities.h"
 #include "scene/facts.h"
+#include "scene/mesh_facts.h"
 #include "scene/scene.h"
 #include "scene/tree_choice.h"
 
@@ -102,8 +103,11 @@ struct Plan {
 // Throws Error when the context cannot do what the scene asks for, naming the limit.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions);
+// For methods that draw a mesh (Scene::draws_mesh).
+Plan make_plan(const Scene& scene, const MeshFacts& facts);
 
 // A table for people: what runs, then what is left out and why (--explain).
 std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities);
+std::string explain(const Plan& plan, const MeshFacts& facts);
 
 }  // namespace lamina

@@ -11,6 +11,7 @@
 #include "compositing/emulation.h"
 #include "compositing/node_code.h"
 #include "compositing/order.h"
+#include "mesh/mesh_settings.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
 #include "volume/generate.h"
@@ -21,6 +22,8 @@ enum class Method { slice, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class Classification { post, preintegrated };
 enum class Filter { exact, hardware };
+// What the method "trace" looks at.
+enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 // Who composites in a node of a tree: a program, in float, or a fixed-point buffer (the paper's).
 enum class NodeArithmetic { shader, fixed };
@@ -54,6 +57,9 @@ struct Scene {
     std::filesystem::path file;
     std::filesystem::path volume_file;               // or
     std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
+    std::filesystem::path mesh_file;                 // or
+    std::optional<MeshSettings> mesh_request;        // made from the volume
+    std::string scalar;  // of the mesh file; empty: its first point array
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
     Camera camera;
@@ -65,8 +71,14 @@ struct Scene {
     Emulation emulate;     // for Target::emulated
     double max_error = 1;  // in 1/255: the bound for what is automatic
     SliceSettings slice;
+    TraceOf trace_of = TraceOf::volume;
     double trace_tolerance = 1e-5;  // of full scale
     std::vector<std::string> warnings;
+
+    bool has_volume() const { return !volume_file.empty() || volume_request; }
+    bool has_mesh() const { return !mesh_file.empty() || mesh_request; }
+    // The mesh is what is drawn; the volume is needed at most to make it.
+    bool draws_mesh() const { return method == Method::trace && trace_of == TraceOf::mesh; }
 };
 
 const char* name_of(Method method);

@@ -1,56 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "image/image_limits.h"
+#include "scene/data_reader.h"
 #include "scene/json_reader.h"
 #include "scene/slice_reader.h"
 #include "scene/transfer_function_json.h"
 
 namespace lamina {
 namespace {
-
-GeneratorRequest read_generator(JsonReader reader) {
-    GeneratorRequest request;
-    request.name = reader.text("generate");
-    if (reader.has("size")) {
-        const nlohmann::json& size = reader.value("size");
-        const bool good = size.is_array() && size.size() == 3 &&
-                          std::all_of(size.begin(), size.end(), [](const nlohmann::json& edge) {
-                              return edge.is_number_integer() && edge.get<std::int64_t>() >= 1 &&
-                                     edge.get<std::int64_t>() <= largest_generated_axis;
-                          });
-        if (!good) {
-            reader.reject("size",
-                          fmt::format("three whole numbers from 1 to {}", largest_generated_axis));
-        }
-        request.size = {{size[0].get<std::int64_t>(), size[1].get<std::int64_t>(),
-                         size[2].get<std::int64_t>()}};
-    }
-    request.type = reader.choice<SampleType>("type", {{"uint8", SampleType::uint8},
-                                                      {"uint16", SampleType::uint16},
-                                                      {"float", SampleType::float32}});
-    try {
-        generated_grid(request);
-    } catch (const Error& error) {
-        reader.fail_at("generate", error.what());
-    }
-    reader.close();
-    return request;
-}
-
-void read_volume(JsonReader& reader, Scene& scene) {
-    if (reader.has("volume") && reader.value("volume").is_object()) {
-        scene.volume_request = read_generator(reader.object("volume"));
-    } else {
-        scene.volume_file = reader.path_of("volume");
-    }
-    scene.nan = reader.choice<NanPolicy>(
-        "nan", {{"error", NanPolicy::error}, {"transparent", NanPolicy::transparent}});
-}
 
 // Far beyond, squares of distances are no longer numbers.
 constexpr double max_coordinate = 1e100;
@@ -111,6 +72,17 @@ void check_project(JsonReader reader) {
     reader.close();
 }
 
+TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
+    if (!trace.has("of")) return scene.has_volume() ? TraceOf::volume : TraceOf::mesh;
+    const TraceOf of =
+        trace.choice<TraceOf>("of", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+    if (of == TraceOf::volume && !scene.has_volume())
+        trace.reject("of", "\"mesh\": the scene has no volume");
+    if (of == TraceOf::mesh && !scene.has_mesh())
+        trace.reject("of", "\"volume\": the scene has no mesh");
+    return of;
+}
+
 void read_render(JsonReader reader, Scene& scene) {
     scene.method =
         reader.choice<Method>("method", {{"slice", Method::slice}, {"trace", Method::trace}});
@@ -127,13 +99,15 @@ void read_render(JsonReader reader, Scene& scene) {
     scene.slice = read_slice(reader.object("slice"));
     check_project(reader.object("project"));
     JsonReader trace = reader.object("trace");
-    trace.choice<int>("of", {{"volume", 0}});
+    scene.trace_of = read_trace_of(trace, scene);
     scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
     // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
     if (!(scene.trace_tolerance >= 1e-12 && scene.trace_tolerance <= 1)) {
         trace.reject("tolerance", "a number from 1e-12 to 1");
     }
     trace.close();
+    if (scene.method == Method::slice && !scene.has_volume())
+        reader.reject("method", "\"trace\" for a scene without a volume");
     reader.close();
 }
 
@@ -145,7 +119,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     Scene scene;
     scene.file = file;
     reader.whole("version", 1, 1);
-    read_volume(reader, scene);
+    read_data(reader, scene);
     if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
     scene.transfer_function =
         read_transfer_function(reader.object("transfer_function"), &scene.warnings);

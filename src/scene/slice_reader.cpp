@@ -12,12 +12,6 @@ std::uint32_t read_seed(JsonReader& reader) {
     return static_cast<std::uint32_t>(reader.whole("seed", 0, 0xffffffff));
 }
 
-bool read_flag(JsonReader& reader, const char* key) {
-    if (!reader.has(key)) return false;
-    if (!reader.value(key).is_boolean()) reader.reject(key, "true or false");
-    return reader.value(key).get<bool>();
-}
-
 DitherSettings read_dither(JsonReader reader) {
     DitherSettings dither;
     if (reader.has("period")) {
@@ -31,7 +25,7 @@ DitherSettings read_dither(JsonReader reader) {
         }
     }
     dither.seed = read_seed(reader);
-    dither.color = read_flag(reader, "color");
+    dither.color = reader.flag_or("color", dither.color);
     if (reader.has("increment")) {
         dither.increment = static_cast<int>(reader.whole("increment", 1, 128));
     }

@@ -30,7 +30,7 @@ PictureFile::PictureFile(const std::filesystem::path& path, bool precise)
     : suffix_(checked_suffix(path, precise)), file_(path) {}
 
 std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
-                               const std::map<std::string, std::string>& attributes) {
+                               const PictureAttributes& attributes) {
     std::size_t clamped = 0;
     if (suffix_ == ".png")
         clamped = write_png(file_, image, background);
@@ -41,7 +41,7 @@ std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
 }
 
 std::size_t PictureFile::write(const PreciseImage& image, const glm::dvec3& background,
-                               const std::map<std::string, std::string>& attributes) {
+                               const PictureAttributes& attributes) {
     if (suffix_ != ".npy") return write(to_float(image), background, attributes);
     write_npy(file_, image);
     file_.commit();

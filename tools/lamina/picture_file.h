@@ -11,6 +11,8 @@
 
 namespace lamina {
 
+using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
+
 // The picture that `render -o` writes: .exr, .png or .npy by the file's suffix. Made before
 // rendering begins, so that a path that cannot be written fails at once.
 class PictureFile {
@@ -21,9 +23,9 @@ class PictureFile {
 
     // Returns how many pixels had to be clamped (PNG).
     std::size_t write(const Image& image, const glm::dvec3& background,
-                      const std::map<std::string, std::string>& attributes);
+                      const PictureAttributes& attributes);
     std::size_t write(const PreciseImage& image, const glm::dvec3& background,
-                      const std::map<std::string, std::string>& attributes);
+                      const PictureAttributes& attributes);
 
   private:
     std::string suffix_;

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <glm/vector_relational.hpp>
 #include <memory>
 #include <optional>
 
@@ -12,14 +11,9 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "context_kind.h"
-#include "gl/context.h"
-#include "gl/memory.h"
-#include "picture_file.h"
-#include "reference/volume_tracer.h"
-#include "render_stats.h"
+#include "render_job.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
-#include "slicing/gl_slice_renderer.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -103,16 +97,6 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) fmt::print(stderr, "lamina: {}\n", text);
 }
 
-// Colours above 1 do not fit a fixed-point target: they are clamped there, and said.
-std::int64_t count_clamped_colors(const Scene& scene) {
-    if (scene.target == Target::float32 || scene.target == Target::float16) return 0;
-    std::int64_t count = 0;
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
-        count += glm::any(glm::greaterThan(knot.optics.color, glm::dvec3(1)));
-    }
-    return count;
-}
-
 // The frames of --frames: `draw(view)` for the scene's camera turned a little further each time.
 template <typename Draw>
 void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw& draw) {
@@ -129,138 +113,50 @@ void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw&
     }
 }
 
+std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
+    if (request.scene.method == Method::slice) return make_slice_job(request);
+    return request.scene.draws_mesh() ? make_mesh_trace_job(request)
+                                      : make_volume_trace_job(request);
+}
+
 // One `lamina render`: from the files to the picture and what it cost.
-class RenderRun {
-  public:
-    explicit RenderRun(const RenderOptions& options)
-        : options_(options), scene_(load_scene(options, scene_text_)) {}
+void run(const RenderOptions& options) {
+    std::string scene_text;
+    const Scene scene = load_scene(options, scene_text);
+    for (const std::string& warning : scene.warnings) message(options, warning);
+    const OmissionSwitch omissions = omission_switch(options);
+    context_kind(options.context);  // a bad word fails before any work
+    std::optional<PictureFile> picture;
+    if (!options.output.empty()) picture.emplace(options.output, scene.method == Method::trace);
+    std::optional<AtomicFile> stats_file;
+    if (!options.stats.empty()) stats_file.emplace(options.stats);
 
-    void run() {
-        for (const std::string& warning : scene_.warnings) message(options_, warning);
-        const OmissionSwitch omissions = omission_switch(options_);
-        context_kind(options_.context);  // a bad word fails before any work
-        const bool tracing = scene_.method == Method::trace;
-        std::optional<PictureFile> picture;
-        if (!options_.output.empty()) picture.emplace(options_.output, tracing);
-        std::optional<AtomicFile> stats_file;
-        if (!options_.stats.empty()) stats_file.emplace(options_.stats);
+    const auto say = [&](const std::string& text) { message(options, text); };
+    const auto job = make_job({scene, omissions, options.context, !options.stats.empty(), say});
+    RenderStats stats;
+    const Plan plan = job->plan(stats);
+    const std::string explanation = job->explanation(plan);
+    if (options.explain) fmt::print("{}", explanation);
+    if (!picture) return;
+    const View view(scene.camera, scene.width, scene.height);
+    job->draw(plan, view, stats);
+    time_frames(scene, options.frames, stats, [&](const View& turned) { job->draw_frame(turned); });
 
-        load();
-        if (!tracing) make_context();
-        const Capabilities capabilities = context_ ? context_->capabilities() : Capabilities{};
-        plan_ = make_plan(scene_, facts_, capabilities, omissions);
-        if (options_.explain) fmt::print("{}", explain(plan_, facts_, capabilities));
-        if (!picture) return;
-        if (tracing)
-            trace(*picture);
-        else
-            slice(*picture);
-        if (stats_file) {
-            stats_file->write(to_json(stats_, plan_).dump(2) + "\n");
-            stats_file->commit();
-        }
-        message(options_,
-                fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options_.output,
-                            scene_.width, scene_.height, stats_.context, stats_.frames_ms.back()));
+    const Stopwatch write_watch;
+    const std::size_t clamped = job->write(*picture, {{"scene", scene_text},
+                                                      {"plan", explanation},
+                                                      {"renderer", stats.context},
+                                                      {"software", "lamina " LAMINA_VERSION}});
+    stats.stages_ms["write"] = write_watch.milliseconds();
+    stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
+    if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
+    if (stats_file) {
+        stats_file->write(to_json(stats, plan).dump(2) + "\n");
+        stats_file->commit();
     }
-
-  private:
-    void load() {
-        const Stopwatch load_watch;
-        volume_.emplace(load_volume(scene_));
-        stats_.stages_ms["load"] = load_watch.milliseconds();
-        const Stopwatch measure_watch;
-        facts_ = measure(scene_, *volume_, measure_bricks(*volume_));
-        stats_.stages_ms["measure"] = measure_watch.milliseconds();
-        stats_.counts["non_finite_samples"] = facts_.non_finite;
-        if (facts_.non_finite > 0) {
-            message(options_,
-                    fmt::format("{} samples are NaN or infinite: their cells are drawn transparent",
-                                facts_.non_finite));
-        }
-    }
-
-    void make_context() {
-        const Stopwatch watch;
-        context_ = gl::Context::create(context_kind(options_.context));
-        stats_.stages_ms["context"] = watch.milliseconds();
-        stats_.context = context_->capabilities().renderer;
-    }
-
-    void slice(PictureFile& picture) {
-        stats_.counts["clamped_colors"] = count_clamped_colors(scene_);
-        if (stats_.counts["clamped_colors"] > 0) {
-            message(
-                options_,
-                fmt::format(
-                    "{} transfer-function points have a colour above 1, which the target {} clamps",
-                    stats_.counts["clamped_colors"], name_of(scene_.target)));
-        }
-        GlSliceRenderer renderer(*volume_, scene_.transfer_function, facts_, plan_.slice,
-                                 context_->capabilities(), scene_.width, scene_.height);
-        const View view(scene_.camera, scene_.width, scene_.height);
-        const Stopwatch frame_watch;
-        {
-            Progress progress("slicing", renderer.step_count());
-            if (options_.stats.empty())
-                renderer.draw(view, &progress);
-            else
-                stats_.fragments = renderer.draw_counting(view, &progress);
-        }
-        stats_.frames_ms = {frame_watch.milliseconds()};
-        stats_.stages_ms["tables"] = renderer.table_ms();
-        stats_.stages_ms["upload"] = renderer.upload_ms();
-        stats_.stages_ms["geometry"] = renderer.geometry_ms();
-        stats_.stages_ms["draw"] = renderer.draw_ms();
-        const Stopwatch read_watch;
-        const Image image = renderer.read();
-        stats_.stages_ms["read"] = read_watch.milliseconds();
-        time_frames(scene_, options_.frames, stats_,
-                    [&](const View& turned_view) { renderer.draw(turned_view); });
-        stats_.samples = plan_.slice.slabs;
-        stats_.bytes_gpu = gl::bytes_allocated();
-        write(picture, image);
-    }
-
-    void trace(PictureFile& picture) {
-        stats_.context = "reference tracer";
-        const TraceOptions trace_options{scene_.trace_tolerance};
-        const auto trace_view = [&](const View& view) {
-            return trace_volume(*volume_, scene_.transfer_function, view, trace_options);
-        };
-        const Stopwatch watch;
-        const TraceResult result = trace_view(View(scene_.camera, scene_.width, scene_.height));
-        stats_.frames_ms = {watch.milliseconds()};
-        stats_.stages_ms["trace"] = watch.milliseconds();
-        stats_.error_estimate = result.error_estimate;
-        time_frames(scene_, options_.frames, stats_, trace_view);
-        write(picture, result.image);
-    }
-
-    template <typename AnyImage>
-    void write(PictureFile& picture, const AnyImage& image) {
-        const Capabilities capabilities = context_ ? context_->capabilities() : Capabilities{};
-        const Stopwatch watch;
-        const std::size_t clamped = picture.write(image, scene_.background,
-                                                  {{"scene", scene_text_},
-                                                   {"plan", explain(plan_, facts_, capabilities)},
-                                                   {"renderer", stats_.context},
-                                                   {"software", "lamina " LAMINA_VERSION}});
-        stats_.stages_ms["write"] = watch.milliseconds();
-        stats_.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
-        if (clamped > 0)
-            message(options_, fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
-    }
-
-    const RenderOptions& options_;
-    std::string scene_text_;
-    Scene scene_;
-    std::optional<Volume> volume_;
-    Facts facts_;
-    std::unique_ptr<gl::Context> context_;
-    Plan plan_;
-    RenderStats stats_;
-};
+    say(fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options.output, scene.width,
+                    scene.height, stats.context, stats.frames_ms.back()));
+}
 
 }  // namespace
 
@@ -290,7 +186,7 @@ void add_render(CLI::App& app, int&) {
         }
         check_paths(*options);
         Progress::set_quiet(options->quiet);
-        RenderRun(*options).run();
+        run(*options);
     });
 }
 

@@ -96,6 +96,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
         json["omitted"].push_back({{"name", omission.name}, {"reason", omission.reason}});
     }
     json["counts"] = stats.counts;
+    if (stats.mesh_error) json["mesh_error"] = *stats.mesh_error;
     if (stats.error_estimate) json["error_estimate"] = *stats.error_estimate;
     return json;
 }

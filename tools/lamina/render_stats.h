@@ -21,6 +21,7 @@ struct RenderStats {
     std::int64_t bytes_gpu = 0;
     std::string context;
     std::optional<double> error_estimate;        // trace
+    std::optional<double> mesh_error;            // of a mesh made from a volume, of the range
     std::map<std::string, std::int64_t> counts;  // what was clamped, dropped, ...
 };
 

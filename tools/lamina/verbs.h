@@ -12,9 +12,11 @@ void add_verbs(CLI::App& app, int& exit_code);  // all of the below
 
 void add_render(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
+void add_mesh(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_integrate(CLI::App& app, int& exit_code);
+void add_order(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 
 }  // namespace lamina

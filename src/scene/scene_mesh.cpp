@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_mesh.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "mesh/cell_average.h"
+#include "mesh/mesh_file.h"
+#include "mesh/volume_mesh.h"
+
+namespace lamina {
+namespace {
+
+std::string list_names(const MeshData& data) {
+    std::string names;
+    for (const auto* scalars : {&data.point_scalars, &data.cell_scalars}) {
+        for (const MeshScalar& scalar : *scalars)
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", scalar.name);
+    }
+    return names.empty() ? "none" : names;
+}
+
+// Takes the scalar out of the data; all others go.
+MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
+    const std::string file = scene.mesh_file.string();
+    const auto find = [&](std::vector<MeshScalar>& scalars) {
+        return std::find_if(scalars.begin(), scalars.end(), [&](const MeshScalar& scalar) {
+            return scene.scalar.empty() || scalar.name == scene.scalar;
+        });
+    };
+    MeshScalar taken;
+    if (const auto point = find(data.point_scalars); point != data.point_scalars.end()) {
+        taken = std::move(*point);
+    } else if (const auto cell = find(data.cell_scalars);
+               cell != data.cell_scalars.end() && !scene.scalar.empty()) {
+        taken = average_to_points(data.points.size(), data.tets, *cell);
+        averaged = true;
+    } else if (scene.scalar.empty()) {
+        fail(
+            "{}: has no point scalars; expected one, or \"scalar\" in the scene to name an array "
+            "of "
+            "the file: {}",
+            file, list_names(data));
+    } else {
+        fail("{}: scalar \"{}\" not found, expected one of: {}", file, scene.scalar,
+             list_names(data));
+    }
+    data.point_scalars.clear();
+    data.cell_scalars.clear();
+    return taken;
+}
+
+}  // namespace
+
+SceneMesh load_mesh(const Scene& scene) {
+    if (!scene.mesh_file.empty()) {
+        MeshData data = read_mesh(scene.mesh_file);
+        bool averaged = false;
+        MeshScalar scalar = take_scalar(data, scene, averaged);
+        return {
+            TetMesh(std::move(data), scene.mesh_file.string()), std::move(scalar), averaged, {}};
+    }
+    MeshReport report;
+    MeshData data =
+        make_volume_mesh(load_volume(scene), *scene.mesh_request, &scene.transfer_function, report);
+    MeshScalar scalar = std::move(data.point_scalars.front());
+    data.point_scalars.clear();
+    return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, report};
+}
+
+}  // namespace lamina

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "mesh/mesh_settings.h"
+#include "mesh/tet_mesh.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// The mesh that a scene draws, with the one scalar that it draws of it.
+struct SceneMesh {
+    TetMesh mesh;
+    MeshScalar scalar;                 // one value a point
+    bool averaged = false;             // the file has it at cells
+    std::optional<MeshReport> report;  // of a mesh made from the scene's volume
+};
+
+// Reads the mesh that the scene names, or makes it from its volume. Throws Error, also when the
+// file has no such scalar.
+SceneMesh load_mesh(const Scene& scene);
+
+}  // namespace lamina

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lamina {
+
+// What `lamina info FILE` says (DESIGN section 5), and the picture that it writes to `png` unless
+// that is empty. Throw Error.
+nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png);
+nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png);
+
+}  // namespace lamina

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "mesh/mesh_file.h"
+#include "mesh/volume_mesh.h"
+#include "scene/json_reader.h"
+#include "scene/scene_reader.h"
+#include "verbs.h"
+#include "volume/nrrd.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t fewest_tets = 6;  // of a box
+constexpr std::int64_t most_tets = (std::int64_t{1} << 29) - 1;
+
+struct MeshOptions {
+    std::string input, output;
+    std::optional<double> tolerance;
+    std::optional<std::int64_t> max_tets;
+    bool kuhn = false, quiet = false;
+};
+
+// What a mesh is made from and how.
+struct MeshTask {
+    Volume volume;
+    MeshSettings settings;
+    std::optional<TransferFunction> transfer_function;
+};
+
+// A file that is made, or the two of them that .node means.
+class MeshOutput {
+  public:
+    explicit MeshOutput(const std::filesystem::path& path) {
+        const std::string extension = path.extension();
+        if (extension != ".vtu" && extension != ".node") {
+            throw UsageError(
+                fmt::format("-o {}: expected a name that ends in .vtu or .node", path.string()));
+        }
+        file_ = std::make_unique<AtomicFile>(path);
+        if (extension == ".node") {
+            elements_ =
+                std::make_unique<AtomicFile>(std::filesystem::path(path).replace_extension(".ele"));
+        }
+    }
+    void write(const MeshData& mesh) {
+        if (!elements_) {
+            write_vtu(*file_, mesh);
+        } else {
+            write_node(*file_, mesh);
+            write_ele(*elements_, mesh);
+            elements_->commit();
+        }
+        file_->commit();
+    }
+
+  private:
+    std::unique_ptr<AtomicFile> file_, elements_;
+};
+
+void check(const MeshOptions& options) {
+    if (options.tolerance && !(*options.tolerance > 0 && *options.tolerance <= 1)) {
+        throw UsageError(fmt::format(
+            "--tolerance {}: expected a number above 0 and up to 1 (of the range of values)",
+            *options.tolerance));
+    }
+    if (options.max_tets && (*options.max_tets < fewest_tets || *options.max_tets > most_tets)) {
+        throw UsageError(fmt::format("--max-tets {}: expected a number from {} to {}",
+                                     *options.max_tets, fewest_tets, most_tets));
+    }
+}
+
+bool is_scene(const std::filesystem::path& path) {
+    return path.extension() == ".json";
+}
+
+MeshTask load(const MeshOptions& options) {
+    if (!is_scene(options.input)) return {read_nrrd(options.input), {}, {}};
+    const Scene scene = read_scene(load_json(options.input), options.input);
+    if (!scene.has_volume()) {
+        fail("{}: has no \"volume\", which a mesh could be made from", options.input);
+    }
+    return {load_volume(scene), scene.mesh_request.value_or(MeshSettings{}),
+            scene.transfer_function};
+}
+
+void report_made(const MeshReport& report, const MeshSettings& settings) {
+    fmt::print("points: {}\n", report.points);
+    fmt::print("tets: {} ({:.3g} of the {} of the Kuhn split)\n", report.tets,
+               static_cast<double>(report.tets) / static_cast<double>(report.kuhn_tets),
+               report.kuhn_tets);
+    fmt::print("error: at most {:.4g} of the range of values ({:.6g} of {:.6g})\n",
+               report.relative_error(), report.error, report.range);
+    if (report.within_tolerance) return;
+    const std::string what = fmt::format("{:.4g} of the range of values, wanted {:.4g}",
+                                         report.relative_error(), settings.tolerance);
+    if (report.stopped_by_max_tets) {
+        fmt::print(stderr,
+                   "lamina: stopped at {} tets (--max-tets {}): the mesh differs from the volume "
+                   "by up to {}\n",
+                   report.tets, settings.max_tets, what);
+    } else if (!settings.kuhn) {
+        fmt::print(stderr,
+                   "lamina: points cannot lie closer together: the mesh differs from the volume "
+                   "by up to {}\n",
+                   what);
+    }
+}
+
+void run(const MeshOptions& options) {
+    Progress::set_quiet(options.quiet);
+    check(options);
+    MeshOutput output(options.output);
+    MeshTask task = load(options);
+    if (options.tolerance) task.settings.tolerance = *options.tolerance;
+    if (options.max_tets) task.settings.max_tets = *options.max_tets;
+    if (options.kuhn) task.settings.kuhn = true;
+    MeshReport report;
+    const TransferFunction* const transfer_function =
+        task.transfer_function ? &*task.transfer_function : nullptr;
+    MeshData mesh;
+    try {
+        mesh = make_volume_mesh(task.volume, task.settings, transfer_function, report);
+    } catch (const Error& error) {
+        fail("{}: {}", options.input, error.what());
+    }
+    output.write(mesh);
+    report_made(report, task.settings);
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& app, int& exit_code) {
+    (void)exit_code;
+    auto* const verb = app.add_subcommand("mesh", "Make tetrahedra from a volume");
+    const auto options = std::make_shared<MeshOptions>();
+    const MeshSettings defaults;
+    verb->add_option("INPUT", options->input,
+                     "volume (.nrrd, .nhdr), or scene (.json): its volume and mesh settings, and "
+                     "coarse where its transfer function shows nothing")
+        ->required();
+    verb->add_option("-o,--output", options->output, "mesh to write (.vtu, or .node with its .ele)")
+        ->required();
+    verb->add_option("--tolerance", options->tolerance,
+                     fmt::format("largest difference between mesh and volume, as a fraction of "
+                                 "the range of values ({})",
+                                 defaults.tolerance));
+    verb->add_option("--max-tets", options->max_tets,
+                     fmt::format("stop there ({})", defaults.max_tets));
+    verb->add_flag("--kuhn", options->kuhn,
+                   "every sample and six tets a cell instead; needs no TetGen");
+    verb->add_flag("--quiet", options->quiet, "no progress");
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace lamina

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/atomic_file.h"
+#include "file_report.h"
+#include "image/png.h"
+#include "mesh/mesh_file.h"
+#include "mesh/mesh_picture.h"
+#include "mesh/mesh_shape.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int panel_side = 480;  // pixels
+
+Json json_of(const glm::dvec3& vector) {
+    return Json::array({vector.x, vector.y, vector.z});
+}
+
+ValueRange range_of(const std::vector<double>& values) {
+    ValueRange range{INFINITY, -INFINITY};
+    for (const double value : values) {
+        if (!std::isfinite(value)) continue;
+        range.lo = std::min(range.lo, value);
+        range.hi = std::max(range.hi, value);
+    }
+    return range;
+}
+
+Json describe(std::span<const MeshScalar> scalars) {
+    Json list = Json::array();
+    for (const MeshScalar& scalar : scalars) {
+        const ValueRange range = range_of(scalar.values);
+        const auto finite = std::count_if(scalar.values.begin(), scalar.values.end(),
+                                          [](double value) { return std::isfinite(value); });
+        Json entry{{"name", scalar.name}, {"range", nullptr}};  // null: no finite value
+        if (!range.empty()) entry["range"] = Json::array({range.lo, range.hi});
+        entry["nan_count"] = static_cast<std::int64_t>(scalar.values.size()) - finite;
+        list.push_back(entry);
+    }
+    return list;
+}
+
+Json describe(const TetMesh& mesh) {
+    const MeshFindings& findings = mesh.findings();
+    const double ratio = edge_ratio(mesh);
+    Json info;
+    info["kind"] = "mesh";
+    info["points"] = mesh.points().size();
+    info["tets"] = findings.tets_read;
+    info["bounds"] = {{"min", json_of(mesh.bounds().min)}, {"max", json_of(mesh.bounds().max)}};
+    info["scalars"] = describe(mesh.point_scalars());
+    info["cell_scalars"] = describe(mesh.cell_scalars());
+    info["boundary_faces"] = findings.boundary_faces;
+    info["conforming"] = findings.conforming();
+    info["degenerate"] = findings.degenerate;
+    info["inverted"] = findings.inverted;
+    info["duplicates"] = findings.duplicates;
+    info["nonmanifold_faces"] = findings.nonmanifold_faces;
+    info["folded_faces"] = findings.folded_faces;
+    info["unused_points"] = findings.unused_points;
+    info["edge_ratio"] = nullptr;  // infinite: an edge without length
+    if (std::isfinite(ratio)) info["edge_ratio"] = ratio;
+    info["convex"] = convex(mesh);
+    return info;
+}
+
+CodedImage picture_of(const TetMesh& mesh) {
+    if (mesh.point_scalars().empty()) return mesh_picture(mesh, {}, {0, 0}, panel_side);
+    const std::vector<double>& values = mesh.point_scalars().front().values;
+    return mesh_picture(mesh, values, range_of(values), panel_side);
+}
+
+}  // namespace
+
+nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png) {
+    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    if (!png.empty()) picture.emplace(png);
+    MeshData data = read_mesh(file);
+    const std::int64_t split = data.split_cells, skipped = data.skipped_cells;
+    const TetMesh mesh(std::move(data), file);
+    if (picture) {
+        write_png(*picture, picture_of(mesh));
+        picture->commit();
+    }
+    Json info = describe(mesh);
+    info["split_cells"] = split;
+    info["skipped_cells"] = skipped;
+    return info;
+}
+
+}  // namespace lamina

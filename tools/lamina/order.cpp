@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/stopwatch.h"
+#include "mesh/mesh_file.h"
+#include "mesh/mesh_shape.h"
+#include "mesh/order_check.h"
+#include "mesh/visibility_order.h"
+#include "reference/order_pixels.h"
+#include "scene/json_reader.h"
+#include "scene/scene_mesh.h"
+#include "scene/scene_reader.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array methods{OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid,
+                             OrderMethod::none};
+constexpr int timed_sorts = 3;  // of each view, after one that is not timed
+constexpr int most_eyes = 10'000, most_pixels = 16'384;
+
+struct OrderOptions {
+    std::string input;
+    int eyes = 6;
+    std::string size = "128x128";
+    bool json = false, quiet = false;
+};
+
+struct Size {
+    int width, height;
+};
+
+Size parse_size(const std::string& text) {
+    Size size{};
+    const char* const end = text.data() + text.size();
+    const auto [middle, first] = std::from_chars(text.data(), end, size.width);
+    if (first == std::errc{} && middle != end && *middle == 'x') {
+        const auto [stop, second] = std::from_chars(middle + 1, end, size.height);
+        if (second == std::errc{} && stop == end && std::min(size.width, size.height) > 0 &&
+            std::max(size.width, size.height) <= most_pixels)
+            return size;
+    }
+    throw UsageError(fmt::format("--size {}: expected WxH, 1 to {} each, for example 128x128", text,
+                                 most_pixels));
+}
+
+struct Input {
+    TetMesh mesh;
+    std::optional<Camera> camera;  // the scene's
+};
+
+Input load(const std::string& file) {
+    if (is_mesh_file(file)) return {TetMesh(read_mesh(file), file), {}};
+    if (std::filesystem::path(file).extension() != ".json") {
+        fail("{}: unknown kind of file: expected a mesh (.vtu, .vtk, .node, .ele) or a scene (.json)",
+             file);
+    }
+    const Scene scene = read_scene(load_json(file), file);
+    if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
+    return {load_mesh(scene).mesh, scene.camera};
+}
+
+// Halton's sequence: `index` from 1, its digits to the base mirrored at the point.
+double radical_inverse(int index, int base) {
+    double value = 0, digit = 1;
+    for (; index > 0; index /= base) value += (index % base) * (digit /= base);
+    return value;
+}
+
+// In turn: from around the mesh, the same without perspective, from inside its box.
+Camera camera_of(int index, const TetMesh& mesh) {
+    const glm::dvec3 extent = mesh.bounds().max - mesh.bounds().min;
+    const double diagonal = glm::length(extent);
+    const double u = radical_inverse(index + 1, 2), v = radical_inverse(index + 1, 3),
+                 w = radical_inverse(index + 1, 5);
+    const double height = 2 * u - 1, turn = 2 * std::numbers::pi * v;
+    const double ring = std::sqrt(1 - height * height);
+    const glm::dvec3 outwards(ring * std::cos(turn), ring * std::sin(turn), height);
+    Camera camera;
+    camera.up = {-std::sin(turn), std::cos(turn), 0};  // across `outwards`
+    camera.center = 0.5 * mesh.bounds().min + 0.5 * mesh.bounds().max;
+    camera.eye = camera.center + 1.4 * diagonal * outwards;
+    camera.height = diagonal;
+    if (index % 3 == 1) camera.projection = Projection::orthographic;
+    if (index % 3 == 2) {
+        camera.fov_y = 90;
+        camera.eye = mesh.bounds().min + extent * glm::dvec3(u, v, w);
+        camera.center = camera.eye + diagonal * outwards;
+    }
+    return camera;
+}
+
+// What one way to sort came to, over all views.
+struct Outcome {
+    std::vector<double> ms;
+    std::int64_t violations = 0;
+    OrderPixels pixels;
+    std::int64_t cycles = 0, cyclic_tets = 0;  // the most in one view
+
+    double median() const {
+        std::vector<double> sorted = ms;
+        std::sort(sorted.begin(), sorted.end());
+        return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
+    }
+    double wrong_share() const {
+        return pixels.covered > 0
+                   ? static_cast<double>(pixels.wrong) / static_cast<double>(pixels.covered)
+                   : 0;
+    }
+    void add(const OrderPixels& found) {
+        pixels.covered += found.covered;
+        pixels.wrong += found.wrong;
+        pixels.outside_cycles += found.outside_cycles;
+        pixels.overlapping += found.overlapping;
+    }
+};
+
+void time_sort(VisibilityOrder& order, const TetMesh& mesh, const Eye& eye, Outcome& outcome) {
+    order.sort(eye);
+    for (int i = 0; i < timed_sorts; ++i) {
+        const Stopwatch watch;
+        order.sort(eye);
+        outcome.ms.push_back(watch.milliseconds());
+    }
+    outcome.violations += face_violations(mesh, eye, order.order());
+    outcome.cycles = std::max(outcome.cycles, order.report().cycles);
+    outcome.cyclic_tets = std::max(outcome.cyclic_tets, order.report().cyclic_tets);
+}
+
+std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& size) {
+    const FaceTree open_faces(input.mesh, input.mesh.open_faces());
+    std::vector<std::unique_ptr<VisibilityOrder>> orders;
+    std::vector<const VisibilityOrder*> judged;
+    for (const OrderMethod method : methods) {
+        orders.push_back(std::make_unique<VisibilityOrder>(input.mesh, method));
+        judged.push_back(orders.back().get());
+    }
+    std::vector<Outcome> outcomes(methods.size());
+    Progress progress("ordering", std::int64_t{eyes} * size.height);
+    for (int index = 0; index < eyes; ++index) {
+        const bool own = index == 0 && input.camera;
+        const View view(own ? *input.camera : camera_of(index, input.mesh), size.width, size.height);
+        for (std::size_t i = 0; i < orders.size(); ++i)
+            time_sort(*orders[i], input.mesh, eye_of(view), outcomes[i]);
+        const std::vector<OrderPixels> found =
+            judge_pixels(input.mesh, open_faces, view, judged, [&] { progress.advance(); });
+        for (std::size_t i = 0; i < found.size(); ++i) outcomes[i].add(found[i]);
+    }
+    return outcomes;
+}
+
+Json as_json(const Outcome& outcome, OrderMethod method, std::size_t tets) {
+    Json json{{"order", name_of(method)},
+              {"ms", outcome.median()},
+              {"tets_per_second", nullptr},
+              {"face_violations", outcome.violations},
+              {"covered_pixels", outcome.pixels.covered},
+              {"wrong_pixels", outcome.pixels.wrong},
+              {"wrong_outside_cycles", outcome.pixels.outside_cycles},
+              {"wrong_where_mesh_overlaps", outcome.pixels.overlapping},
+              {"cycles", outcome.cycles},
+              {"cyclic_tets", outcome.cyclic_tets}};
+    if (method != OrderMethod::none)
+        json["tets_per_second"] = 1e3 * static_cast<double>(tets) / outcome.median();
+    return json;
+}
+
+void print_json(const Input& input, const std::vector<Outcome>& outcomes, int eyes) {
+    Json orders = Json::array();
+    for (std::size_t i = 0; i < methods.size(); ++i)
+        orders.push_back(as_json(outcomes[i], methods[i], input.mesh.tets().size()));
+    const Json root{{"tets", input.mesh.tets().size()},
+                    {"convex", convex(input.mesh)},
+                    {"eyes", eyes},
+                    {"orders", orders}};
+    fmt::print("{}\n", root.dump(2));
+}
+
+void print_table(const Input& input, const std::vector<Outcome>& outcomes, int eyes) {
+    const std::size_t tets = input.mesh.tets().size();
+    fmt::print("{} tets, {}; {} views\n", tets, convex(input.mesh) ? "convex" : "not convex", eyes);
+    fmt::print("{:<10}{:>9}{:>15}{:>14}{:>14}{:>16}{:>8}{:>13}\n", "order", "ms", "million tets/s",
+               "wrong faces", "wrong pixels", "outside cycles", "cycles", "cyclic tets");
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        const Outcome& outcome = outcomes[i];
+        const std::string speed =
+            methods[i] == OrderMethod::none
+                ? "-"
+                : fmt::format("{:.3g}", 1e-3 * static_cast<double>(tets) / outcome.median());
+        fmt::print("{:<10}{:>9.3g}{:>15}{:>14}{:>12.3g} %{:>16}{:>8}{:>13}\n", name_of(methods[i]),
+                   outcome.median(), speed, outcome.violations, 100 * outcome.wrong_share(),
+                   outcome.pixels.outside_cycles, outcome.cycles, outcome.cyclic_tets);
+    }
+    fmt::print(
+        "ms: median of a sort. Wrong faces: the tet behind is drawn later, in all views. Wrong "
+        "pixels:\nof {} that show the mesh, two tets on the ray are drawn in the wrong order; "
+        "outside cycles: not\nwithin one cycle. Cycles: sets of tets that hide one another in a "
+        "ring, the most in one view.\n",
+        outcomes[0].pixels.covered);
+    if (outcomes[1].pixels.overlapping > 0) {
+        fmt::print("{} of the pixels that are wrong with exact lie where parts of the mesh overlap.\n",
+                   outcomes[1].pixels.overlapping);
+    }
+}
+
+void run(const OrderOptions& options) {
+    Progress::set_quiet(options.quiet);
+    if (options.eyes < 1 || options.eyes > most_eyes) {
+        throw UsageError(
+            fmt::format("--eyes {}: expected a number from 1 to {}", options.eyes, most_eyes));
+    }
+    const Size size = parse_size(options.size);
+    const Input input = load(options.input);
+    const std::vector<Outcome> outcomes = measure_orders(input, options.eyes, size);
+    (options.json ? print_json : print_table)(input, outcomes, options.eyes);
+}
+
+}  // namespace
+
+void add_order(CLI::App& app, int& exit_code) {
+    (void)exit_code;
+    auto* const verb = app.add_subcommand(
+        "order", "How fast and how right a mesh's tets are put in order for drawing");
+    const auto options = std::make_shared<OrderOptions>();
+    verb->add_option("INPUT", options->input,
+                     "mesh (.vtu, .vtk, .node, .ele), or scene (.json), whose camera is the first")
+        ->required();
+    verb->add_option("--eyes", options->eyes,
+                     "number of views: around the mesh, without perspective, and inside it, in turn",
+                     true);
+    verb->add_option("--size", options->size, "pixels of a view that are judged, WxH", true);
+    verb->add_flag("--json", options->json, "print JSON instead of a table");
+    verb->add_flag("--quiet", options->quiet, "no progress");
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace lamina

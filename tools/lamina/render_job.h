@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "picture_file.h"
+#include "render_stats.h"
+#include "scene/camera.h"
+#include "scene/plan.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// What a job of `lamina render` is given; all outlive it.
+struct RenderRequest {
+    const Scene& scene;
+    const OmissionSwitch& omissions;
+    std::string context;                              // --context
+    bool count_fragments;                             // somebody will read the statistics
+    std::function<void(const std::string&)> message;  // to stderr, unless --quiet
+};
+
+// One method of drawing a scene. Called in this order: plan(), draw(), draw_frame() any number of
+// times, write().
+class RenderJob {
+  public:
+    virtual ~RenderJob() = default;
+    // Loads what the method needs, measures it and plans.
+    virtual Plan plan(RenderStats& stats) = 0;
+    // The plan as a text for people.
+    virtual std::string explanation(const Plan& plan) const = 0;
+    // The scene's own frame, with progress; its time goes into stats.frames_ms.
+    virtual void draw(const Plan& plan, const View& view, RenderStats& stats) = 0;
+    // The same from elsewhere, to be timed; the picture of draw() stays.
+    virtual void draw_frame(const View& view) = 0;
+    // Returns the number of pixels that were clamped.
+    virtual std::size_t write(PictureFile& picture, const PictureAttributes& attributes) = 0;
+};
+
+std::unique_ptr<RenderJob> make_slice_job(const RenderRequest& request);
+std::unique_ptr<RenderJob> make_volume_trace_job(const RenderRequest& request);
+std::unique_ptr<RenderJob> make_mesh_trace_job(const RenderRequest& request);
+
+}  // namespace lamina

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <glm/vector_relational.hpp>
+#include <optional>
+
+#include "base/progress.h"
+#include "base/stopwatch.h"
+#include "context_kind.h"
+#include "gl/context.h"
+#include "gl/memory.h"
+#include "loaded_volume.h"
+#include "render_job.h"
+#include "slicing/gl_slice_renderer.h"
+
+namespace lamina {
+namespace {
+
+// Colours above 1 do not fit a fixed-point target: they are clamped there, and said.
+std::int64_t count_clamped_colors(const Scene& scene) {
+    if (scene.target == Target::float32 || scene.target == Target::float16) return 0;
+    std::int64_t count = 0;
+    for (const TransferKnot& knot : scene.transfer_function.knots()) {
+        count += glm::any(glm::greaterThan(knot.optics.color, glm::dvec3(1)));
+    }
+    return count;
+}
+
+class SliceJob : public RenderJob {
+  public:
+    explicit SliceJob(const RenderRequest& request) : request_(request) {}
+
+    Plan plan(RenderStats& stats) override {
+        data_.emplace(request_, stats);
+        const Stopwatch watch;
+        context_ = gl::Context::create(context_kind(request_.context));
+        stats.stages_ms["context"] = watch.milliseconds();
+        stats.context = context_->capabilities().renderer;
+        return make_plan(request_.scene, data_->facts, context_->capabilities(),
+                         request_.omissions);
+    }
+
+    std::string explanation(const Plan& plan) const override {
+        return explain(plan, data_->facts, context_->capabilities());
+    }
+
+    void draw(const Plan& plan, const View& view, RenderStats& stats) override {
+        const Scene& scene = request_.scene;
+        const std::int64_t clamped = count_clamped_colors(scene);
+        stats.counts["clamped_colors"] = clamped;
+        if (clamped > 0) {
+            request_.message(fmt::format(
+                "{} transfer-function points have a colour above 1, which the target {} clamps",
+                clamped, name_of(scene.target)));
+        }
+        renderer_.emplace(data_->volume, scene.transfer_function, data_->facts, plan.slice,
+                          context_->capabilities(), scene.width, scene.height);
+        const Stopwatch frame_watch;
+        {
+            Progress progress("slicing", renderer_->step_count());
+            if (request_.count_fragments)
+                stats.fragments = renderer_->draw_counting(view, &progress);
+            else
+                renderer_->draw(view, &progress);
+        }
+        stats.frames_ms = {frame_watch.milliseconds()};
+        stats.stages_ms["tables"] = renderer_->table_ms();
+        stats.stages_ms["upload"] = renderer_->upload_ms();
+        stats.stages_ms["geometry"] = renderer_->geometry_ms();
+        stats.stages_ms["draw"] = renderer_->draw_ms();
+        const Stopwatch read_watch;
+        image_.emplace(renderer_->read());
+        stats.stages_ms["read"] = read_watch.milliseconds();
+        stats.samples = plan.slice.slabs;
+        stats.bytes_gpu = gl::bytes_allocated();
+    }
+
+    void draw_frame(const View& view) override { renderer_->draw(view); }
+
+    std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
+        return picture.write(*image_, request_.scene.background, attributes);
+    }
+
+  private:
+    const RenderRequest request_;
+    std::optional<LoadedVolume> data_;
+    std::unique_ptr<gl::Context> context_;
+    std::optional<GlSliceRenderer> renderer_;
+    std::optional<Image> image_;
+};
+
+}  // namespace
+
+std::unique_ptr<RenderJob> make_slice_job(const RenderRequest& request) {
+    return std::make_unique<SliceJob>(request);
+}
+
+}  // namespace lamina

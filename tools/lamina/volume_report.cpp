@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "base/atomic_file.h"
+#include "file_report.h"
+#include "image/png.h"
+#include "volume/middle_slices.h"
+#include "volume/min_max_bricks.h"
+#include "volume/nrrd.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const glm::dvec3& vector) {
+    return Json::array({vector.x, vector.y, vector.z});
+}
+
+// One word where all axes agree, else one word an axis.
+Json json_of(const std::array<Centering, 3>& centering) {
+    const auto word = [](Centering c) { return c == Centering::cell ? "cell" : "node"; };
+    if (centering[0] == centering[1] && centering[1] == centering[2]) return word(centering[0]);
+    return Json::array({word(centering[0]), word(centering[1]), word(centering[2])});
+}
+
+Json describe(const Volume& volume, const MinMaxBricks& bricks) {
+    const Grid& grid = volume.grid();
+    const Grid::Bounds bounds = grid.bounds();
+    Json info;
+    info["kind"] = "volume";
+    info["size"] = grid.size;
+    info["type"] = name_of(volume.type());
+    info["centers"] = json_of(grid.centering);
+    info["bounds"] = {{"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}};
+    info["range"] = nullptr;  // no finite value
+    if (!bricks.whole.empty()) info["range"] = Json::array({bricks.whole.lo, bricks.whole.hi});
+    info["nan_count"] = bricks.non_finite;
+    return info;
+}
+
+}  // namespace
+
+nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png) {
+    std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
+    if (!png.empty()) picture.emplace(png);
+    const Volume volume = read_nrrd(file);
+    const MinMaxBricks bricks = measure_bricks(volume);
+    if (picture) {
+        write_png(*picture, middle_slices(volume, bricks.whole));
+        picture->commit();
+    }
+    return describe(volume, bricks);
+}
+
+}  // namespace lamina
