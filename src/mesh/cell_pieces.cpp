@@ -77,6 +77,14 @@ void add_part(const CellPiece& piece, int axis, double level, double sign,
     }
 }
 
+struct EdgeChoice {
+    std::size_t edge = 0;
+    double score = -1;
+    void offer(std::size_t other, double its_score) {
+        if (its_score > score) *this = {other, its_score};
+    }
+};
+
 }  // namespace
 
 void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare) {
@@ -161,29 +169,26 @@ double BernsteinCubic::largest() const {
 }
 
 std::size_t BernsteinCubic::edge_to_halve(const CellPiece& piece) const {
-    std::size_t most_bent = 0, longest = 0;
-    double bend = -1, length = -1, values = 0;
+    EdgeChoice most_bent, longest, steepest;
+    double at_corners = 0;
     for (std::size_t corner = 0; corner < 4; ++corner) {
-        values = std::max(values, std::abs(difference[corner]));
+        at_corners = std::max(at_corners, std::abs(difference[corner]));
     }
     for (std::size_t edge = 0; edge < 6; ++edge) {
         const auto& [a, b] = edges[edge];
         const double near_a = difference[4 + 2 * edge], near_b = difference[5 + 2 * edge];
-        const double edge_bend = std::max(std::abs(difference[a] - 2 * near_a + near_b),
-                                          std::abs(near_a - 2 * near_b + difference[b]));
         const glm::dvec3 along = piece.corners[b] - piece.corners[a];
-        const double edge_length = glm::dot(along, along);
-        if (edge_bend > bend) {
-            bend = edge_bend;
-            most_bent = edge;
-        }
-        if (edge_length > length) {
-            length = edge_length;
-            longest = edge;
-        }
+        most_bent.offer(edge, std::max(std::abs(difference[a] - 2 * near_a + near_b),
+                                       std::abs(near_a - 2 * near_b + difference[b])));
+        longest.offer(edge, glm::dot(along, along));
+        steepest.offer(edge, std::max(std::abs(trilinear[a] - trilinear[b]),
+                                      std::abs(piece.values[a] - piece.values[b])));
     }
-    // Where the edges are nearly straight, what is left lies inside the faces.
-    return bend > 0.25 * (largest() - values) ? most_bent : longest;
+    const double gap = largest() - at_corners;
+    // The bound is a value: only the range of the two functions is still to be narrowed.
+    if (gap < 0.01 * at_corners) return steepest.edge;
+    // Where the edges are nearly straight, the gap comes from inside the faces.
+    return most_bent.score > 0.25 * gap ? most_bent.edge : longest.edge;
 }
 
 }  // namespace lamina

@@ -44,7 +44,8 @@ struct BernsteinCubic {
 
     BernsteinCubic(const TrilinearPolynomial& polynomial, const CellPiece& piece);
     double largest() const;  // bound of |difference|
-    // The edge that halving shortens the distance between bound and values most on.
+    // The edge to cut the piece at, so that bound and values, or the ranges of the two functions,
+    // come nearer to each other.
     std::size_t edge_to_halve(const CellPiece& piece) const;
 };
 

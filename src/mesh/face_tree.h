@@ -49,8 +49,8 @@ class FaceTree {
         }
     }
 
-    // Shrinks the boxes to box_of(index) of the faces. Where that is empty() the face may or may not
-    // be visited, until the next refit().
+    // Shrinks the boxes to box_of(index) of the faces. Where that is empty() the face may or may
+    // not be visited, until the next refit().
     template <typename BoxOf>
     void refit(const BoxOf& box_of) {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents

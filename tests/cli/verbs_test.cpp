@@ -20,7 +20,7 @@ ProgramResult lamina_run(std::vector<std::string> arguments) {
 
 TEST(Verbs, HelpGoesToStdoutAndNamesTheUsage) {
     for (const char* verb :
-         {"", "render", "compare", "generate", "info", "integrate", "reproduce"}) {
+         {"", "render", "compare", "generate", "info", "integrate", "mesh", "order", "reproduce"}) {
         const ProgramResult result =
             std::string(verb).empty() ? lamina_run({"--help"}) : lamina_run({verb, "--help"});
         EXPECT_EQ(result.exit_code, 0);
@@ -31,7 +31,7 @@ TEST(Verbs, HelpGoesToStdoutAndNamesTheUsage) {
 
 TEST(Verbs, VersionIsOneLineEverywhere) {
     for (const char* verb :
-         {"", "render", "compare", "generate", "info", "integrate", "reproduce"}) {
+         {"", "render", "compare", "generate", "info", "integrate", "mesh", "order", "reproduce"}) {
         const ProgramResult result =
             std::string(verb).empty() ? lamina_run({"--version"}) : lamina_run({verb, "--version"});
         EXPECT_EQ(result.exit_code, 0) << verb;

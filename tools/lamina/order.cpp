@@ -70,8 +70,10 @@ struct Input {
 Input load(const std::string& file) {
     if (is_mesh_file(file)) return {TetMesh(read_mesh(file), file), {}};
     if (std::filesystem::path(file).extension() != ".json") {
-        fail("{}: unknown kind of file: expected a mesh (.vtu, .vtk, .node, .ele) or a scene (.json)",
-             file);
+        fail(
+            "{}: unknown kind of file: expected a mesh (.vtu, .vtk, .node, .ele) or a scene "
+            "(.json)",
+            file);
     }
     const Scene scene = read_scene(load_json(file), file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
@@ -157,7 +159,8 @@ std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& si
     Progress progress("ordering", std::int64_t{eyes} * size.height);
     for (int index = 0; index < eyes; ++index) {
         const bool own = index == 0 && input.camera;
-        const View view(own ? *input.camera : camera_of(index, input.mesh), size.width, size.height);
+        const View view(own ? *input.camera : camera_of(index, input.mesh), size.width,
+                        size.height);
         for (std::size_t i = 0; i < orders.size(); ++i)
             time_sort(*orders[i], input.mesh, eye_of(view), outcomes[i]);
         const std::vector<OrderPixels> found =
@@ -216,8 +219,9 @@ void print_table(const Input& input, const std::vector<Outcome>& outcomes, int e
         "ring, the most in one view.\n",
         outcomes[0].pixels.covered);
     if (outcomes[1].pixels.overlapping > 0) {
-        fmt::print("{} of the pixels that are wrong with exact lie where parts of the mesh overlap.\n",
-                   outcomes[1].pixels.overlapping);
+        fmt::print(
+            "{} of the pixels that are wrong with exact lie where parts of the mesh overlap.\n",
+            outcomes[1].pixels.overlapping);
     }
 }
 
@@ -243,10 +247,12 @@ void add_order(CLI::App& app, int& exit_code) {
     verb->add_option("INPUT", options->input,
                      "mesh (.vtu, .vtk, .node, .ele), or scene (.json), whose camera is the first")
         ->required();
-    verb->add_option("--eyes", options->eyes,
-                     "number of views: around the mesh, without perspective, and inside it, in turn",
-                     true);
-    verb->add_option("--size", options->size, "pixels of a view that are judged, WxH", true);
+    verb->add_option(
+            "--eyes", options->eyes,
+            "number of views: around the mesh, without perspective, and inside it, in turn")
+        ->capture_default_str();
+    verb->add_option("--size", options->size, "pixels of a view that are judged, WxH")
+        ->capture_default_str();
     verb->add_flag("--json", options->json, "print JSON instead of a table");
     verb->add_flag("--quiet", options->quiet, "no progress");
     verb->callback([options] { run(*options); });

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesh/eye.h"
+#include "mesh/predicates.h"
+#include "mesh/tet.h"
+#include "mesh/tet_mesh.h"
+
+namespace lamina {
+
+// On which side of a tet's faces the eye is. Bit f: on the outer side of face f, so that what lies
+// across is nearer to the eye; bit 4 + f: on the inner side, what lies across is farther. A face
+// that is seen edge-on has neither bit and hides nothing.
+using FaceSigns = std::uint32_t;
+constexpr FaceSigns nearer_bit(std::size_t face) {
+    return FaceSigns{1} << face;
+}
+constexpr FaceSigns farther_bit(std::size_t face) {
+    return FaceSigns{16} << face;
+}
+
+// The exact sign of the solid angle (at infinity: of the projected area) of the triangle a, b, c:
+// positive where an eye sees its corners clockwise, so that for a face with corners
+// counter-clockwise from outside its tet the eye is on the inner side.
+inline int sign_as_seen(const Eye& eye, const glm::dvec3& a, const glm::dvec3& b,
+                        const glm::dvec3& c) {
+    const glm::dvec3& e = eye.position;
+    if (eye.at_infinity) return sign_of_determinant(e, glm::dvec3(0), b, a, c, a);
+    return sign_of_determinant(a, e, b, e, c, e);
+}
+
+// Finds the signs of a mesh's tets for one eye: rounded where an error bound decides, else exact,
+// so that the two tets of a face never disagree. Safe from many threads.
+class FaceSigner {
+  public:
+    FaceSigner(const TetMesh& mesh, const Eye& eye)
+        : points_(mesh.points()), tets_(mesh.tets()), eye_(eye) {}
+
+    FaceSigns signs(std::size_t tet) const;
+
+  private:
+    struct Rounded {
+        std::array<double, 4> determinants;
+        double error;
+    };
+    Rounded rounded(const Tet& tet) const;
+    Rounded rounded_at_infinity(const Tet& tet) const;
+    int exact(const Tet& tet, std::size_t face) const;
+
+    std::span<const glm::dvec3> points_;
+    std::span<const Tet> tets_;
+    Eye eye_;
+};
+
+}  // namespace lamina

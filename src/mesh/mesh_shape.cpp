@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/mesh_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "base/parallel.h"
+#include "mesh/predicates.h"
+
+namespace lamina {
+namespace {
+
+constexpr double flat_enough = 1e-12;  // of the diagonal: see the header
+constexpr std::int64_t tets_per_task = 8192;
+
+struct Extremes {
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+};
+
+// An edge of an open face, from the lower to the higher point.
+struct BoundaryEdge {
+    std::int32_t low, high;
+    std::int32_t face;  // index into open_faces()
+    std::int32_t apex;  // the face's third corner
+    bool operator<(const BoundaryEdge& other) const {
+        return std::tie(low, high, face) < std::tie(other.low, other.high, other.face);
+    }
+    bool same_place(const BoundaryEdge& other) const {
+        return low == other.low && high == other.high;
+    }
+};
+
+std::array<std::int32_t, 3> open_face(const TetMesh& mesh, std::int32_t index) {
+    const TetFace& face = mesh.open_faces()[static_cast<std::size_t>(index)];
+    return corners_of_face(mesh.tets()[static_cast<std::size_t>(face.tet)],
+                           static_cast<std::size_t>(face.face));
+}
+
+std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
+    std::vector<BoundaryEdge> edges;
+    edges.reserve(3 * mesh.open_faces().size());
+    for (std::size_t face = 0; face < mesh.open_faces().size(); ++face) {
+        const auto index = static_cast<std::int32_t>(face);
+        const auto corners = open_face(mesh, index);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::int32_t a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b), index, corners[i]});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
+
+// How the faces of one edge meet, seen from the first.
+Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdge& second,
+               double tolerance) {
+    const auto point = [&](std::int32_t index) -> const glm::dvec3& {
+        return mesh.points()[static_cast<std::size_t>(index)];
+    };
+    const auto normal = [&](std::int32_t face) {
+        const auto [a, b, c] = open_face(mesh, face);
+        return glm::cross(point(b) - point(a), point(c) - point(a));
+    };
+    const auto [a, b, c] = open_face(mesh, first.face);
+    const glm::dvec3& apex = point(second.apex);
+    const int sign = orientation(point(a), point(b), point(c), apex);
+    if (sign < 0) return Convexity::exact;
+    const glm::dvec3 n = normal(first.face);
+    // Flat, but not folded back onto itself.
+    if (!(glm::dot(n, normal(second.face)) > 0)) return Convexity::none;
+    if (sign == 0) return Convexity::exact;
+    return glm::dot(n, apex - point(a)) <= tolerance * glm::length(n) ? Convexity::within_rounding
+                                                                      : Convexity::none;
+}
+
+// Sets of faces that hang together.
+class FaceSets {
+  public:
+    explicit FaceSets(std::size_t faces) : parent_(faces), count_(faces) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
+    void join(std::int32_t a, std::int32_t b) {
+        const std::size_t root_a = root(a), root_b = root(b);
+        if (root_a == root_b) return;
+        parent_[root_a] = root_b;
+        --count_;
+    }
+    std::size_t count() const { return count_; }
+
+  private:
+    std::size_t root(std::int32_t face) {
+        auto at = static_cast<std::size_t>(face);
+        while (parent_[at] != at) at = parent_[at] = parent_[parent_[at]];
+        return at;
+    }
+    std::vector<std::size_t> parent_;
+    std::size_t count_;
+};
+
+}  // namespace
+
+double edge_ratio(const TetMesh& mesh) {
+    const auto tets = static_cast<std::int64_t>(mesh.tets().size());
+    std::vector<Extremes> found(
+        static_cast<std::size_t>((tets + tets_per_task - 1) / tets_per_task));
+    parallel_for(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t task) {
+        Extremes& mine = found[static_cast<std::size_t>(task)];
+        const std::int64_t end = std::min(tets, (task + 1) * tets_per_task);
+        for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
+            const Tet& corners = mesh.tets()[static_cast<std::size_t>(tet)];
+            for (std::size_t i = 0; i < 4; ++i) {
+                for (std::size_t j = i + 1; j < 4; ++j) {
+                    const double length =
+                        glm::length(mesh.points()[static_cast<std::size_t>(corners[j])] -
+                                    mesh.points()[static_cast<std::size_t>(corners[i])]);
+                    mine.shortest = std::min(mine.shortest, length);
+                    mine.longest = std::max(mine.longest, length);
+                }
+            }
+        }
+    });
+    Extremes all;
+    for (const Extremes& mine : found) {
+        all.shortest = std::min(all.shortest, mine.shortest);
+        all.longest = std::max(all.longest, mine.longest);
+    }
+    return all.longest > 0 ? all.longest / all.shortest : std::numeric_limits<double>::infinity();
+}
+
+Convexity convexity(const TetMesh& mesh) {
+    if (mesh.findings().folded_faces > 0 || mesh.findings().nonmanifold_faces > 0)
+        return Convexity::none;
+    const double tolerance = flat_enough * glm::length(mesh.bounds().max - mesh.bounds().min);
+    const std::vector<BoundaryEdge> edges = boundary_edges(mesh);
+    FaceSets surfaces(mesh.open_faces().size());
+    Convexity result = Convexity::exact;
+    for (std::size_t i = 0; i < edges.size(); i += 2) {
+        const bool closed = i + 1 < edges.size() && edges[i].same_place(edges[i + 1]);
+        const bool more = i + 2 < edges.size() && edges[i].same_place(edges[i + 2]);
+        if (!closed || more) return Convexity::none;
+        const Convexity here = std::min(bend(mesh, edges[i], edges[i + 1], tolerance),
+                                        bend(mesh, edges[i + 1], edges[i], tolerance));
+        if (here == Convexity::none) return here;
+        result = std::min(result, here);
+        surfaces.join(edges[i].face, edges[i + 1].face);
+    }
+    return surfaces.count() == 1 ? result : Convexity::none;
+}
+
+}  // namespace lamina

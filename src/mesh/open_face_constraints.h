@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/eye.h"
+#include "mesh/face_tree.h"
+#include "mesh/seen_triangle.h"
+#include "mesh/tet_mesh.h"
+
+namespace lamina {
+
+// Rays leave the mesh through open face `exit` and come back, later, through open face `entry`: the
+// tet of the exit is nearer than that of the entry. Both index TetMesh::open_faces().
+struct OpenFaceConstraint {
+    std::int32_t exit, entry;
+};
+
+// Finds, for one eye after the other, what the gaps of a nonconvex mesh add to its order: all pairs
+// of an exit and of an entry behind it that overlap as seen from the eye. Each is true along some
+// ray, and every ray from one part of the mesh to the next meets one: with the order across shared
+// faces they are all that an order has to keep. Silva, Mitchell and Williams (1998) and Comba et
+// al. (1999, XMPVO) find them by sweeping over the projected boundary; here every exit asks a tree
+// of boxes for what is seen through it, which holds for any eye, inside and at infinity too, and
+// needs no order from face to face. The mesh must outlive this object.
+class OpenFaceConstraints {
+  public:
+    explicit OpenFaceConstraints(const TetMesh& mesh);
+
+    // In an order that depends on the mesh and the eye alone. Parallel; its memory grows only for
+    // views with more pairs than any before.
+    std::span<const OpenFaceConstraint> find(const Eye& eye);
+
+    const Triangle& triangle(std::int32_t open_face) const {
+        return triangles_[static_cast<std::size_t>(open_face)];
+    }
+
+  private:
+    void look_from(const Eye& eye);
+    void find_from(std::int32_t exit, const Eye& eye, std::vector<OpenFaceConstraint>& found) const;
+
+    const TetMesh& mesh_;
+    FaceTree tree_;  // of the entries
+    FaceTree::Box bounds_;
+    std::vector<Triangle> triangles_;
+    std::vector<SeenTriangle> seen_;
+    std::vector<std::int8_t> signs_;                      // of seen_, close together
+    std::vector<std::vector<OpenFaceConstraint>> found_;  // of each run of faces
+    std::vector<OpenFaceConstraint> all_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lamina and lamina-tetrahedralize say to each other, in native byte order.
+//
+// Question (stdin):  int64 number of points n, n * 3 doubles (x, y, z).
+// Answer (stdout):   int64 number of tets m, m * 4 int32 corners, m * 4 int32 neighbours.
+//
+// Corners count from 0 and are positively oriented (mesh/tet.h); neighbour i is the tet opposite
+// corner i, -1 on the hull. Points that equal an earlier one are in no tet. Without an answer of
+// that length the question has failed: the exit code is then not 0, and stderr says why.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace lamina {
+
+inline constexpr const char* tetrahedralize_program = "lamina-tetrahedralize";
+
+using TetrahedralizeCount = std::int64_t;
+using TetrahedralizePoint = std::array<double, 3>;
+using TetrahedralizeTet = std::array<std::int32_t, 4>;
+
+}  // namespace lamina

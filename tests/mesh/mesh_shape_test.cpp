@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh/mesh_shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "support/carved_mesh.h"
+#include "support/delaunay_mesh.h"
+#include "support/split_box.h"
+
+namespace lamina {
+namespace {
+
+double nothing(const glm::dvec3&) {
+    return 0;
+}
+
+MeshData box(const std::array<std::int32_t, 3>& cells) {
+    return test::kuhn_box(cells, nothing);
+}
+
+Convexity convexity_of(const MeshData& data) {
+    return convexity(TetMesh(data, "mesh"));
+}
+
+TEST(MeshShape, ConvexMeshes) {
+    EXPECT_EQ(convexity_of(box({3, 2, 4})), Convexity::exact);
+    EXPECT_EQ(convexity_of(test::DelaunayMesh::make(200, 1)), Convexity::exact);
+    EXPECT_EQ(convexity_of(test::twisted_prism(-20)), Convexity::exact);
+}
+
+// Turned by an irrational angle, the sides of a box are flat to some 1e-16 only.
+TEST(MeshShape, RoundedCoordinates) {
+    MeshData turned = box({5, 5, 5});
+    for (glm::dvec3& p : turned.points)
+        p = {std::cos(1.) * p.x - std::sin(1.) * p.y, std::sin(1.) * p.x + std::cos(1.) * p.y, p.z};
+    EXPECT_EQ(convexity_of(turned), Convexity::within_rounding);
+    // A dent of 1e-9 is one.
+    MeshData dented = box({2, 2, 2});
+    dented.points[4].z += 1e-9;  // the middle of the side z = 0
+    EXPECT_EQ(convexity_of(dented), Convexity::none);
+    dented.points[4].z -= 2e-9;
+    EXPECT_EQ(convexity_of(dented), Convexity::none);  // its diagonals fold the other way
+    dented = box({2, 2, 2});
+    dented.points[4].z += 1e-14;
+    EXPECT_EQ(convexity_of(dented), Convexity::within_rounding);
+}
+
+TEST(MeshShape, NonconvexMeshes) {
+    const auto carved = [](const auto& keep) {
+        return convexity_of(test::carved(box({3, 3, 3}), keep));
+    };
+    EXPECT_EQ(carved([](const auto& c) { return c.x < 1 || c.y < 1; }), Convexity::none);  // an L
+    EXPECT_EQ(carved([](const auto& c) { return c.x < 1 || c.x > 2; }),
+              Convexity::none);           // two boxes
+    EXPECT_EQ(carved([](const auto& c) {  // a cavity
+                  return glm::any(glm::greaterThan(glm::abs(c - 1.5), glm::dvec3(.5)));
+              }),
+              Convexity::none);
+    EXPECT_EQ(carved([](const auto& c) {  // two boxes that touch along an edge
+                  return (c.x < 1) == (c.y < 1);
+              }),
+              Convexity::none);
+    EXPECT_EQ(convexity_of(test::twisted_prism(20)), Convexity::none);
+    // The same box twice, at one place: two surfaces.
+    MeshData twice = box({1, 1, 1});
+    const MeshData once = twice;
+    twice.points.insert(twice.points.end(), once.points.begin(), once.points.end());
+    for (Tet tet : once.tets) {
+        for (std::int32_t& corner : tet) corner += 8;
+        twice.tets.push_back(tet);
+    }
+    EXPECT_EQ(convexity_of(twice), Convexity::none);
+}
+
+TEST(MeshShape, EdgeRatio) {
+    // Edges of unit cubes: 1 to sqrt(3).
+    EXPECT_NEAR(edge_ratio(TetMesh(box({2, 2, 2}), "box")), std::sqrt(3.), 1e-15);
+    MeshData data;
+    data.points = {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, .5}};
+    data.tets = {{0, 1, 2, 3}};
+    EXPECT_EQ(edge_ratio(TetMesh(data, "tet")), 10);
+    data.points[3] = {0, 0, 0};
+    EXPECT_EQ(edge_ratio(TetMesh(data, "tet")), INFINITY);
+}
+
+}  // namespace
+}  // namespace lamina
