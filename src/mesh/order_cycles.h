@@ -12,7 +12,7 @@ namespace lamina {
 
 // Orders tets among which there are cycles: the strongly connected components of the graph (Tarjan,
 // Depth-first search and linear graph algorithms, 1972) in an order that breaks no constraint, and
-// inside each component one that breaks what looks small. Takes its memory (24 bytes a tet) when it
+// inside each component one that breaks what looks small. Takes its memory (28 bytes a tet) when it
 // is first used, more only for larger cycles.
 class OrderCycles {
   public:

@@ -40,7 +40,7 @@ struct OrderReport {
 };
 
 // Tets in the order in which they are to be composited, for one eye after the other. Takes its
-// memory once, some 10 bytes a tet, and 24 more at the first view with cycles; sort() allocates
+// memory once, some 10 bytes a tet, and 28 more at the first view with cycles; sort() allocates
 // only where a view has more constraints across gaps, or larger cycles, than all before it. The
 // order depends on the mesh, the method and the eye alone. The mesh must outlive this object.
 class VisibilityOrder {

@@ -13,7 +13,12 @@
 namespace lamina {
 namespace {
 
-constexpr const char* tracer = "reference tracer";
+void record(double milliseconds, double error_estimate, RenderStats& stats) {
+    stats.frames_ms = {milliseconds};
+    stats.stages_ms["trace"] = milliseconds;
+    stats.context = "reference tracer";
+    stats.error_estimate = error_estimate;
+}
 
 class VolumeTraceJob : public RenderJob {
   public:
@@ -31,10 +36,7 @@ class VolumeTraceJob : public RenderJob {
     void draw(const Plan&, const View& view, RenderStats& stats) override {
         const Stopwatch watch;
         result_.emplace(trace(view));
-        stats.frames_ms = {watch.milliseconds()};
-        stats.stages_ms["trace"] = watch.milliseconds();
-        stats.context = tracer;
-        stats.error_estimate = result_->error_estimate;
+        record(watch.milliseconds(), result_->error_estimate, stats);
     }
 
     void draw_frame(const View& view) override { trace(view); }
@@ -77,10 +79,7 @@ class MeshTraceJob : public RenderJob {
     void draw(const Plan&, const View& view, RenderStats& stats) override {
         const Stopwatch watch;
         result_.emplace(trace(view));
-        stats.frames_ms = {watch.milliseconds()};
-        stats.stages_ms["trace"] = watch.milliseconds();
-        stats.context = tracer;
-        stats.error_estimate = result_->error_estimate;
+        record(watch.milliseconds(), result_->error_estimate, stats);
         stats.counts["segments"] = result_->segments;
         stats.counts["overlapping_rays"] = result_->overlapping_rays;
         if (result_->overlapping_rays > 0) {
