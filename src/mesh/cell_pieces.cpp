@@ -19,7 +19,8 @@ struct Crossing {
 Crossing cross(const CellPiece& piece, std::size_t in, std::size_t out, int axis, double level) {
     const glm::dvec3 &p = piece.corners[in], &q = piece.corners[out];
     const double t = (level - p[axis]) / (q[axis] - p[axis]);
-    Crossing crossing{p + t * (q - p), piece.values[in] + t * (piece.values[out] - piece.values[in])};
+    Crossing crossing{p + t * (q - p),
+                      piece.values[in] + t * (piece.values[out] - piece.values[in])};
     crossing.point[axis] = level;
     return crossing;
 }
@@ -91,11 +92,11 @@ void clip_to_cell(std::vector<CellPiece>& pieces, std::vector<CellPiece>& spare)
     for (int axis = 0; axis < 3; ++axis) {
         for (const double level : {0.0, 1.0}) {
             const double sign = 1 - 2 * level;
-            const bool cuts = std::any_of(pieces.begin(), pieces.end(), [&](const CellPiece& piece) {
-                return std::any_of(piece.corners.begin(), piece.corners.end(), [&](const auto& p) {
-                    return sign * (p[axis] - level) < 0;
+            const bool cuts =
+                std::any_of(pieces.begin(), pieces.end(), [&](const CellPiece& piece) {
+                    return std::any_of(piece.corners.begin(), piece.corners.end(),
+                                       [&](const auto& p) { return sign * (p[axis] - level) < 0; });
                 });
-            });
             if (!cuts) continue;
             spare.clear();
             for (const CellPiece& piece : pieces) add_part(piece, axis, level, sign, spare);

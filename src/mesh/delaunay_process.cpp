@@ -101,8 +101,8 @@ class Child {
     // Its status as waitpid() gives it. Throws Interrupted.
     int wait() {
         using namespace std::chrono_literals;
-        for (std::chrono::microseconds pause = 200us;; pause = std::min<decltype(pause)>(
-                                                           2 * pause, 20ms)) {
+        for (std::chrono::microseconds pause = 200us;;
+             pause = std::min<decltype(pause)>(2 * pause, 20ms)) {
             int status = 0;
             const pid_t ended = waitpid(id_, &status, WNOHANG);
             if (ended == id_) {
@@ -137,7 +137,8 @@ DelaunayTets read_tets(std::FILE* file, std::size_t points) {
     const long length = std::ftell(file);
     std::rewind(file);
     TetrahedralizeCount count = 0;
-    if (length < static_cast<long>(sizeof count) || std::fread(&count, sizeof count, 1, file) != 1) {
+    if (length < static_cast<long>(sizeof count) ||
+        std::fread(&count, sizeof count, 1, file) != 1) {
         fail("{} gave no answer", tetrahedralize_program);
     }
     const std::int64_t present = (length - static_cast<long>(sizeof count)) /
@@ -178,8 +179,8 @@ std::optional<std::filesystem::path> find_tetrahedralizer() {
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");
     for (std::string folder; std::getline(list, folder, ':');) {
-        const auto path = std::filesystem::path(folder.empty() ? "." : folder) /
-                          tetrahedralize_program;
+        const auto path =
+            std::filesystem::path(folder.empty() ? "." : folder) / tetrahedralize_program;
         if (is_program(path)) return path;
     }
     return std::nullopt;

@@ -23,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // the tolerance (which integer samples do), that would never end.
 constexpr double nearness = 0.98;
 constexpr double nearness_to_insert = 0.8;  // for the place of a violation
-constexpr int deepest = 60;  // halvings of a piece: far below rounding
+constexpr int deepest = 60;                 // halvings of a piece: far below rounding
 // Pieces looked at in one cell (rarely a hundred are needed); those beyond count with their bounds.
 constexpr int most_pieces = 20000;
 
@@ -93,9 +93,8 @@ struct MeasuredTet {
         });
     }
     bool contains(const glm::dvec3& relative_point) const {
-        return std::all_of(barycentric.begin(), barycentric.end(), [&](const Affine& weight) {
-            return weight.at(relative_point) >= 0;
-        });
+        return std::all_of(barycentric.begin(), barycentric.end(),
+                           [&](const Affine& weight) { return weight.at(relative_point) >= 0; });
     }
     // Of the linear function over the part of the box in the tet.
     ValueRange over(const Box& relative_box) const {
@@ -180,8 +179,8 @@ class Measurement {
     }
     bool decided(const ValueRange& trilinear, const ValueRange& linear) {
         const double bound = std::max(trilinear.hi - linear.lo, linear.hi - trilinear.lo);
-        return decided(bound) || invisible(std::min(trilinear.lo, linear.lo),
-                                           std::max(trilinear.hi, linear.hi));
+        return decided(bound) ||
+               invisible(std::min(trilinear.lo, linear.lo), std::max(trilinear.hi, linear.hi));
     }
 
     // Part of the tet's bounds between planes first and last + 1 of each axis.
@@ -365,8 +364,7 @@ double InterpolationError::largest(std::span<const glm::dvec3> points,
                 corners[corner] = points[static_cast<std::size_t>(tet[corner])];
                 corner_values[corner] = values[static_cast<std::size_t>(tet[corner])];
             }
-            const TetError error =
-                measure(corners, corner_values, tolerance, ErrorGoal::bound);
+            const TetError error = measure(corners, corner_values, tolerance, ErrorGoal::bound);
             bounds[static_cast<std::size_t>(task)] =
                 std::max(bounds[static_cast<std::size_t>(task)], error.bound);
         }

@@ -22,16 +22,16 @@ struct TetError {
 
 // What measure() is to find out.
 enum class ErrorGoal {
-    decide,  // whether the tolerance holds: bound <= tolerance; or bound is infinite, and `found` at
-             // least 0.98 of the tolerance, a large error though not always the largest
+    decide,  // whether the tolerance holds: bound <= tolerance; or bound is infinite, and `found`
+             // at least 0.98 of the tolerance, a large error though not always the largest
     bound,   // bound <= tolerance, or 0.98 bound <= found
 };
 
 // Measures |trilinear - linear| on tets by branch and bound, so that the bound is a certificate and
 // not a sample (in double precision: to some 1e-12 of the range). Blocks of cells that the field's
-// range decides are never looked into; in a cell the difference is trilinear, so its extremes over a
-// box are at the box's corners; where a tet cuts the cell and that does not decide, the part of the
-// tet in the cell is cut out, and the difference, a cubic there, is bounded by its Bernstein
+// range decides are never looked into; in a cell the difference is trilinear, so its extremes over
+// a box are at the box's corners; where a tet cuts the cell and that does not decide, the part of
+// the tet in the cell is cut out, and the difference, a cubic there, is bounded by its Bernstein
 // coefficients. With a transfer function, places where it shows nothing of any value between the
 // two functions do not count. Thread-safe.
 class InterpolationError {

@@ -66,7 +66,8 @@ MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets) {
             const std::int32_t first = z * slice + y * row + x;
             for (Tet tet : cell_tets) {
                 for (std::int32_t& corner : tet) {
-                    corner = first + (corner & 1) + ((corner >> 1) & 1) * row + (corner >> 2) * slice;
+                    corner =
+                        first + (corner & 1) + ((corner >> 1) & 1) * row + (corner >> 2) * slice;
                 }
                 *next++ = tet;
             }

@@ -110,7 +110,7 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
         const std::int64_t type = piece.cells.types[cell];
         const CellUse use = use_of_cell(type);
         if (use == CellUse::skip) {
-            ++mesh_.skipped_cells;
+            ++mesh_.cells.skipped;
             continue;
         }
         if (use == CellUse::unsupported) {
@@ -124,8 +124,9 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
         SplitCell split{{{{used[0], used[1], used[2], used[3]}}}, 1};
         if (use == CellUse::split) {
             split = split_cell(type, used, mesh_.points);
-            ++mesh_.split_cells;
+            ++mesh_.cells.split;
         }
+        mesh_.cells.straightened += use == CellUse::tet && cell_type(type).points > 4;
         mesh_.tets.insert(mesh_.tets.end(), split.tets.begin(),
                           split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
         cell_of_tet.insert(cell_of_tet.end(), split.count, static_cast<std::int64_t>(cell));
@@ -157,11 +158,11 @@ void MeshAssembly::add(MeshPiece piece) {
 
 MeshData MeshAssembly::finish() {
     if (mesh_.points.empty()) fail("{}: found no points", file_);
-    if (mesh_.tets.empty() && mesh_.skipped_cells > 0) {
+    if (mesh_.tets.empty() && mesh_.cells.skipped > 0) {
         fail(
             "{}: found {} cells, all without volume, expected tetrahedra, hexahedra, wedges or "
             "pyramids",
-            file_, mesh_.skipped_cells);
+            file_, mesh_.cells.skipped);
     }
     if (mesh_.tets.empty()) fail("{}: found no cells", file_);
     return std::move(mesh_);

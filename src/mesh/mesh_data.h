@@ -16,6 +16,13 @@ struct MeshScalar {
     std::vector<double> values;  // one a point, or one a tet
 };
 
+// What became of cells that are no tets with four points.
+struct CellCounts {
+    std::int64_t split = 0;         // hexahedra, wedges and pyramids that were cut into tets
+    std::int64_t skipped = 0;       // vertices, lines, polygons: no volume
+    std::int64_t straightened = 0;  // quadratic tets, of which the four corners are used
+};
+
 // A tetrahedral mesh as a file or a generator gives it, nothing checked or repaired: what
 // mesh/tet_mesh.h starts from and what mesh files are written from.
 struct MeshData {
@@ -23,8 +30,7 @@ struct MeshData {
     std::vector<Tet> tets;           // in the file's order and orientation
     std::vector<MeshScalar> point_scalars;
     std::vector<MeshScalar> cell_scalars;
-    std::int64_t split_cells = 0;    // hexahedra, wedges and pyramids that were cut into tets
-    std::int64_t skipped_cells = 0;  // vertices, lines, polygons: no volume
+    CellCounts cells;
 };
 
 }  // namespace lamina

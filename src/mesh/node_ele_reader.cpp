@@ -167,6 +167,7 @@ void read_tets(Lines& lines, std::int64_t first_point, MeshData& mesh) {
     lines.check_promise("tetrahedra", tets, 1 + nodes + attributes);
 
     mesh.tets.resize(static_cast<std::size_t>(tets));
+    mesh.cells.straightened = nodes == 10 ? tets : 0;
     mesh.cell_scalars = lines.attributes("tet", attributes, tets);
     const std::int64_t last_point = first_point + static_cast<std::int64_t>(mesh.points.size()) - 1;
     for (std::int64_t i = 0; i < tets; ++i) {

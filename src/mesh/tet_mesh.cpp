@@ -49,6 +49,7 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
       tets_(std::move(data.tets)),
       point_scalars_(std::move(data.point_scalars)),
       cell_scalars_(std::move(data.cell_scalars)) {
+    findings_.cells = data.cells;
     findings_.tets_read = static_cast<std::int64_t>(tets_.size());
     check_corners(name);
     drop_repeated_corners();

@@ -26,6 +26,7 @@ struct MeshFindings {
     std::int64_t nonmanifold_faces = 0;  // faces of three or more tets
     std::int64_t folded_faces = 0;       // faces of two tets that lie on the same side of it
     std::int64_t unused_points = 0;
+    CellCounts cells;  // of the file
 
     // Every interior face is shared by exactly two tets.
     bool conforming() const { return nonmanifold_faces == 0; }

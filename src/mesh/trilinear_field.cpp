@@ -35,8 +35,8 @@ std::vector<float> samples_of(const Volume& volume) {
 TrilinearField::TrilinearField(const Volume& volume) : size_(volume.grid().size) {
     const MinMaxBricks bricks = measure_bricks(volume);
     if (bricks.non_finite > 0) {
-        fail("the volume has {} samples that are no finite numbers: no mesh can follow them",
-             bricks.non_finite);
+        fail("{} of {} samples are NaN or infinite: no mesh can follow them", bricks.non_finite,
+             volume.grid().sample_count());
     }
     range_ = bricks.whole;
     const glm::dvec3 first = volume.grid().index_min(), last = volume.grid().index_max();
@@ -64,8 +64,7 @@ TrilinearField::Cell TrilinearField::cell_of(const glm::dvec3& index) const {
 double TrilinearField::at_plane(const Cell& plane) const {
     std::array<std::int64_t, 3> sample{};
     for (int axis = 0; axis < 3; ++axis) {
-        sample[axis] =
-            std::clamp<std::int64_t>(plane[axis] - shift_[axis], 0, size_[axis] - 1);
+        sample[axis] = std::clamp<std::int64_t>(plane[axis] - shift_[axis], 0, size_[axis] - 1);
     }
     return samples_[static_cast<std::size_t>((sample[2] * size_[1] + sample[1]) * size_[0] +
                                              sample[0])];

@@ -37,7 +37,7 @@ class TrilinearField {
     // one behind the plane.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
-    double at_plane(const Cell& plane) const;   // the value where three planes meet
+    double at_plane(const Cell& plane) const;  // the value where three planes meet
     double at(const glm::dvec3& index) const;
 
   private:

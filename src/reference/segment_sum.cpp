@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
@@ -14,6 +16,8 @@ namespace {
 constexpr double least_transmittance = 1e-17;
 // Of a segment's colour and opacity, relative (optics/segment_integral.h).
 constexpr double segment_error = 1e-13;
+// Interpolated scalars are good to some epsilons of the values at the corners.
+constexpr double value_epsilons = 64;
 
 }  // namespace
 
@@ -27,15 +31,29 @@ SegmentSum::SegmentSum(const TransferFunction& transfer_function,
 
 void SegmentSum::add(double front, double back, double length) {
     const auto [lo, hi] = std::minmax(front, back);
-    if (!(length > 0) || !intervals_.visible(lo, hi)) return;
+    const double slack = lo == hi ? 0
+                                  : value_epsilons * std::numeric_limits<double>::epsilon() *
+                                        std::max(std::abs(lo), std::abs(hi));
+    if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
     const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
     const double transmittance = std::exp(-(depth_ + depth_rest_));
     color_ += transmittance * segment.color;
     // An end that is off moves this much depth from one side of it to the other.
     const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
-    error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
+    error_ += transmittance *
+              (brightest_ * (segment_error * segment.alpha + moved) +
+               (hi - lo > slack ? 0 : value_error(lo - slack, hi + slack, segment.alpha, length)));
     add_depth(segment.optical_depth);
+}
+
+// What it would change if a segment's scalar, all but constant, were elsewhere in [lo, hi]: its
+// rounding may choose the side of a step of the transfer function.
+double SegmentSum::value_error(double lo, double hi, double alpha, double length) const {
+    const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
+    const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
+    const glm::dvec3 color = glm::abs(above.color - below.color);
+    return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);
 }
 
 void SegmentSum::add_depth(double depth) {

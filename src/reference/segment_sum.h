@@ -29,6 +29,7 @@ class SegmentSum {
     std::int64_t segments() const { return segments_; }
 
   private:
+    double value_error(double lo, double hi, double alpha, double length) const;
     void add_depth(double depth);
 
     const TransferFunction& transfer_function_;

@@ -25,21 +25,22 @@ bool with_tetgen() {
 class MeshVerb : public testing::Test {
   protected:
     void SetUp() override {
-        ASSERT_EQ(lamina_run({"generate", "gaussians", "-o", volume, "--size", "12,12,12"}).exit_code,
-                  0);
-        write_bytes_to(scene, json{{"version", 1},
-                                   {"volume", "v.nrrd"},
-                                   {"mesh", {{"tolerance", 0.05}, {"kuhn", false}}},
-                                   {"transfer_function",
-                                    {{"points", {{{"value", 0}, {"color", {1, 1, 1}}, {"extinction", 0}}}}}},
-                                   {"camera",
-                                    {{"projection", "orthographic"},
-                                     {"height", 1},
-                                     {"eye", {0, 0, 5}},
-                                     {"center", {0, 0, 0}},
-                                     {"up", {0, 1, 0}}}},
-                                   {"image", {{"width", 4}, {"height", 4}}}}
-                                  .dump());
+        ASSERT_EQ(
+            lamina_run({"generate", "gaussians", "-o", volume, "--size", "12,12,12"}).exit_code, 0);
+        write_bytes_to(
+            scene, json{{"version", 1},
+                        {"volume", "v.nrrd"},
+                        {"mesh", {{"tolerance", 0.05}, {"kuhn", false}}},
+                        {"transfer_function",
+                         {{"points", {{{"value", 0}, {"color", {1, 1, 1}}, {"extinction", 0}}}}}},
+                        {"camera",
+                         {{"projection", "orthographic"},
+                          {"height", 1},
+                          {"eye", {0, 0, 5}},
+                          {"center", {0, 0, 0}},
+                          {"up", {0, 1, 0}}}},
+                        {"image", {{"width", 4}, {"height", 4}}}}
+                       .dump());
     }
     json info(const std::string& mesh) {
         const ProgramResult result = lamina_run({"info", mesh, "--json"});
@@ -107,10 +108,15 @@ TEST_F(MeshVerb, TheScenesTransferFunctionAndSettingsCount) {
 }
 
 TEST_F(MeshVerb, MistakesOfUsageAreExitTwo) {
-    for (const std::vector<std::string>& wrong :
-         {std::vector<std::string>{"--tolerance", "0"}, {"--tolerance", "-1"}, {"--tolerance", "1.5"},
-          {"--tolerance", "nan"}, {"--tolerance", "small"}, {"--max-tets", "5"},
-          {"--max-tets", "1e6"}, {"--max-tets", "600000000"}, {"--max-tets", "99999999999999999999"}}) {
+    for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--tolerance", "0"},
+                                                  {"--tolerance", "-1"},
+                                                  {"--tolerance", "1.5"},
+                                                  {"--tolerance", "nan"},
+                                                  {"--tolerance", "small"},
+                                                  {"--max-tets", "5"},
+                                                  {"--max-tets", "1e6"},
+                                                  {"--max-tets", "600000000"},
+                                                  {"--max-tets", "99999999999999999999"}}) {
         std::vector<std::string> arguments{"mesh", volume, "-o", vtu};
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
         const ProgramResult result = lamina_run(arguments);

@@ -35,11 +35,12 @@ TEST(DelaunayProcess, FailuresOfTheProgramAreClear) {
         EXPECT_EQ(message.find('\n'), std::string::npos);
         EXPECT_NE(message.find(part), std::string::npos) << message;
     };
-    has(run("echo chatter >&2; echo 'tetgen: out of luck' >&2; exit 1"), "out of luck (exit code 1)");
+    has(run("echo chatter >&2; echo 'tetgen: out of luck' >&2; exit 1"),
+        "out of luck (exit code 1)");
     has(run("exit 3"), "exit code 3");
     has(run("kill -SEGV $$"), "ended by signal 11");
     has(run("exit 0"), "gave no answer");
-    has(run("printf 12345678"), "promised");           // a count beyond all memory
+    has(run("printf 12345678"), "promised");  // a count beyond all memory
     has(run("head -c 40 /dev/zero"), "promised 0 tets");
     // One tet, corner 4 of four points.
     has(run("printf '\\001\\0\\0\\0\\0\\0\\0\\0'; printf '\\004\\0\\0\\0'; head -c 28 /dev/zero"),

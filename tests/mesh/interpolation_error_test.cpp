@@ -201,7 +201,8 @@ TEST(InterpolationError, HoldsAgainstBruteForce) {
     std::vector<Case> cases{
         {"noise", noise(cube(9), 4)},
         {"cell", noise(grid_of({9, 9, 9}, Centering::cell), 5)},
-        {"step", volume_of(cube(9), [](double i, double j, double k) { return i + j + k > 11 ? 200 : 3; })},
+        {"step",
+         volume_of(cube(9), [](double i, double j, double k) { return i + j + k > 11 ? 200 : 3; })},
         {"smooth", volume_of(cube(9), [](double i, double j, double k) {
              return 100 * std::sin(i / 2) * std::cos(j / 3) + 5 * k;
          })}};
@@ -209,7 +210,10 @@ TEST(InterpolationError, HoldsAgainstBruteForce) {
     for (Case& test : cases) {
         const Measured measured{test.volume};
         for (int turn = 0; turn < 60; ++turn) {
-            const Corners corners = random_tet(random, 8, turn % 3 == 0 ? 8 : turn % 3 == 1 ? 2 : 0.6);
+            const Corners corners = random_tet(random, 8,
+                                               turn % 3 == 0   ? 8
+                                               : turn % 3 == 1 ? 2
+                                                               : 0.6);
             const double sampled = brute_force(measured, corners, 24);
             const double range = measured.field.range().hi - measured.field.range().lo;
             const double rounding = 1e-12 * range;
@@ -278,16 +282,14 @@ TEST(InterpolationError, ThinTetsAreMeasuredToo) {
 TEST(InterpolationError, InvisibleDifferencesDoNotCount) {
     const Measured measured{noise(cube(9), 10)};
     // Shows 100..150 alone; between, what crosses either end counts whole.
-    const auto transfer_function = TransferFunction::linear({{100, {{1, 1, 1}, 0}},
-                                                             {125, {{1, 1, 1}, 5}},
-                                                             {150, {{1, 1, 1}, 0}}});
+    const auto transfer_function = TransferFunction::linear(
+        {{100, {{1, 1, 1}, 0}}, {125, {{1, 1, 1}, 5}}, {150, {{1, 1, 1}, 0}}});
     const auto nothing = TransferFunction::linear({{0, {{1, 1, 1}, 0}}});
     std::mt19937 random(11);
     for (int turn = 0; turn < 40; ++turn) {
         const Corners corners = random_tet(random, 8, turn % 2 == 0 ? 4 : 0.7);
         const double sampled = brute_force(measured, corners, 24, &transfer_function);
-        const TetError error =
-            measured.measure(corners, 0.3, ErrorGoal::bound, &transfer_function);
+        const TetError error = measured.measure(corners, 0.3, ErrorGoal::bound, &transfer_function);
         EXPECT_GE(error.bound, sampled - 1e-10);
         EXPECT_LE(error.bound, measured.measure(corners, 0.3, ErrorGoal::bound).bound / 0.98);
         EXPECT_EQ(measured.measure(corners, 0.3, ErrorGoal::bound, &nothing).found, 0);
@@ -297,7 +299,8 @@ TEST(InterpolationError, InvisibleDifferencesDoNotCount) {
 
 TEST(InterpolationError, LargestIsOverAllTets) {
     const Measured measured{volume_of(cube(2), [](double i, double j, double) { return i * j; })};
-    const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0, 0}, {0, 0.1, 0}};
+    const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 0, 0},   {0, 1, 0},
+                                         {0, 0, 1}, {0.1, 0, 0}, {0, 0.1, 0}};
     const std::vector<double> values(6, 0.0);
     const InterpolationError error(measured.field, measured.ranges, nullptr);
     EXPECT_NEAR(error.largest(points, values, std::vector<Tet>{{0, 4, 5, 3}}, 1e-5), 0.0025, 1e-4);

@@ -55,7 +55,7 @@ TEST(TrilinearField, RejectsWhatIsNoNumber) {
         volume_of(grid_of({3, 3, 3}, Centering::node), [](double i, double j, double k) {
             return i + j + k == 3 ? std::numeric_limits<double>::quiet_NaN() : 0;
         });
-    expect_error([&] { TrilinearField{volume}; }, {"7 samples", "finite"});
+    expect_error([&] { TrilinearField{volume}; }, {"7 of 27 samples", "NaN"});
 }
 
 TEST(KuhnMesh, FillsTheBoxOfEveryKindOfGrid) {
@@ -65,8 +65,9 @@ TEST(KuhnMesh, FillsTheBoxOfEveryKindOfGrid) {
     Grid mirrored = turned;
     mirrored.step[2] = -mirrored.step[2];
     mirrored.centering[1] = Centering::cell;
-    for (const Grid& grid : {turned, mirrored, grid_of({4, 3, 5}, Centering::cell),
-                             grid_of({1, 3, 5}, Centering::node), grid_of({1, 1, 1}, Centering::node)}) {
+    for (const Grid& grid :
+         {turned, mirrored, grid_of({4, 3, 5}, Centering::cell),
+          grid_of({1, 3, 5}, Centering::node), grid_of({1, 1, 1}, Centering::node)}) {
         const Volume volume = noise(grid, 4);
         MeshReport report;
         const MeshData mesh = make_volume_mesh(volume, kuhn(), nullptr, report);

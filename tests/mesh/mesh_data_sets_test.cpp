@@ -45,8 +45,8 @@ TEST_P(MeshDataSets, AreTheSameInBothFormats) {
     const auto [lo, hi] = std::ranges::minmax(mesh.point_scalars[0].values);
     EXPECT_NEAR(lo, expected.lo, expected.half_digit);
     EXPECT_NEAR(hi, expected.hi, expected.half_digit);
-    EXPECT_EQ(mesh.split_cells, 0);
-    EXPECT_EQ(mesh.skipped_cells, 0);
+    EXPECT_EQ(mesh.cells.split, 0);
+    EXPECT_EQ(mesh.cells.skipped, 0);
 
     const MeshData text = read_mesh(std::filesystem::path(vtu).replace_extension(".ele"));
     EXPECT_EQ(text.tets, mesh.tets);

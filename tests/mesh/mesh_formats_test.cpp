@@ -29,8 +29,8 @@ TEST_F(MeshFormats, VtuInEveryCoding) {
         SCOPED_TRACE(style.name());
         const MeshData mesh = read("a.vtu", make_vtu(mixed_grid(), style));
         expect_equal(mesh, expected);
-        EXPECT_EQ(mesh.split_cells, 4);
-        EXPECT_EQ(mesh.skipped_cells, 2);
+        EXPECT_EQ(mesh.cells.split, 4);
+        EXPECT_EQ(mesh.cells.skipped, 2);
     }
 }
 
@@ -42,8 +42,8 @@ TEST_F(MeshFormats, LegacyVtkOfEveryKind) {
             SCOPED_TRACE(binary ? "binary" : "ascii");
             const MeshData mesh = read("a.vtk", VtkMaker(binary, version5).file(grid));
             expect_equal(mesh, expected);
-            EXPECT_EQ(mesh.split_cells, 4);
-            EXPECT_EQ(mesh.skipped_cells, 2);
+            EXPECT_EQ(mesh.cells.split, 4);
+            EXPECT_EQ(mesh.cells.skipped, 2);
         }
     }
 }

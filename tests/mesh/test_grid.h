@@ -105,7 +105,7 @@ inline MeshData expected_mesh(const TestGrid& grid) {
         const auto& cell = grid.cells[i];
         const std::vector<std::int32_t> c(cell.corners.begin(), cell.corners.end());
         if (cell.type < 10) {
-            ++mesh.skipped_cells;
+            ++mesh.cells.skipped;
             continue;
         }
         if (cell.type == 10 || cell.type == 24) {
@@ -114,7 +114,7 @@ inline MeshData expected_mesh(const TestGrid& grid) {
             const SplitCell split = split_cell(cell.type, c, grid.points);
             mesh.tets.insert(mesh.tets.end(), split.tets.begin(),
                              split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
-            ++mesh.split_cells;
+            ++mesh.cells.split;
         }
         cell_of_tet.resize(mesh.tets.size(), i);
     }

@@ -83,8 +83,8 @@ TEST_F(VtkOracle, ReadsWhatWeReadAndWhatWeWrite) {
         ASSERT_GE(grid.points.size(), 24u);
         MeshData expected = expected_mesh(grid);
         const MeshData mesh = read_mesh(entry.path());
-        EXPECT_EQ(mesh.split_cells, expected.split_cells);
-        EXPECT_EQ(mesh.skipped_cells, expected.skipped_cells);
+        EXPECT_EQ(mesh.cells.split, expected.cells.split);
+        EXPECT_EQ(mesh.cells.skipped, expected.cells.skipped);
         // VTK puts the arrays of a file in an order of its own.
         const auto by_name = [](const MeshScalar& a, const MeshScalar& b) {
             return a.name < b.name;

@@ -2,9 +2,11 @@
 // Delaunay tetrahedra of points, by TetGen. A program of its own for two reasons: TetGen's licence
 // (AGPL) then covers nothing but this program, and TetGen may print, throw numbers or end the
 // process without harm to the one that asked.
+#include <signal.h>
 #include <tetgen.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -35,8 +37,8 @@ constexpr const char* help =
     "therefore under the GNU Affero General Public License, version 3 or later. The source of\n"
     "lamina itself is under the Apache License 2.0.\n";
 
-constexpr const char* version = "lamina-tetrahedralize " LAMINA_VERSION
-                                " (with TetGen 1.5; AGPL-3.0-or-later)\n";
+constexpr const char* version =
+    "lamina-tetrahedralize " LAMINA_VERSION " (with TetGen 1.5; AGPL-3.0-or-later)\n";
 
 std::vector<char> read_all(std::FILE* stream) {
     std::vector<char> bytes;
@@ -148,6 +150,28 @@ std::FILE* take_stdout() {
     return stream;
 }
 
+// Near its limits TetGen may also run into an assertion or leave its memory: still one line and
+// exit code 1. Only what is allowed in a signal handler.
+extern "C" void report_crash(int) {
+    constexpr char message[] =
+        "lamina-tetrahedralize: TetGen broke down (are all points nearly in one plane, or "
+        "coordinates extreme?)\n";
+    if (write(STDERR_FILENO, message, sizeof message - 1) < 0) _exit(1);
+    _exit(1);
+}
+
+void catch_crashes() {
+    static std::array<char, 1 << 16> stack;  // a crash may have used up the program's own
+    stack_t place{};
+    place.ss_sp = stack.data();
+    place.ss_size = stack.size();
+    sigaltstack(&place, nullptr);
+    struct sigaction action {};
+    action.sa_handler = report_crash;
+    action.sa_flags = SA_ONSTACK;
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
+}
+
 int fail(const char* message) {
     std::fflush(stdout);
     std::fprintf(stderr, "lamina-tetrahedralize: %s\n", message);
@@ -168,6 +192,7 @@ int main(int argc, char** argv) {
         std::fputs(option == "--help" ? help : version, stdout);
         return std::fflush(stdout) == 0 ? 0 : 1;
     }
+    catch_crashes();
     try {
         std::FILE* const answer = take_stdout();
         tetgenio in, out;

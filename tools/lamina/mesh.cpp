@@ -87,6 +87,10 @@ bool is_scene(const std::filesystem::path& path) {
 MeshTask load(const MeshOptions& options) {
     if (!is_scene(options.input)) return {read_nrrd(options.input), {}, {}};
     const Scene scene = read_scene(load_json(options.input), options.input);
+    if (!options.quiet) {
+        for (const std::string& warning : scene.warnings)
+            fmt::print(stderr, "lamina: {}\n", warning);
+    }
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
     }

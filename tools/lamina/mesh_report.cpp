@@ -66,6 +66,9 @@ Json describe(const TetMesh& mesh) {
     info["edge_ratio"] = nullptr;  // infinite: an edge without length
     if (std::isfinite(ratio)) info["edge_ratio"] = ratio;
     info["convex"] = convex(mesh);
+    info["split_cells"] = findings.cells.split;
+    info["skipped_cells"] = findings.cells.skipped;
+    info["straightened_cells"] = findings.cells.straightened;
     return info;
 }
 
@@ -80,17 +83,12 @@ CodedImage picture_of(const TetMesh& mesh) {
 nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png) {
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
-    MeshData data = read_mesh(file);
-    const std::int64_t split = data.split_cells, skipped = data.skipped_cells;
-    const TetMesh mesh(std::move(data), file);
+    const TetMesh mesh(read_mesh(file), file);
     if (picture) {
         write_png(*picture, picture_of(mesh));
         picture->commit();
     }
-    Json info = describe(mesh);
-    info["split_cells"] = split;
-    info["skipped_cells"] = skipped;
-    return info;
+    return describe(mesh);
 }
 
 }  // namespace lamina

@@ -106,6 +106,7 @@ class MeshTraceJob : public RenderJob {
         stats.counts["nonmanifold_faces"] = findings.nonmanifold_faces;
         stats.counts["folded_faces"] = findings.folded_faces;
         stats.counts["non_finite_values"] = facts_.non_finite;
+        count_cells(findings.cells, stats);
         if (data_->averaged) {
             stats.counts["averaged_arrays"] = 1;
             request_.message(fmt::format("\"{}\" is cell data: averaged to points", facts_.scalar));
@@ -116,6 +117,20 @@ class MeshTraceJob : public RenderJob {
                             facts_.non_finite));
         }
         if (data_->report) report_made(*data_->report, stats);
+    }
+
+    void count_cells(const CellCounts& cells, RenderStats& stats) const {
+        stats.counts["split_cells"] = cells.split;
+        stats.counts["skipped_cells"] = cells.skipped;
+        stats.counts["straightened_cells"] = cells.straightened;
+        if (cells.skipped > 0) {
+            request_.message(
+                fmt::format("{} cells have no volume and are not drawn", cells.skipped));
+        }
+        if (cells.straightened > 0) {
+            request_.message(
+                fmt::format("{} quadratic tets are drawn with straight edges", cells.straightened));
+        }
     }
 
     void report_made(const MeshReport& report, RenderStats& stats) const {
