@@ -20,6 +20,8 @@ namespace {
 // Ends of segments are good to this many epsilons of the largest distance and coordinate on the ray
 // (mesh/ray_walk.cpp: 8 for a corner's place, as much for weights and parameter).
 constexpr double place_epsilons = 16;
+// Interpolated scalars to this many epsilons of the values at the corners.
+constexpr double value_epsilons = 64;
 
 struct RowTotals {
     double error_estimate = 0;
@@ -86,7 +88,20 @@ class RowTracer {
             front += (back - front) * (-from / (segment.out.at - from));
             from = 0;
         }
-        sum.add(front, back, (segment.out.at - from) * world_per_z);
+        sum.add(front, back, (segment.out.at - from) * world_per_z, slack_of(segment.tet));
+    }
+
+    // How far interpolation may be off inside a tet; constant ones are exact.
+    double slack_of(std::int32_t tet) const {
+        double lo = INFINITY, hi = -INFINITY;
+        for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(tet)]) {
+            const double value = scalar_[static_cast<std::size_t>(corner)];
+            lo = std::min(lo, value);
+            hi = std::max(hi, value);
+        }
+        if (lo == hi) return 0;
+        return value_epsilons * std::numeric_limits<double>::epsilon() *
+               std::max(std::abs(lo), std::abs(hi));
     }
 
     const TetMesh& mesh_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
@@ -16,8 +15,6 @@ namespace {
 constexpr double least_transmittance = 1e-17;
 // Of a segment's colour and opacity, relative (optics/segment_integral.h).
 constexpr double segment_error = 1e-13;
-// Interpolated scalars are good to some epsilons of the values at the corners.
-constexpr double value_epsilons = 64;
 
 }  // namespace
 
@@ -29,11 +26,8 @@ SegmentSum::SegmentSum(const TransferFunction& transfer_function,
       brightest_(std::max(1.0, intervals.brightest())),
       depth_limit_(std::log(brightest_ / least_transmittance)) {}
 
-void SegmentSum::add(double front, double back, double length) {
+void SegmentSum::add(double front, double back, double length, double slack) {
     const auto [lo, hi] = std::minmax(front, back);
-    const double slack = lo == hi ? 0
-                                  : value_epsilons * std::numeric_limits<double>::epsilon() *
-                                        std::max(std::abs(lo), std::abs(hi));
     if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
     const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
@@ -41,15 +35,15 @@ void SegmentSum::add(double front, double back, double length) {
     color_ += transmittance * segment.color;
     // An end that is off moves this much depth from one side of it to the other.
     const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
-    error_ += transmittance *
-              (brightest_ * (segment_error * segment.alpha + moved) +
-               (hi - lo > slack ? 0 : value_error(lo - slack, hi + slack, segment.alpha, length)));
+    error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
+    if (hi - lo <= slack && slack > 0)
+        error_ += transmittance * side_error(lo - slack, hi + slack, segment.alpha, length);
     add_depth(segment.optical_depth);
 }
 
 // What it would change if a segment's scalar, all but constant, were elsewhere in [lo, hi]: its
 // rounding may choose the side of a step of the transfer function.
-double SegmentSum::value_error(double lo, double hi, double alpha, double length) const {
+double SegmentSum::side_error(double lo, double hi, double alpha, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
     const glm::dvec3 color = glm::abs(above.color - below.color);
@@ -67,7 +61,8 @@ double SegmentSum::alpha() const {
 }
 
 double SegmentSum::error_estimate() const {
-    return error_ + (opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0);
+    const double hidden = opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0;
+    return std::min(brightest_, error_ + hidden);  // no channel can be farther off
 }
 
 }  // namespace lamina

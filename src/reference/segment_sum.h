@@ -17,8 +17,9 @@ class SegmentSum {
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
                double place_error);
 
-    // The next segment: the scalar runs linearly from `front` to `back` over `length` world units.
-    void add(double front, double back, double length);
+    // The next segment: the scalar runs linearly from `front` to `back` over `length` world units;
+    // both may be off by `slack`.
+    void add(double front, double back, double length, double slack);
 
     // True once what follows is lost in rounding.
     bool opaque() const { return depth_ + depth_rest_ >= depth_limit_; }
@@ -29,7 +30,7 @@ class SegmentSum {
     std::int64_t segments() const { return segments_; }
 
   private:
-    double value_error(double lo, double hi, double alpha, double length) const;
+    double side_error(double lo, double hi, double alpha, double length) const;
     void add_depth(double depth);
 
     const TransferFunction& transfer_function_;

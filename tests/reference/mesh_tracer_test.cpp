@@ -142,6 +142,27 @@ TEST(MeshTracer, NothingLeaksThroughEdgesAndPoints) {
     EXPECT_EQ(inside, 15 * 16);
 }
 
+// Rays along which the scalar is constant, exactly where the transfer function steps from nothing
+// to opaque: rounding decides what a tet shows, and the estimate must own that it does.
+TEST(MeshTracer, EstimateCountsSidesOfSteps) {
+    const glm::dvec3 gradient(.3, .7, 0);  // the rays below run along z
+    const MeshData data =
+        test::split_box(9, 2000, 1e-3, [&](const glm::dvec3& p) { return glm::dot(gradient, p); });
+    Camera camera;
+    camera.projection = Projection::orthographic;
+    camera.center = {.4, .35, 0};
+    camera.eye = {.4, .35, 5};
+    camera.height = .25;
+    const View view(camera, 1, 1);
+    const double value = glm::dot(gradient, camera.eye);
+    const TransferFunction step =
+        TransferFunction::linear({{value, {glm::dvec3(1), 0}}, {value, {glm::dvec3(1), 3}}});
+    const MeshTraceResult result = trace(data, step, view);
+    const double shown = result.image.pixel(0, 0)[3];  // of at most 1 - exp(-3)
+    EXPECT_GE(result.error_estimate, std::max(shown, -std::expm1(-3.0) - shown) - 1e-12);
+    EXPECT_LT(trace(data, constant_extinction(3), view).error_estimate, 1e-10);
+}
+
 TEST(MeshTracer, TetsWithoutValueAreTransparent) {
     MeshData data = test::kuhn_box({1, 1, 2}, [](const glm::dvec3&) { return 0; });
     for (std::size_t i = 8; i < 12; ++i) data.point_scalars[0].values[i] = NAN;  // the plane z = 2
