@@ -107,6 +107,7 @@ class Child {
             const pid_t ended = waitpid(id_, &status, WNOHANG);
             if (ended == id_) {
                 id_ = -1;
+                check_interrupt();  // Ctrl-C ends the child as well: that is no failure of its own
                 return status;
             }
             if (ended < 0 && errno != EINTR) fail("waitpid: {}", std::strerror(errno));

@@ -77,7 +77,8 @@ class Matcher {
         for (std::size_t first = 0, end = 0; first < bucket.size(); first = end) {
             while (end < bucket.size() && bucket[end].same_face(bucket[first])) ++end;
             const std::span<const FaceKey> group = bucket.subspan(first, end - first);
-            if (group.size() > 1) mark_duplicates(group);
+            if (group.size() > 2 || (group.size() == 2 && opposite(group[0]) == opposite(group[1])))
+                mark_duplicates(group);
             counts.boundary += group.size() == 1;
             counts.nonmanifold += group.size() > 2;
             if (group.size() != 2) continue;
@@ -105,13 +106,16 @@ class Matcher {
     // Tets over one face with one opposite corner are the same tet. Each is met in the bucket of
     // its least corner alone (the face opposite the largest), so that no two tasks write one mark.
     void mark_duplicates(std::span<const FaceKey> group) {
-        for (std::size_t i = 1; i < group.size(); ++i) {
-            const Tet& tet = tets_[static_cast<std::size_t>(group[i].tet())];
-            if (opposite(group[i]) != *std::max_element(tet.begin(), tet.end())) continue;
-            for (std::size_t j = 0; j < i; ++j) {
-                if (opposite(group[i]) == opposite(group[j]))
-                    duplicate_[static_cast<std::size_t>(group[i].tet())] = 1;
-            }
+        std::vector<FaceKey> by_apex(group.begin(), group.end());
+        std::sort(by_apex.begin(), by_apex.end(), [&](const FaceKey& a, const FaceKey& b) {
+            return std::pair(opposite(a), a.code) < std::pair(opposite(b), b.code);
+        });
+        for (std::size_t i = 1; i < by_apex.size(); ++i) {
+            const std::int32_t apex = opposite(by_apex[i]);
+            const Tet& tet = tets_[static_cast<std::size_t>(by_apex[i].tet())];
+            if (apex == opposite(by_apex[i - 1]) &&
+                apex == *std::max_element(tet.begin(), tet.end()))
+                duplicate_[static_cast<std::size_t>(by_apex[i].tet())] = 1;
         }
     }
 

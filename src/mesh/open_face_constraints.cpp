@@ -2,14 +2,17 @@
 #include "mesh/open_face_constraints.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "base/error.h"
 #include "base/parallel.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::int64_t grain = 256;        // faces that are looked at in one task
-constexpr std::size_t faces_per_run = 32;  // exits whose pairs are one task
+constexpr std::int64_t grain = 256;             // faces that are looked at in one task
+constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
+constexpr std::size_t most_pairs = 50'000'000;  // some 1 GB with the order's own lists
 
 FaceTree::Box box_of(const Triangle& triangle) {
     FaceTree::Box box = FaceTree::nothing();
@@ -51,12 +54,22 @@ void OpenFaceConstraints::look_from(const Eye& eye) {
 
 std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     look_from(eye);
+    std::atomic<std::size_t> total{0};
     parallel_for(static_cast<std::int64_t>(found_.size()), 1, [&](std::int64_t index) {
         const auto run = static_cast<std::size_t>(index);
         found_[run].clear();
         const std::size_t end = std::min(seen_.size(), (run + 1) * faces_per_run);
         for (std::size_t face = run * faces_per_run; face < end; ++face) {
-            if (signs_[face] > 0) find_from(static_cast<std::int32_t>(face), eye, found_[run]);
+            if (signs_[face] <= 0) continue;
+            const std::size_t before = found_[run].size();
+            find_from(static_cast<std::int32_t>(face), eye, found_[run]);
+            const std::size_t added = found_[run].size() - before;
+            if (total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
+                fail(
+                    "more than {} pairs of open faces are seen one through the other: the exact "
+                    "order is not for a mesh with so many gaps, mpvo is",
+                    most_pairs);
+            }
         }
     });
     all_.clear();

@@ -17,8 +17,12 @@ namespace {
 constexpr std::int64_t grain = 4096;                     // tets a task
 constexpr std::size_t most_tets = std::size_t{1} << 29;  // four faces each must fit 32 bits
 
-bool finite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+// Products of three coordinates must stay numbers (mesh/predicates.h).
+constexpr double largest_coordinate = 1e100;
+
+bool usable(const glm::dvec3& p) {
+    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate &&
+           std::abs(p.z) <= largest_coordinate;  // false for NaN
 }
 
 bool repeats_corner(Tet corners) {
@@ -98,8 +102,9 @@ void TetMesh::check_points(const std::string& name) {
             continue;
         }
         const glm::dvec3& p = points_[i];
-        if (!finite(p))
-            fail("{}: point {} is ({}, {}, {}), expected finite numbers", name, i, p.x, p.y, p.z);
+        if (!usable(p))
+            fail("{}: point {} is ({}, {}, {}), expected finite numbers up to 1e100", name, i, p.x,
+                 p.y, p.z);
         bounds_.min = glm::min(bounds_.min, p);
         bounds_.max = glm::max(bounds_.max, p);
     }

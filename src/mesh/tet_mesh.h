@@ -38,8 +38,8 @@ class TetMesh {
     static constexpr std::int32_t no_neighbor = -1;
 
     // `name`: of the file, for messages. Throws Error for a mesh without tets, corner indices out
-    // of range, points that are no finite numbers (where a tet uses them). Runs on all cores, in
-    // some 130 bytes a tet beside the mesh itself.
+    // of range, points that are no finite numbers or beyond 1e100 (where a tet uses them). Runs on
+    // all cores, in some 130 bytes a tet beside the mesh itself.
     TetMesh(MeshData data, const std::string& name);
 
     std::span<const glm::dvec3> points() const { return points_; }

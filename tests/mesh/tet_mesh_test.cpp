@@ -115,6 +115,16 @@ TEST(TetMesh, CountsWhatIsWrong) {
     EXPECT_TRUE(std::isfinite(mesh.bounds().max.z));
 }
 
+// As many copies as a file may hold: found by sorting, not pair by pair.
+TEST(TetMesh, DropsManyCopies) {
+    MeshData data = test::kuhn_box({1, 1, 1}, height);
+    data.tets.insert(data.tets.end(), 300000, data.tets[4]);
+    const TetMesh mesh(data, "copies");
+    EXPECT_EQ(mesh.tets().size(), 6u);
+    EXPECT_EQ(mesh.findings().duplicates, 300000);
+    EXPECT_EQ(mesh.findings().boundary_faces, 12);
+}
+
 // Two tets on one side of their common face, and three on one face.
 TEST(TetMesh, CutsFoldedAndNonmanifoldFaces) {
     MeshData data;
@@ -158,6 +168,8 @@ TEST(TetMesh, RejectsBadInput) {
     data = test::kuhn_box({1, 1, 1}, height);
     data.points[3].y = NAN;
     expect_error([&] { build(data); }, {"point 3", "finite"});
+    data.points[3].y = -2e100;
+    expect_error([&] { build(data); }, {"point 3", "up to 1e100"});
     data.tets.clear();
     expect_error([&] { build(data); }, {"no tetrahedra"});
     data.tets = {{1, 1, 2, 3}};

@@ -59,6 +59,8 @@ class MeshOutput {
         } else {
             write_node(*file_, mesh);
             write_ele(*elements_, mesh);
+            file_->close_stream();  // both are complete before either gets its name
+            elements_->close_stream();
             elements_->commit();
         }
         file_->commit();

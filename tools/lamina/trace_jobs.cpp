@@ -135,10 +135,11 @@ class MeshTraceJob : public RenderJob {
 
     void report_made(const MeshReport& report, RenderStats& stats) const {
         stats.mesh_error = report.relative_error();
-        if (report.stopped_by_max_tets) {
+        if (!report.within_tolerance && !request_.scene.mesh_request->kuhn) {
             request_.message(fmt::format(
-                "the mesh stopped at max_tets with {} tets: it differs from the volume by up to "
-                "{:.3g} of the range of values, wanted {:.3g}",
+                "the mesh stopped {} with {} tets: it differs from the volume by up to {:.3g} of "
+                "the range of values, wanted {:.3g}",
+                report.stopped_by_max_tets ? "at max_tets" : "where points would lie too close",
                 report.tets, report.relative_error(), request_.scene.mesh_request->tolerance));
         }
     }
