@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "base/compensated_sum.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -168,24 +169,22 @@ void Refinement::begin() {
 DelaunayTets Refinement::tetrahedralize() const {
     DelaunayTets mesh = delaunay_(points_.points());
     std::vector<bool> used(points_.size(), false);
-    double volume = 0, rest = 0;  // Neumaier's sum
+    CompensatedSum sum;
     std::int64_t bad = 0;
     for (const Tet& tet : mesh.tets) {
         const double part = volume_of(points_.corners(tet));
         if (!(part > 0)) ++bad;
-        const double sum = volume + part;
-        rest += std::abs(volume) >= part ? (volume - sum) + part : (part - sum) + volume;
-        volume = sum;
+        sum.add(part);
         for (const std::int32_t corner : tet) used[corner] = true;
     }
     const auto unused = std::count(used.begin(), used.end(), false);
     const glm::dvec3 size = field_.max() - field_.min();
-    const double expected = size.x * size.y * size.z;
-    if (bad > 0 || unused > 0 || std::abs(volume + rest - expected) > 1e-12 * expected) {
+    const double volume = sum.value(), expected = size.x * size.y * size.z;
+    if (bad > 0 || unused > 0 || std::abs(volume - expected) > 1e-12 * expected) {
         fail(
             "the tetrahedra of {} points do not fill the box: volume {} of {}, {} tets without "
             "positive volume, {} points left out",
-            points_.size(), volume + rest, expected, bad, unused);
+            points_.size(), volume, expected, bad, unused);
     }
     return mesh;
 }

@@ -16,20 +16,18 @@ constexpr std::array<Tet, 6> cell_tets{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
 void check_size(const TrilinearField& field, std::int64_t max_tets) {
-    // In double: the products of a volume that fits into memory can pass 2^63.
-    double points = 1, tets = 6;
-    for (int axis = 0; axis < 3; ++axis) {
-        points *= static_cast<double>(field.planes(axis).size());
-        tets *= field.cell_count(axis);
-    }
-    if (tets > static_cast<double>(max_tets)) {
+    const std::int64_t tets = kuhn_tet_count(field);
+    if (tets > max_tets) {
         fail(
-            "the Kuhn split of {} x {} x {} cells has {:.0f} tets, more than the {} allowed "
+            "the Kuhn split of {} x {} x {} cells has {} tets, more than the {} allowed "
             "(--max-tets, mesh.max_tets)",
             field.cell_count(0), field.cell_count(1), field.cell_count(2), tets, max_tets);
     }
+    std::int64_t points = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        points *= static_cast<std::int64_t>(field.planes(axis).size());
     if (points > std::numeric_limits<std::int32_t>::max()) {
-        fail("the Kuhn split has {:.0f} points: expected fewer than 2^31", points);
+        fail("the Kuhn split has {} points: expected fewer than 2^31", points);
     }
 }
 

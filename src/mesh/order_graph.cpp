@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "mesh/seen_area.h"
 
 namespace lamina {
@@ -23,13 +22,10 @@ OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps)
 
 void OrderGraph::look_from(const Eye& eye) {
     eye_ = eye;
-    const Stopwatch watch;
     find_signs();
-    face_milliseconds_ = watch.milliseconds();
     if (!gaps_) return;
     gap_edges_ = gaps_->find(eye);
     link_gaps();
-    gap_milliseconds_ = watch.milliseconds() - face_milliseconds_;
 }
 
 void OrderGraph::find_signs() {

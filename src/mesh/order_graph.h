@@ -51,10 +51,6 @@ class OrderGraph {
     // How large the face, or the overlap of the two open faces, looks (seen_area.h).
     double area(std::int32_t tet, std::int32_t edge) const;
 
-    std::int64_t gap_edge_count() const { return static_cast<std::int64_t>(gap_edges_.size()); }
-    double face_milliseconds() const { return face_milliseconds_; }
-    double gap_milliseconds() const { return gap_milliseconds_; }
-
   private:
     static constexpr std::int32_t faces = 4;
     static std::int32_t shifted(std::int32_t gap) { return gap < 0 ? no_edge : gap + faces; }
@@ -76,7 +72,6 @@ class OrderGraph {
     std::span<const OpenFaceConstraint> gap_edges_;
     std::vector<std::int32_t> first_gap_;  // of a tet's list, or -1; empty without gaps
     std::vector<std::int32_t> next_gap_;   // in the list of the same tet, or -1
-    double face_milliseconds_ = 0, gap_milliseconds_ = 0;
 };
 
 }  // namespace lamina

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/double_double.h"
+
 namespace lamina {
 namespace {
 
@@ -13,21 +15,6 @@ constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
 // His error bound for orient3d with rounded differences ("o3derrboundA"): of the permanent.
 constexpr double error_bound = (7 + 56 * half_ulp) * half_ulp;
 
-struct Sum {
-    double value, rest;  // exactly value + rest
-};
-
-Sum two_sum(double a, double b) {
-    const double sum = a + b;
-    const double b_part = sum - a;
-    return {sum, (a - (sum - b_part)) + (b - b_part)};
-}
-
-Sum two_product(double a, double b) {
-    const double product = a * b;
-    return {product, std::fma(a, b, -product)};
-}
-
 // A sum of doubles without any rounding: nonoverlapping components, smallest first (Shewchuk,
 // GROW-EXPANSION with zero elimination).
 class Expansion {
@@ -35,20 +22,20 @@ class Expansion {
     void add(double term) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < count_; ++i) {
-            const Sum sum = two_sum(term, components_[i]);
-            if (sum.rest != 0) components_[kept++] = sum.rest;
-            term = sum.value;
+            const DoubleDouble sum = exact_sum(term, components_[i]);
+            if (sum.lo != 0) components_[kept++] = sum.lo;
+            term = sum.hi;
         }
         if (term != 0) components_[kept++] = term;
         count_ = kept;
     }
     void add_product(double a, double b, double c) {
         if (a == 0 || b == 0 || c == 0) return;
-        const Sum ab = two_product(a, b);
-        for (const double factor : {ab.rest, ab.value}) {
-            const Sum abc = two_product(factor, c);
-            add(abc.rest);
-            add(abc.value);
+        const DoubleDouble ab = exact_product(a, b);
+        for (const double factor : {ab.lo, ab.hi}) {
+            const DoubleDouble abc = exact_product(factor, c);
+            add(abc.lo);
+            add(abc.hi);
         }
     }
     int sign() const {
@@ -62,19 +49,18 @@ class Expansion {
     std::size_t count_ = 0;
 };
 
-using ExactVector = std::array<Sum, 3>;
+using ExactVector = std::array<DoubleDouble, 3>;
 
 ExactVector exact_difference(const glm::dvec3& a, const glm::dvec3& b) {
-    return {two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
+    return {exact_sum(a.x, -b.x), exact_sum(a.y, -b.y), exact_sum(a.z, -b.z)};
 }
 
 int exact_sign(const ExactVector& a, const ExactVector& b, const ExactVector& c) {
     Expansion determinant;
     const auto add = [&](std::size_t i, std::size_t j, std::size_t k, double sign) {
-        for (const double x : {a[i].value, a[i].rest})
-            for (const double y : {b[j].value, b[j].rest})
-                for (const double z : {c[k].value, c[k].rest})
-                    determinant.add_product(sign * x, y, z);
+        for (const double x : {a[i].hi, a[i].lo})
+            for (const double y : {b[j].hi, b[j].lo})
+                for (const double z : {c[k].hi, c[k].lo}) determinant.add_product(sign * x, y, z);
     };
     add(0, 1, 2, 1), add(1, 2, 0, 1), add(2, 0, 1, 1);
     add(0, 2, 1, -1), add(1, 0, 2, -1), add(2, 1, 0, -1);

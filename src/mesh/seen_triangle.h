@@ -30,7 +30,6 @@ class SeenTriangle {
     // As sign_as_seen (face_signs.h), for a face of a tet: 1 an exit, through which rays leave the
     // tet; -1 an entry; 0 edge-on.
     int sign() const { return sign_; }
-    const Triangle& corners() const { return corners_; }
 
     // Of an exit: is a part of `entry`, of positive area as seen from the eye, seen through it and
     // on it or behind it? Exact for triangles that do not cut one another; where they do, true if a

@@ -8,7 +8,6 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/view_distance.h"
 
@@ -50,14 +49,9 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye) {
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
-        report_.face_ms = graph_->face_milliseconds();
-        report_.gap_ms = graph_->gap_milliseconds();
-        report_.gap_constraints = graph_->gap_edge_count();
         farthest_first_ ? sort_farthest_first() : sort_topologically();
     } else if (method_ == OrderMethod::centroid) {
-        const Stopwatch watch;
         sort_centroids(eye);
-        report_.sort_ms = watch.milliseconds();
     }
     return order_;
 }
@@ -81,9 +75,7 @@ void VisibilityOrder::sort_centroids(const Eye& eye) {
 }
 
 void VisibilityOrder::sort_farthest_first() {
-    const Stopwatch watch;
     const std::int64_t broken = farthest_first_->sort(*graph_, order_);
-    report_.sort_ms = watch.milliseconds();
     if (broken == 0) return;
     find_cycles();  // for the report: the order stays the search's
     report_.broken = broken;
@@ -91,9 +83,7 @@ void VisibilityOrder::sort_farthest_first() {
 }
 
 void VisibilityOrder::sort_topologically() {
-    const Stopwatch watch;
     const std::size_t drawn = draw_free();
-    report_.sort_ms = watch.milliseconds();
     if (drawn == order_.size()) return;
     find_cycles();
     const auto rest = cycles_.sequence();
@@ -129,13 +119,11 @@ std::size_t VisibilityOrder::draw_free() {
 }
 
 void VisibilityOrder::find_cycles() {
-    const Stopwatch watch;
     const OrderCycles::Found found = cycles_.order(*graph_);
     report_.cycles = found.cycles;
     report_.cyclic_tets = found.cyclic_tets;
     report_.broken = found.broken.edges;
     report_.broken_area = found.broken.area;
-    report_.cycle_ms = watch.milliseconds();
 }
 
 }  // namespace lamina

@@ -31,12 +31,6 @@ struct OrderReport {
                               // (mpvo of a nonconvex mesh)
     double broken_area = 0;   // exact: the seen area (seen_area.h) of these, which bounds that of
                               // the view in which the order is wrong; 0 for mpvo's guess
-    std::int64_t gap_constraints = 0;  // exact: across gaps
-    double face_ms = 0;                // the side of the eye for every face
-    double gap_ms = 0;                 // constraints across gaps
-    double sort_ms = 0;                // putting the tets in order
-    double cycle_ms = 0;               // finding and breaking cycles
-    double total_ms() const { return face_ms + gap_ms + sort_ms + cycle_ms; }
 };
 
 // Tets in the order in which they are to be composited, for one eye after the other. Takes its

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "reference/double_double.h"
+#include "base/double_double.h"
 
 namespace lamina {
 namespace {

@@ -83,7 +83,7 @@ void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& sca
     ++pieces_;
     const EmissionPiece piece = make_piece(interval, scalar, length);
     const double depth = std::max(0.0, piece.depth(1));
-    const double transmittance = std::exp(-(depth_ + depth_rest_));
+    const double transmittance = std::exp(-depth_.value());
     color_ += transmittance * opacity_from_depth(depth) * interval.at_lo.color;
     const double reach = transmittance * interval.color_span;
     if (reach > 0) {
@@ -92,13 +92,7 @@ void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& sca
         color_ += transmittance * emission.value * interval.color_change;
         error_ += reach * emission.error;
     }
-    add_depth(depth);
-}
-
-void RayIntegrator::add_depth(double depth) {
-    const double sum = depth_ + depth;
-    depth_rest_ += depth_ >= depth ? (depth_ - sum) + depth : (depth - sum) + depth_;
-    depth_ = sum;
+    depth_.add(depth);
 }
 
 glm::dvec3 RayIntegrator::color() const {
@@ -107,11 +101,11 @@ glm::dvec3 RayIntegrator::color() const {
 }
 
 double RayIntegrator::alpha() const {
-    return opacity_from_depth(depth_ + depth_rest_);
+    return opacity_from_depth(depth_.value());
 }
 
 double RayIntegrator::error_estimate() const {
-    return error_ + (opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0);
+    return error_ + (opaque() ? brightest_ * std::exp(-depth_.value()) : 0);
 }
 
 }  // namespace lamina

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "base/compensated_sum.h"
 #include "reference/cubic.h"
 #include "reference/transfer_intervals.h"
 
@@ -23,7 +24,7 @@ class RayIntegrator {
     void add(const Cubic& scalar, double lo, double hi, double length);
 
     // True once what follows cannot matter: segments need no longer be added.
-    bool opaque() const { return depth_ + depth_rest_ >= depth_limit_; }
+    bool opaque() const { return depth_.value() >= depth_limit_; }
 
     glm::dvec3 color() const;  // associated
     double alpha() const;
@@ -35,15 +36,13 @@ class RayIntegrator {
     void add_part(std::size_t interval, const Cubic& scalar, double from, double to, double start,
                   double end, double length);
     void add_piece(const TransferInterval& interval, const Cubic& scalar, double length);
-    void add_depth(double depth);
 
     const TransferIntervals& transfer_;
     double brightest_;  // at least 1, for alpha
     double depth_limit_;
     double error_per_opacity_;
     double error_per_length_;
-    double depth_ = 0;
-    double depth_rest_ = 0;  // Neumaier's compensation: thousands of cells must not lose digits
+    CompensatedSum depth_;  // thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
     std::int64_t pieces_ = 0;

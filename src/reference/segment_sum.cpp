@@ -31,14 +31,14 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
     const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
-    const double transmittance = std::exp(-(depth_ + depth_rest_));
+    const double transmittance = std::exp(-depth_.value());
     color_ += transmittance * segment.color;
     // An end that is off moves this much depth from one side of it to the other.
     const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
     error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
     if (hi - lo <= slack && slack > 0)
         error_ += transmittance * side_error(lo - slack, hi + slack, segment.alpha, length);
-    add_depth(segment.optical_depth);
+    depth_.add(segment.optical_depth);
 }
 
 // What it would change if a segment's scalar, all but constant, were elsewhere in [lo, hi]: its
@@ -50,18 +50,12 @@ double SegmentSum::side_error(double lo, double hi, double alpha, double length)
     return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);
 }
 
-void SegmentSum::add_depth(double depth) {
-    const double sum = depth_ + depth;
-    depth_rest_ += depth_ >= depth ? (depth_ - sum) + depth : (depth - sum) + depth_;
-    depth_ = sum;
-}
-
 double SegmentSum::alpha() const {
-    return opacity_from_depth(depth_ + depth_rest_);
+    return opacity_from_depth(depth_.value());
 }
 
 double SegmentSum::error_estimate() const {
-    const double hidden = opaque() ? brightest_ * std::exp(-(depth_ + depth_rest_)) : 0;
+    const double hidden = opaque() ? brightest_ * std::exp(-depth_.value()) : 0;
     return std::min(brightest_, error_ + hidden);  // no channel can be farther off
 }
 

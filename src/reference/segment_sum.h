@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "base/compensated_sum.h"
 #include "optics/transfer_function.h"
 #include "reference/transfer_intervals.h"
 
@@ -22,7 +23,7 @@ class SegmentSum {
     void add(double front, double back, double length, double slack);
 
     // True once what follows is lost in rounding.
-    bool opaque() const { return depth_ + depth_rest_ >= depth_limit_; }
+    bool opaque() const { return depth_.value() >= depth_limit_; }
 
     const glm::dvec3& color() const { return color_; }  // associated
     double alpha() const;
@@ -31,15 +32,13 @@ class SegmentSum {
 
   private:
     double side_error(double lo, double hi, double alpha, double length) const;
-    void add_depth(double depth);
 
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     double place_error_;
     double brightest_;
     double depth_limit_;
-    double depth_ = 0;
-    double depth_rest_ = 0;  // Neumaier's compensation
+    CompensatedSum depth_;  // thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
     std::int64_t segments_ = 0;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/mesh_facts.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 
@@ -14,16 +12,9 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     facts.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
     facts.scalar = mesh.scalar.name;
     facts.findings = mesh.mesh.findings();
-    ValueRange range{INFINITY, -INFINITY};
-    for (const double value : mesh.scalar.values) {
-        if (!std::isfinite(value)) {
-            ++facts.non_finite;
-            continue;
-        }
-        range.lo = std::min(range.lo, value);
-        range.hi = std::max(range.hi, value);
-    }
-    facts.range = range;
+    const ScalarRange found = measure_range(mesh.scalar.values);
+    facts.range = found.range;
+    facts.non_finite = found.non_finite;
     const std::string file = scene.mesh_file.string();
     if (facts.range.empty())
         fail("{}: all {} values of \"{}\" are NaN or infinite", file, facts.points, facts.scalar);

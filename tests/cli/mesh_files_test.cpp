@@ -10,7 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "cli/run_program.h"
+#include "cli/lamina_run.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -60,10 +60,6 @@ class MeshFiles : public testing::Test {
         if (!volume.is_null()) scene["volume"] = volume;
         write(name, scene.dump());
     }
-    static ProgramResult lamina(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), LAMINA_BINARY);
-        return run_program(arguments);
-    }
 
   private:
     TemporaryFolder folder_;
@@ -71,7 +67,7 @@ class MeshFiles : public testing::Test {
 
 TEST_F(MeshFiles, InfoDescribesAMesh) {
     const ProgramResult result =
-        lamina({"info", path("cube.ele"), "--json", "--png", path("cube.png")});
+        lamina_run({"info", path("cube.ele"), "--json", "--png", path("cube.png")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json info = json::parse(result.out);
     EXPECT_EQ(info["kind"], "mesh");
@@ -95,7 +91,7 @@ TEST_F(MeshFiles, InfoDescribesAMesh) {
 TEST_F(MeshFiles, AreTracedInDoublePrecision) {
     write_scene("s.json", "cube.node");
     const ProgramResult result =
-        lamina({"render", path("s.json"), "-o", path("s.npy"), "--stats", path("stats.json")});
+        lamina_run({"render", path("s.json"), "-o", path("s.npy"), "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string npy = read(path("s.npy"));
     ASSERT_EQ(npy.size(), 128 + 4 * 4 * 4 * sizeof(double));
@@ -111,15 +107,16 @@ TEST_F(MeshFiles, AreTracedInDoublePrecision) {
 }
 
 TEST_F(MeshFiles, AndSceneMeshesAreTheSame) {
-    ASSERT_EQ(lamina({"generate", "gaussians", "--size", "9,8,7", "-o", path("g.nrrd")}).exit_code,
-              0);
-    const ProgramResult made = lamina({"mesh", path("g.nrrd"), "-o", path("g.vtu"), "--kuhn"});
+    ASSERT_EQ(
+        lamina_run({"generate", "gaussians", "--size", "9,8,7", "-o", path("g.nrrd")}).exit_code,
+        0);
+    const ProgramResult made = lamina_run({"mesh", path("g.nrrd"), "-o", path("g.vtu"), "--kuhn"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     write_scene("v.json", {{"kuhn", true}}, "g.nrrd");
     write_scene("m.json", "g.vtu");
     for (const std::string name : {"v", "m"}) {
         const ProgramResult result =
-            lamina({"render", path(name + ".json"), "-o", path(name + ".npy")});
+            lamina_run({"render", path(name + ".json"), "-o", path(name + ".npy")});
         ASSERT_EQ(result.exit_code, 0) << result.err;
     }
     EXPECT_EQ(read(path("v.npy")), read(path("m.npy")));
@@ -128,13 +125,13 @@ TEST_F(MeshFiles, AndSceneMeshesAreTheSame) {
 TEST_F(MeshFiles, BadOnesAreOneLineAndLeaveNothing) {
     write("cube.ele", "1 4 0\n0 0 1 3 8\n");
     write_scene("s.json", "cube.node");
-    const ProgramResult result = lamina({"render", path("s.json"), "-o", path("s.exr")});
+    const ProgramResult result = lamina_run({"render", path("s.json"), "-o", path("s.exr")});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.err.find("cube.ele"), std::string::npos) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
     EXPECT_FALSE(std::filesystem::exists(path("s.exr")));
-    EXPECT_EQ(lamina({"info", path("none.vtu")}).exit_code, 1);
-    EXPECT_EQ(lamina({"info", path("s.json")}).exit_code, 1);
+    EXPECT_EQ(lamina_run({"info", path("none.vtu")}).exit_code, 1);
+    EXPECT_EQ(lamina_run({"info", path("s.json")}).exit_code, 1);
 }
 
 // What is not drawn as the file has it is said: the mid-edge points of a quadratic tet.
@@ -145,7 +142,7 @@ TEST_F(MeshFiles, WhatIsLeftOutIsCounted) {
     write("q.ele", "1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n");
     write_scene("q.json", "q.node");
     const ProgramResult result =
-        lamina({"render", path("q.json"), "-o", path("q.exr"), "--stats", path("stats.json")});
+        lamina_run({"render", path("q.json"), "-o", path("q.exr"), "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_NE(result.err.find("1 quadratic tets are drawn with straight edges"), std::string::npos);
     EXPECT_EQ(json::parse(read(path("stats.json")))["counts"]["straightened_cells"], 1);

@@ -4,18 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/run_program.h"
+#include "cli/lamina_run.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
 namespace {
 
 using nlohmann::json;
-
-ProgramResult lamina_run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), LAMINA_BINARY);
-    return run_program(arguments);
-}
 
 bool with_tetgen() {
     return !std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty();

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/atomic_file.h"
 #include "file_report.h"
 #include "image/png.h"
+#include "json_vector.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 namespace {
@@ -17,29 +18,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr int panel_side = 480;  // pixels
 
-Json json_of(const glm::dvec3& vector) {
-    return Json::array({vector.x, vector.y, vector.z});
-}
-
-ValueRange range_of(const std::vector<double>& values) {
-    ValueRange range{INFINITY, -INFINITY};
-    for (const double value : values) {
-        if (!std::isfinite(value)) continue;
-        range.lo = std::min(range.lo, value);
-        range.hi = std::max(range.hi, value);
-    }
-    return range;
-}
-
 Json describe(std::span<const MeshScalar> scalars) {
     Json list = Json::array();
     for (const MeshScalar& scalar : scalars) {
-        const ValueRange range = range_of(scalar.values);
-        const auto finite = std::count_if(scalar.values.begin(), scalar.values.end(),
-                                          [](double value) { return std::isfinite(value); });
+        const auto [range, non_finite] = measure_range(scalar.values);
         Json entry{{"name", scalar.name}, {"range", nullptr}};  // null: no finite value
         if (!range.empty()) entry["range"] = Json::array({range.lo, range.hi});
-        entry["nan_count"] = static_cast<std::int64_t>(scalar.values.size()) - finite;
+        entry["nan_count"] = non_finite;
         list.push_back(entry);
     }
     return list;
@@ -52,7 +37,8 @@ Json describe(const TetMesh& mesh) {
     info["kind"] = "mesh";
     info["points"] = mesh.points().size();
     info["tets"] = findings.tets_read;
-    info["bounds"] = {{"min", json_of(mesh.bounds().min)}, {"max", json_of(mesh.bounds().max)}};
+    info["bounds"] = {{"min", json_vector(mesh.bounds().min)},
+                      {"max", json_vector(mesh.bounds().max)}};
     info["scalars"] = describe(mesh.point_scalars());
     info["cell_scalars"] = describe(mesh.cell_scalars());
     info["boundary_faces"] = findings.boundary_faces;
@@ -75,7 +61,7 @@ Json describe(const TetMesh& mesh) {
 CodedImage picture_of(const TetMesh& mesh) {
     if (mesh.point_scalars().empty()) return mesh_picture(mesh, {}, {0, 0}, panel_side);
     const std::vector<double>& values = mesh.point_scalars().front().values;
-    return mesh_picture(mesh, values, range_of(values), panel_side);
+    return mesh_picture(mesh, values, measure_range(values).range, panel_side);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "mesh/mesh_file.h"
@@ -117,11 +118,6 @@ struct Outcome {
     OrderPixels pixels;
     std::int64_t cycles = 0, cyclic_tets = 0;  // the most in one view
 
-    double median() const {
-        std::vector<double> sorted = ms;
-        std::sort(sorted.begin(), sorted.end());
-        return 0.5 * (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]);
-    }
     double wrong_share() const {
         return pixels.covered > 0
                    ? static_cast<double>(pixels.wrong) / static_cast<double>(pixels.covered)
@@ -172,7 +168,7 @@ std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& si
 
 Json as_json(const Outcome& outcome, OrderMethod method, std::size_t tets) {
     Json json{{"order", name_of(method)},
-              {"ms", outcome.median()},
+              {"ms", median(outcome.ms)},
               {"tets_per_second", nullptr},
               {"face_violations", outcome.violations},
               {"covered_pixels", outcome.pixels.covered},
@@ -182,7 +178,7 @@ Json as_json(const Outcome& outcome, OrderMethod method, std::size_t tets) {
               {"cycles", outcome.cycles},
               {"cyclic_tets", outcome.cyclic_tets}};
     if (method != OrderMethod::none)
-        json["tets_per_second"] = 1e3 * static_cast<double>(tets) / outcome.median();
+        json["tets_per_second"] = 1e3 * static_cast<double>(tets) / median(outcome.ms);
     return json;
 }
 
@@ -207,9 +203,9 @@ void print_table(const Input& input, const std::vector<Outcome>& outcomes, int e
         const std::string speed =
             methods[i] == OrderMethod::none
                 ? "-"
-                : fmt::format("{:.3g}", 1e-3 * static_cast<double>(tets) / outcome.median());
+                : fmt::format("{:.3g}", 1e-3 * static_cast<double>(tets) / median(outcome.ms));
         fmt::print("{:<10}{:>9.3g}{:>15}{:>14}{:>12.3g} %{:>16}{:>8}{:>13}\n", name_of(methods[i]),
-                   outcome.median(), speed, outcome.violations, 100 * outcome.wrong_share(),
+                   median(outcome.ms), speed, outcome.violations, 100 * outcome.wrong_share(),
                    outcome.pixels.outside_cycles, outcome.cycles, outcome.cyclic_tets);
     }
     fmt::print(

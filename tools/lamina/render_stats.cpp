@@ -5,16 +5,12 @@
 
 #include <algorithm>
 
+#include "base/median.h"
+
 namespace lamina {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t middle = values.size() / 2;
-    return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 double peak_rss_mb() {
     rusage usage{};

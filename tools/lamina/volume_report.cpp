@@ -4,6 +4,7 @@
 #include "base/atomic_file.h"
 #include "file_report.h"
 #include "image/png.h"
+#include "json_vector.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/nrrd.h"
@@ -12,10 +13,6 @@ namespace lamina {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json json_of(const glm::dvec3& vector) {
-    return Json::array({vector.x, vector.y, vector.z});
-}
 
 // One word where all axes agree, else one word an axis.
 Json json_of(const std::array<Centering, 3>& centering) {
@@ -32,7 +29,7 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks) {
     info["size"] = grid.size;
     info["type"] = name_of(volume.type());
     info["centers"] = json_of(grid.centering);
-    info["bounds"] = {{"min", json_of(bounds.min)}, {"max", json_of(bounds.max)}};
+    info["bounds"] = {{"min", json_vector(bounds.min)}, {"max", json_vector(bounds.max)}};
     info["range"] = nullptr;  // no finite value
     if (!bricks.whole.empty()) info["range"] = Json::array({bricks.whole.lo, bricks.whole.hi});
     info["nan_count"] = bricks.non_finite;

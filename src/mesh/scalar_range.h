@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// What values a scalar of a mesh has.
+struct ScalarRange {
+    ValueRange range;             // of the finite ones
+    std::int64_t non_finite = 0;  // NaN or infinite
+};
+
+inline ScalarRange measure_range(std::span<const double> values) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    ScalarRange found{{infinity, -infinity}, 0};
+    for (const double value : values) {
+        if (!std::isfinite(value)) {
+            ++found.non_finite;
+            continue;
+        }
+        found.range.lo = std::min(found.range.lo, value);
+        found.range.hi = std::max(found.range.hi, value);
+    }
+    return found;
+}
+
+}  // namespace lamina
