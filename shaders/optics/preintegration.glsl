@@ -32,7 +32,7 @@ vec4 table_layer(vec2 nodes, int layer) {
 }
 
 // Mean extinction at table nodes; it does not depend on length.
-float mean_extinction(vec2 nodes) {
+float table_extinction(vec2 nodes) {
 #if defined(TABLE_FILTERED) && defined(TABLE_COLORED)
     return texture(preintegration, vec3((nodes + 0.5) / float(TABLE_NODES), 0.0)).a;
 #elif defined(TABLE_FILTERED)
@@ -45,7 +45,7 @@ float mean_extinction(vec2 nodes) {
 // Emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
 vec4 table_entry(vec2 nodes, float world_length) {
 #ifndef TABLE_COLORED
-    return vec4(mean_extinction(nodes));
+    return vec4(table_extinction(nodes));
 #else
     float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
 #ifdef TABLE_FILTERED
@@ -75,7 +75,7 @@ void add_run(inout vec4 sum, vec2 nodes, float world_length) {
 bool is_transparent(float least, float largest) {
     vec2 nodes = vec2(table_node(interval_place(find_interval(least)), least),
                       table_node(interval_place(find_interval(largest)), largest));
-    return mean_extinction(nodes) == 0.0;
+    return table_extinction(nodes) == 0.0;
 }
 
 // Associated colour and optical depth (a) of a segment on which the scalar runs straight from `front` to `back`. The

@@ -5,6 +5,7 @@
 
 #include <cassert>
 
+#include "base/error.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -24,6 +25,21 @@ Buffer::Buffer(std::size_t byte_count) : handle_(new_buffer()) {
                          GL_DYNAMIC_STORAGE_BIT);
     check("allocating a buffer");
     bytes_ = AllocatedBytes(static_cast<std::int64_t>(byte_count));
+}
+
+Buffer Buffer::make_mapped(std::size_t byte_count) {
+    assert(byte_count > 0);
+    constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    Buffer buffer;
+    buffer.handle_ = Handle<ObjectKind::buffer>(new_buffer());
+    const auto bytes = static_cast<GLsizeiptr>(byte_count);
+    glNamedBufferStorage(buffer.id(), bytes, nullptr, access);
+    check("allocating a buffer");
+    buffer.bytes_ = AllocatedBytes(static_cast<std::int64_t>(byte_count));
+    buffer.mapped_ = static_cast<std::byte*>(glMapNamedBufferRange(buffer.id(), 0, bytes, access));
+    check("mapping a buffer");
+    if (buffer.mapped_ == nullptr) fail("mapping a buffer of {} bytes failed", byte_count);
+    return buffer;
 }
 
 void Buffer::write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset) {

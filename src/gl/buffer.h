@@ -16,6 +16,9 @@ class Buffer {
   public:
     Buffer() = default;
     explicit Buffer(std::size_t byte_count);
+    // For a stream of data: mapped from now on, and what is written through mapped() is seen by the
+    // draws that follow. The writer takes care not to change what a draw still reads (Fence).
+    static Buffer make_mapped(std::size_t byte_count);
 
     template <typename T, std::size_t extent>
     explicit Buffer(std::span<T, extent> elements) : Buffer(elements.size_bytes()) {
@@ -33,6 +36,8 @@ class Buffer {
     void bind_uniform(unsigned binding) const;
     void bind_storage(unsigned binding) const;
 
+    std::byte* mapped() const { return mapped_; }  // null where it is not; slow to read
+
     unsigned id() const { return handle_.id(); }
     std::size_t byte_count() const { return static_cast<std::size_t>(bytes_.count()); }
 
@@ -41,6 +46,7 @@ class Buffer {
 
     Handle<ObjectKind::buffer> handle_;
     AllocatedBytes bytes_;
+    std::byte* mapped_ = nullptr;
 };
 
 }  // namespace lamina::gl

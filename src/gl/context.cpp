@@ -99,6 +99,7 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.software = software || is_software_renderer(renderer);
     capabilities_.max_texture_size = largest_render_target();
     capabilities_.max_array_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
     capabilities_.framebuffer_fetch = GLAD_GL_EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
 

@@ -129,8 +129,20 @@ void Program::set(std::string_view name, const glm::vec3& value) {
     glProgramUniform3fv(id(), location(name), 1, &value.x);
 }
 
+void Program::set(std::string_view name, const glm::dvec2& value) {
+    glProgramUniform2dv(id(), location(name), 1, &value[0]);
+}
+
 void Program::set(std::string_view name, const glm::dvec3& value) {
     glProgramUniform3dv(id(), location(name), 1, &value.x);
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec2> values) {
+    glProgramUniform2fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec4> values) {
+    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
 }
 
 void Program::set(std::string_view name, const glm::vec4& value) {

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -35,7 +36,10 @@ class Program {
     void set(std::string_view name, int value);     // also a sampler's texture unit
     void set(std::string_view name, const glm::vec2& value);
     void set(std::string_view name, const glm::vec3& value);
+    void set(std::string_view name, const glm::dvec2& value);
     void set(std::string_view name, const glm::dvec3& value);
+    void set(std::string_view name, std::span<const glm::vec2> values);  // of an array
+    void set(std::string_view name, std::span<const glm::vec4> values);
     void set(std::string_view name, const glm::vec4& value);
     void set(std::string_view name, const glm::ivec2& value);
     void set(std::string_view name, const glm::ivec3& value);

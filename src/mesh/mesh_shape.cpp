@@ -19,9 +19,7 @@ namespace {
 constexpr double flat_enough = 1e-12;  // of the diagonal: see the header
 constexpr std::int64_t tets_per_task = 8192;
 
-struct Extremes {
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-};
+constexpr EdgeLengths no_edges{std::numeric_limits<double>::infinity(), 0};
 
 // An edge of an open face, from the lower to the higher point.
 struct BoundaryEdge {
@@ -105,12 +103,12 @@ class FaceSets {
 
 }  // namespace
 
-double edge_ratio(const TetMesh& mesh) {
+EdgeLengths edge_lengths(const TetMesh& mesh) {
     const auto tets = static_cast<std::int64_t>(mesh.tets().size());
-    std::vector<Extremes> found(
-        static_cast<std::size_t>((tets + tets_per_task - 1) / tets_per_task));
+    std::vector<EdgeLengths> found(
+        static_cast<std::size_t>((tets + tets_per_task - 1) / tets_per_task), no_edges);
     parallel_for(static_cast<std::int64_t>(found.size()), 1, [&](std::int64_t task) {
-        Extremes& mine = found[static_cast<std::size_t>(task)];
+        EdgeLengths& mine = found[static_cast<std::size_t>(task)];
         const std::int64_t end = std::min(tets, (task + 1) * tets_per_task);
         for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
             const Tet& corners = mesh.tets()[static_cast<std::size_t>(tet)];
@@ -125,12 +123,12 @@ double edge_ratio(const TetMesh& mesh) {
             }
         }
     });
-    Extremes all;
-    for (const Extremes& mine : found) {
+    EdgeLengths all = no_edges;
+    for (const EdgeLengths& mine : found) {
         all.shortest = std::min(all.shortest, mine.shortest);
         all.longest = std::max(all.longest, mine.longest);
     }
-    return all.longest > 0 ? all.longest / all.shortest : std::numeric_limits<double>::infinity();
+    return all;
 }
 
 Convexity convexity(const TetMesh& mesh) {

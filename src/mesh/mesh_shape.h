@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
 
-// The longest edge of a mesh divided by the shortest; infinite where two ends coincide. Parallel.
-double edge_ratio(const TetMesh& mesh);
+struct EdgeLengths {
+    double shortest = 0, longest = 0;
+    // Infinite where two ends coincide.
+    double ratio() const {
+        return shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
+    }
+};
+EdgeLengths edge_lengths(const TetMesh& mesh);  // parallel
 
 enum class Convexity {
     none,

@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "optics/segment_integral.h"
@@ -18,6 +20,8 @@ struct PreintegrationRequest {
     int scalar_nodes = 256;  // about so many nodes, >= 2
     int length_layers = 1;   // >= 1
     bool colored = true;     // false: only where transfer_function.single_color(lo, hi)
+
+    friend bool operator==(const PreintegrationRequest&, const PreintegrationRequest&) = default;
 };
 
 // Tables over the scalars at the front and the back of a segment. Nodes are aligned with the
@@ -54,6 +58,20 @@ struct PreintegrationTable {
     // the last anchor between its ends and composed of at most three look-ups, each within smooth
     // cells or, between anchors, exact in the scalars.
     SegmentIntegral lookup(double front, double back, double length) const;
+
+    // The same by one look-up without cuts (optics/aligned_table.glsl): as good but for segments
+    // that cross a knot within a cell of it.
+    SegmentIntegral lookup_once(double front, double back, double length) const;
+
+    // Associated colour over opacity, by one look-up without cuts: E / tbar, in which the errors of
+    // segments that cross a knot within a cell of it cancel but for the difference of their
+    // colours. 0 where tbar is.
+    glm::dvec3 emission_ratio(double front, double back, double length) const;
+
+    std::int64_t byte_count() const {
+        return static_cast<std::int64_t>((mean_extinction.size() + emission.size()) *
+                                         sizeof(float));
+    }
 };
 
 // In parallel. The table has at most 1.5 * scalar_nodes + 3 * (knots in (lo, hi) + 1) nodes. Throws
@@ -61,5 +79,8 @@ struct PreintegrationTable {
 // beyond the largest float are cut to it.
 PreintegrationTable build_preintegration_table(const TransferFunction& transfer_function,
                                                const PreintegrationRequest& request);
+// The same, remembered by content (optics/table_memory.h).
+std::shared_ptr<const PreintegrationTable> preintegration_table(
+    const TransferFunction& transfer_function, const PreintegrationRequest& request);
 
 }  // namespace lamina

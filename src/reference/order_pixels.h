@@ -14,11 +14,6 @@
 
 namespace lamina {
 
-inline Eye eye_of(const View& view) {
-    if (view.projection == Projection::orthographic) return {view.forward, true};
-    return {view.eye, false};
-}
-
 // Pixels that an order gets wrong: two tets are met by the viewing ray through the pixel's centre
 // one after the other, and are not drawn so.
 struct OrderPixels {

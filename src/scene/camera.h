@@ -3,6 +3,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "mesh/eye.h"
+
 namespace lamina {
 
 enum class Projection { perspective, orthographic };
@@ -37,6 +39,12 @@ struct View {
     double pixel;  // edge of a pixel: at z = 1 (perspective), in world units (orthographic)
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
+
+// For visibility orders.
+inline Eye eye_of(const View& view) {
+    if (view.projection == Projection::orthographic) return {view.forward, true};
+    return {view.eye, false};
+}
 
 // The camera with its eye turned by `degrees` about the axis `up` through `center` (lamina render
 // --frames).

@@ -13,6 +13,7 @@ struct Capabilities {
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
+    int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: of the grid that corners are rounded to
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
     std::uint64_t max_texture_bytes =
         std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead

@@ -31,6 +31,12 @@ std::string left_out(const Plan& plan) {
     return plan.omitted.empty() ? text + "  nothing\n" : text;
 }
 
+std::string text_of_codes(const CompositingPlan& plan) {
+    return fmt::format("{} bits, alpha {}, over {}, by {}", plan.emulation->bits,
+                       name_of(plan.emulation->alpha), name_of(plan.emulation->over),
+                       plan.blending == Blending::fetch ? "framebuffer fetch" : "texture barriers");
+}
+
 template <typename Row>
 void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
     const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
@@ -39,14 +45,7 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
                     "the bricks",
                     length * facts.extinction_quantiles[0], length * facts.extinction_quantiles[1],
                     length * facts.extinction_quantiles[2]));
-    if (slice.emulation) {
-        const Emulation& emulation = *slice.emulation;
-        row("codes",
-            fmt::format("{} bits, alpha {}, over {}, by {}", emulation.bits,
-                        name_of(emulation.alpha), name_of(emulation.over),
-                        slice.blending == Blending::fetch ? "framebuffer fetch"
-                                                          : "texture barriers between slabs"));
-    }
+    if (slice.emulation) row("codes", text_of_codes(slice));
     if (slice.dither) {
         row("dither", fmt::format("period {}, seed {}, increment {}{}", slice.dither->period,
                                   slice.dither->seed, slice.dither->increment,
@@ -69,6 +68,42 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
         row("error",
             fmt::format("at most {:.3g} / 255: {}", *slice.error_bound, slice.tree_reason));
     }
+}
+
+std::string text_of_table(const ProjectPlan& project) {
+    if (project.has_aligned_table()) {
+        return fmt::format(
+            "nodes on the transfer function's points, some {0} x {0} scalars, {1} lengths",
+            project.aligned.scalar_nodes, project.aligned.length_layers);
+    }
+    const SegmentTableRequest& table = project.table;
+    const std::string lengths =
+        table.length_layers > 1
+            ? fmt::format(", {} lengths ({})", table.length_layers, name_of(table.mapping))
+            : std::string();
+    return fmt::format("{0} x {0} scalars{1}, {2}, {3}", table.scalar_nodes, lengths,
+                       name_of(table.store), name_of(table.format));
+}
+
+template <typename Row>
+void explain_projection(const ProjectPlan& project, const MeshFacts& facts, const Row& row) {
+    row("target", name_of(project.target));
+    row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
+                             facts.convexity == Convexity::none ? "not " : ""));
+    row("geometry", name_of(project.geometry));
+    row("interpolation", fmt::format("{}, thickness {}", name_of(project.interpolation),
+                                     name_of(project.thickness)));
+    row("edges", fmt::format("from {:.3g} to {:.3g}: optical depth of a tet at most {:.3g}",
+                             facts.shortest_edge, facts.longest_edge,
+                             facts.longest_edge * facts.max_extinction));
+    row("segments", name_of(project.source));
+    if (project.source == SegmentSource::table || project.has_aligned_table()) {
+        row("table", text_of_table(project));
+        row("table error",
+            fmt::format("{:.2g} / 255 {}", project.table_error, project.table_reason));
+    }
+    if (project.emulation) row("codes", text_of_codes(project));
+    if (project.dither != ProjectDither::none) row("dither", name_of(project.dither));
 }
 
 }  // namespace
@@ -100,12 +135,17 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
     return text + left_out(plan);
 }
 
-std::string explain(const Plan& plan, const MeshFacts& facts) {
+std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities) {
     std::string text = "uses\n";
-    text += line("method", fmt::format("{} of the mesh", name_of(plan.method)));
-    text += line("mesh", fmt::format("{} tets, {} points", facts.tets, facts.points));
-    text += line("scalar", fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo,
-                                       facts.range.hi));
+    const auto row = [&](const char* what, const std::string& value) { text += line(what, value); };
+    row("method", fmt::format("{} of the mesh", name_of(plan.method)));
+    row("mesh", fmt::format("{} tets, {} points", facts.tets, facts.points));
+    row("scalar",
+        fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo, facts.range.hi));
+    if (plan.method == Method::project) {
+        row("context", capabilities.renderer);
+        explain_projection(plan.project, facts, row);
+    }
     return text + left_out(plan);
 }
 

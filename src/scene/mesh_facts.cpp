@@ -1,10 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/mesh_facts.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "base/error.h"
 #include "mesh/scalar_range.h"
 
 namespace lamina {
+namespace {
+
+void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
+    const EdgeLengths lengths = edge_lengths(mesh);
+    facts.shortest_edge = lengths.shortest;
+    facts.longest_edge = lengths.longest;
+    facts.diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
+}
+
+void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+    const TransferFunction& transfer_function = scene.transfer_function;
+    const double lo = facts.range.lo, hi = facts.range.hi;
+    facts.constant = transfer_function.constant(lo, hi);
+    facts.single_color = transfer_function.single_color(lo, hi);
+    facts.max_extinction = transfer_function.max_extinction(lo, hi);
+    facts.transparent_tets = std::ranges::count_if(mesh.mesh.tets(), [&](const Tet& tet) {
+        return shows_nothing(transfer_function, mesh.scalar.values, tet);
+    });
+}
+
+void measure_view(const Scene& scene, const TetMesh& mesh, MeshFacts& facts) {
+    const View view(scene.camera, scene.width, scene.height);
+    facts.orthographic = view.projection == Projection::orthographic;
+    facts.in_front = std::ranges::any_of(mesh.points(), [&](const glm::dvec3& point) {
+        return glm::dot(point - view.eye, view.forward) > 0;
+    });
+}
+
+}  // namespace
+
+bool shows_nothing(const TransferFunction& transfer_function, std::span<const double> scalar,
+                   const Tet& tet) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (const std::int32_t corner : tet) {
+        const double value = scalar[static_cast<std::size_t>(corner)];
+        if (!std::isfinite(value)) return true;
+        lo = std::min(lo, value);
+        hi = std::max(hi, value);
+    }
+    return transfer_function.transparent(lo, hi);
+}
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts;
@@ -25,6 +70,12 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
             "in the scene draws their tets as transparent",
             file, facts.non_finite, facts.scalar);
     }
+    facts.convexity = convexity(mesh.mesh);
+    measure_edges(mesh.mesh, facts);
+    measure_transfer_function(scene, mesh, facts);
+    measure_view(scene, mesh.mesh, facts);
+    if (scene.method == Method::project)
+        facts.trial_rays = find_trial_rays(mesh, View(scene.camera, scene.width, scene.height));
     return facts;
 }
 

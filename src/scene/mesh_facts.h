@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "mesh/mesh_shape.h"
 #include "scene/scene_mesh.h"
 #include "volume/min_max_bricks.h"
 
@@ -17,7 +20,38 @@ struct MeshFacts {
     ValueRange range;    // of the finite values
     std::int64_t non_finite = 0;
     MeshFindings findings;
+
+    double shortest_edge = 0, longest_edge = 0;  // world units
+    double diagonal = 0;                         // of the bounds
+    Convexity convexity = Convexity::none;
+
+    // The transfer function over `range`.
+    bool constant = false;              // one colour, one extinction
+    bool single_color = false;          // one colour wherever there is extinction
+    double max_extinction = 0;          // per world unit
+    std::int64_t transparent_tets = 0;  // that show nothing; with them those with a value that is
+                                        // no finite number
+
+    // The view.
+    bool orthographic = false;
+    bool in_front = true;  // some point lies in front of the eye's plane
+
+    // Rays through pixels all over the picture, as runs through tets, nearest first: what tables of
+    // segments are tried on.
+    struct Run {
+        double front, back;  // scalars
+        double length;       // world units
+    };
+    std::vector<std::vector<Run>> trial_rays;
 };
+
+// No point of the tet is visible: the transfer function is transparent over its values, or one of
+// them is no finite number.
+bool shows_nothing(const TransferFunction& transfer_function, std::span<const double> scalar,
+                   const Tet& tet);
+
+// Rays of the view for MeshFacts::trial_rays; those that miss the mesh are left out.
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const SceneMesh& mesh, const View& view);
 
 // Throws Error when the scalar has values that are no finite numbers and the scene does not say
 // what to do with them, or has none but such.

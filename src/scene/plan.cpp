@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scene/project_planner.h"
 
 namespace lamina {
 namespace {
@@ -90,6 +91,8 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_
     return bricks;
 }
 
+}  // namespace
+
 void check_limits(const Scene& scene, const Capabilities& capabilities) {
     const int edge = std::max(scene.width, scene.height);
     if (edge > capabilities.max_texture_size) {
@@ -105,9 +108,7 @@ void check_limits(const Scene& scene, const Capabilities& capabilities) {
     }
 }
 
-bool is_fixed_point(Target target) {
-    return target == Target::fixed8 || target == Target::fixed16 || target == Target::emulated;
-}
+namespace {
 
 // A tree that the scene spells out.
 void check_tree(const Scene& scene, const Facts& facts) {
@@ -346,8 +347,9 @@ class SlicePlanner {
 }  // namespace
 
 std::vector<std::string> omission_names() {
-    return {"blending",    "color", "double_precision", "drawing", "empty_space", "length_layers",
-            "perspective", "table", "volume_texture"};
+    return {"blending",         "color",         "double_precision", "drawing", "empty_space",
+            "length_layers",    "order",         "perspective",      "scalars", "table",
+            "transparent_tets", "volume_texture"};
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
@@ -362,9 +364,15 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
     return plan;
 }
 
-Plan make_plan(const Scene& scene, const MeshFacts&) {
+Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
+               const OmissionSwitch& omissions) {
     Plan plan;
     plan.method = scene.method;
+    if (scene.method == Method::project) {
+        check_limits(scene, capabilities);
+        plan.project = plan_projection(scene, facts, capabilities, omissions, plan.omitted);
+        return plan;
+    }
     plan.omitted.push_back(no_context);
     if (scene.has_volume() && !scene.mesh_request)
         plan.omitted.push_back({"volume", "the mesh is traced: the volume is not read"});

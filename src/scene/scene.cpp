@@ -6,7 +6,14 @@
 namespace lamina {
 
 const char* name_of(Method method) {
-    return method == Method::slice ? "slice" : "trace";
+    switch (method) {
+        case Method::slice:
+            return "slice";
+        case Method::project:
+            return "project";
+        default:
+            return "trace";
+    }
 }
 
 const char* name_of(Target target) {

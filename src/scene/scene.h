@@ -14,11 +14,12 @@
 #include "mesh/mesh_settings.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
+#include "scene/project_settings.h"
 #include "volume/generate.h"
 
 namespace lamina {
 
-enum class Method { slice, trace };
+enum class Method { slice, project, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class Classification { post, preintegrated };
 enum class Filter { exact, hardware };
@@ -71,6 +72,7 @@ struct Scene {
     Emulation emulate;     // for Target::emulated
     double max_error = 1;  // in 1/255: the bound for what is automatic
     SliceSettings slice;
+    ProjectSettings project;
     TraceOf trace_of = TraceOf::volume;
     double trace_tolerance = 1e-5;  // of full scale
     std::vector<std::string> warnings;
@@ -78,11 +80,16 @@ struct Scene {
     bool has_volume() const { return !volume_file.empty() || volume_request; }
     bool has_mesh() const { return !mesh_file.empty() || mesh_request; }
     // The mesh is what is drawn; the volume is needed at most to make it.
-    bool draws_mesh() const { return method == Method::trace && trace_of == TraceOf::mesh; }
+    bool draws_mesh() const {
+        return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
+    }
 };
 
 const char* name_of(Method method);
 const char* name_of(Target target);
+inline bool is_fixed_point(Target target) {
+    return target == Target::fixed8 || target == Target::fixed16 || target == Target::emulated;
+}
 const char* name_of(Classification classification);
 const char* name_of(Order order);
 const char* name_of(Filter filter);

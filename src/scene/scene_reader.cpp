@@ -7,6 +7,7 @@
 #include "image/image_limits.h"
 #include "scene/data_reader.h"
 #include "scene/json_reader.h"
+#include "scene/project_reader.h"
 #include "scene/slice_reader.h"
 #include "scene/transfer_function_json.h"
 
@@ -57,21 +58,6 @@ void read_image(JsonReader reader, Scene& scene) {
     reader.close();
 }
 
-// The settings of the method "project" belong to the format: a scene for it and for slicing has
-// them. They are checked here, so that a slip does not wait, and used by no method of this version.
-void check_project(JsonReader reader) {
-    const auto check = [&](const char* key, const std::vector<std::pair<const char*, int>>& words) {
-        reader.choice<int>(key, words);
-    };
-    check("coloring", {{"preintegrated", 0}, {"attenuation", 1}, {"vertex", 2}, {"analytic", 3}});
-    check("interpolation", {{"perspective", 0}, {"linear", 1}});
-    check("thickness", {{"exact", 0}, {"dz", 1}});
-    check("order", {{"auto", 0}, {"mpvo", 1}, {"exact", 2}, {"centroid", 3}, {"none", 4}});
-    check("geometry", {{"auto", 0}, {"silhouette", 1}, {"triangles", 2}});
-    check("dither", {{"none", 0}, {"alpha", 1}, {"after_blend", 2}});
-    reader.close();
-}
-
 TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
     if (!trace.has("of")) return scene.has_volume() ? TraceOf::volume : TraceOf::mesh;
     const TraceOf of =
@@ -83,9 +69,19 @@ TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
     return of;
 }
 
+void check_project_dither(JsonReader& reader, const Scene& scene) {
+    if (scene.method != Method::project || scene.target != Target::emulated) return;
+    if (scene.project.dither == ProjectDither::alpha) {
+        reader.fail_at("project.dither",
+                       "found \"alpha\" with the target \"emulated\", expected \"none\" or "
+                       "\"after_blend\": render.emulate.alpha says how opacity is rounded there");
+    }
+}
+
 void read_render(JsonReader reader, Scene& scene) {
-    scene.method =
-        reader.choice<Method>("method", {{"slice", Method::slice}, {"trace", Method::trace}});
+    scene.method = reader.choice<Method>(
+        "method",
+        {{"slice", Method::slice}, {"project", Method::project}, {"trace", Method::trace}});
     scene.target = reader.choice<Target>("target", {{"float32", Target::float32},
                                                     {"float16", Target::float16},
                                                     {"fixed16", Target::fixed16},
@@ -97,7 +93,7 @@ void read_render(JsonReader reader, Scene& scene) {
         reader.reject("max_error", "a number above 0 and up to 255 (in 1/255 of full scale)");
     }
     scene.slice = read_slice(reader.object("slice"));
-    check_project(reader.object("project"));
+    scene.project = read_project(reader.object("project"));
     JsonReader trace = reader.object("trace");
     scene.trace_of = read_trace_of(trace, scene);
     scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
@@ -107,7 +103,10 @@ void read_render(JsonReader reader, Scene& scene) {
     }
     trace.close();
     if (scene.method == Method::slice && !scene.has_volume())
-        reader.reject("method", "\"trace\" for a scene without a volume");
+        reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
+    if (scene.method == Method::project && !scene.has_mesh())
+        reader.reject("method", "\"slice\" or \"trace\" for a scene without a mesh");
+    check_project_dither(reader, scene);
     reader.close();
 }
 

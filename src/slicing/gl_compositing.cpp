@@ -3,9 +3,11 @@
 
 #include <glad/gl.h>
 
+#include <cmath>
+
 namespace lamina {
 
-gl::TextureFormat color_format(const SlicePlan& plan) {
+gl::TextureFormat color_format(const CompositingPlan& plan) {
     switch (plan.target) {
         case Target::float32:
             return gl::TextureFormat::rgba32f;
@@ -16,7 +18,7 @@ gl::TextureFormat color_format(const SlicePlan& plan) {
     }
 }
 
-gl::TextureFormat opacity_format(const SlicePlan& plan) {
+gl::TextureFormat opacity_format(const CompositingPlan& plan) {
     switch (plan.target) {
         case Target::float32:
             return gl::TextureFormat::r32f;
@@ -27,8 +29,7 @@ gl::TextureFormat opacity_format(const SlicePlan& plan) {
     }
 }
 
-void set_compositing(gl::Defines& defines, const SlicePlan& plan) {
-    if (!plan.emulation && !plan.dither) return;
+void set_compositing(gl::Defines& defines, const CompositingPlan& plan) {
     defines.set("BITS", plan.code_bits());
     if (!plan.emulation) return;
     defines.set("EMULATED", 1);
@@ -38,7 +39,7 @@ void set_compositing(gl::Defines& defines, const SlicePlan& plan) {
     if (plan.blending == Blending::fetch) defines.set("FRAMEBUFFER_FETCH", 1);
 }
 
-CompositingState::CompositingState(const SlicePlan& plan, bool opacity_only,
+CompositingState::CompositingState(const CompositingPlan& plan, bool opacity_only,
                                    const gl::Framebuffer& target)
     : native_(plan.blending == Blending::native) {
     if (plan.blending == Blending::barrier) target.color().bind(target_unit);
@@ -55,7 +56,14 @@ CompositingState::~CompositingState() {
     if (native_) glDisable(GL_BLEND);
 }
 
-void finish_layer(const SlicePlan& plan) {
+void decode(Image& image, const CompositingPlan& plan) {
+    const double largest = largest_code(plan.code_bits());
+    const double stored = plan.code_bits() > 8 ? 65535 : 255;
+    for (float& value : image.rgba)
+        value = static_cast<float>(std::round(static_cast<double>(value) * stored) / largest);
+}
+
+void finish_layer(const CompositingPlan& plan) {
     if (plan.blending == Blending::barrier) glTextureBarrier();
 }
 

@@ -37,10 +37,7 @@ gl::Texture make_swizzle(int bits, double share) {
 gl::Defines swizzle_defines(const SlicePlan& plan) {
     gl::Defines defines;
     set_compositing(defines, plan);
-    if (!plan.emulation) {
-        if (!plan.dither) defines.set("BITS", plan.code_bits());
-        defines.set("ALPHA_ROUNDING", static_cast<int>(AlphaRounding::nearest));
-    }
+    if (!plan.emulation) defines.set("ALPHA_ROUNDING", static_cast<int>(AlphaRounding::nearest));
     return defines;
 }
 

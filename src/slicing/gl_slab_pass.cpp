@@ -33,7 +33,7 @@ gl::Texture upload_ranks(const Dither& dither) {
 gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments) {
     gl::Defines& defines = segments;
     if (plan.has_tree(NodeArithmetic::fixed)) defines.set("OPACITY_ONLY", 1);
-    set_compositing(defines, plan);
+    if (plan.emulation || plan.dither) set_compositing(defines, plan);
     if (!plan.dither) return defines;
     defines.set("DITHER_PERIOD", plan.dither->period);
     defines.set("DITHER_INCREMENT", plan.dither->increment);

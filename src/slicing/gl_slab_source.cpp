@@ -62,7 +62,10 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
       single_color_(first_color(transfer_function, range_)),
       constant_(transfer_function.at(range_.lo)) {
     const Stopwatch table_watch;
-    if (plan_.sampling != VolumeSampling::none) tables_.emplace(transfer_function, range_, plan_);
+    if (plan_.sampling != VolumeSampling::none) {
+        tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,
+                        plan_.table_filtered);
+    }
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;
     volume_ = upload_volume(volume, range_, plan);

@@ -3,8 +3,6 @@
 
 #include <glad/gl.h>
 
-#include <cmath>
-
 #include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "gl/check.h"
@@ -72,16 +70,9 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
     }
 }
 
-// Codes of n bits lie in 8 or 16.
 Image GlSliceRenderer::read() const {
     Image image = target_.read_back();
-    if (plan_.emulation) {
-        const std::uint32_t largest = largest_code(plan_.emulation->bits);
-        const float stored = plan_.code_bits() > 8 ? 65535.0f : 255.0f;
-        for (float& value : image.rgba) {
-            value = static_cast<float>(std::round(value * stored) / static_cast<double>(largest));
-        }
-    }
+    if (plan_.emulation) decode(image, plan_);
     return image;
 }
 

@@ -38,21 +38,23 @@ gl::Texture upload_table(const PreintegrationTable& table) {
 }  // namespace
 
 GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
-                                   const ValueRange& range, const SlicePlan& plan) {
-    PreintegrationTable table;
-    if (plan.uses_table()) {
-        const TablePlan& wanted = plan.table;
-        table = build_preintegration_table(
-            transfer_function, {range.lo, range.hi, wanted.max_length, wanted.scalar_nodes,
-                                wanted.length_layers, wanted.colored});
+                                   const ValueRange& range, const TablePlan* wanted,
+                                   bool filtered) {
+    if (wanted != nullptr) {
+        const auto known = preintegration_table(
+            transfer_function, {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
+                                wanted->length_layers, wanted->colored});
+        const PreintegrationTable& table = *known;
+        anchors_ = table.anchors;
         preintegration_ = upload_table(table);
-        if (plan.table_filtered) preintegration_.set_filter(gl::TextureFilter::linear);
+        if (filtered) preintegration_.set_filter(gl::TextureFilter::linear);
         node_count_ = static_cast<int>(table.nodes.size());
-        if (wanted.max_length > 0) {
-            layers_per_length_ = static_cast<float>((wanted.length_layers - 1) / wanted.max_length);
+        if (wanted->max_length > 0) {
+            layers_per_length_ =
+                static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
         }
     }
-    const ShaderIntervals intervals = make_intervals(transfer_function, range, table.anchors);
+    const ShaderIntervals intervals = make_intervals(transfer_function, range, anchors_);
     interval_count_ = intervals.count;
     intervals_ =
         gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, ShaderIntervals::rows);

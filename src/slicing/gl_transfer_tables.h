@@ -1,32 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "optics/preintegration_table.h"
 #include "optics/transfer_function.h"
-#include "scene/plan.h"
+#include "scene/table_plan.h"
 #include "slicing/shader_intervals.h"
 
 namespace lamina {
 
-// The transfer function, and its pre-integration table where the plan uses one, as the textures
-// that shaders/optics/intervals.glsl and preintegration.glsl read.
+// The transfer function, and where one is wanted its pre-integration table, as the textures that
+// shaders/optics/intervals.glsl and preintegration.glsl read.
 class GlTransferTables {
   public:
     static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
 
-    // `range`: the scalars that shaders see as [0, 1]; lo < hi.
+    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: of the pre-integration, or
+    // null. `filtered`: it goes through the texture unit's filter.
     GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
-                     const SlicePlan& plan);
+                     const TablePlan* table, bool filtered);
 
     int intervals() const { return interval_count_; }
     int nodes() const { return node_count_; }  // along an axis of the table; 0 without
     void bind(gl::Program& program) const;     // textures and uniforms
 
+    // Of the pre-integration table.
+    const std::vector<PreintegrationTable::Anchor>& anchors() const { return anchors_; }
+
   private:
     int interval_count_ = 0, node_count_ = 0;
     float layers_per_length_ = 0;
+    std::vector<PreintegrationTable::Anchor> anchors_;
     gl::Texture intervals_, interval_starts_, preintegration_;
 };
 

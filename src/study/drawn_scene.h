@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <vector>
+#include <cstddef>
 
 #include "image/image.h"
 #include "image/metrics.h"
@@ -34,8 +33,5 @@ Scene with_paper_hardware(Scene scene);
 
 // Norms of a channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
 ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
-
-// One PNG: the pictures, all of one size, side by side on black, white between them.
-void write_pictures(const std::filesystem::path& path, const std::vector<Image>& pictures);
 
 }  // namespace lamina

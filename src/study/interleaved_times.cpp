@@ -51,4 +51,18 @@ std::vector<FrameTimes> time_interleaved(const std::string& label,
     return times;
 }
 
+nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
+                                 const std::vector<FrameTimes>& times) {
+    auto rows = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        rows.push_back({{"technique", frames[i].name},
+                        {"ms", times[i].ms},
+                        {"ratio", times[i].ms / times[0].ms},
+                        {"cpu_ms", times[i].cpu_ms},
+                        {"cpu_ratio", times[i].cpu_ms / times[0].cpu_ms},
+                        {"slowest_over_fastest", times[i].spread}});
+    }
+    return rows;
+}
+
 }  // namespace lamina

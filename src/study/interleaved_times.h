@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,9 @@ struct FrameTimes {
 // rounds.
 std::vector<FrameTimes> time_interleaved(const std::string& label,
                                          const std::vector<TimedFrame>& frames, int rounds);
+
+// Names beside times, and ratios to the first frame: [{technique, ms, ratio, cpu_ms, ...}].
+nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
+                                 const std::vector<FrameTimes>& times);
 
 }  // namespace lamina

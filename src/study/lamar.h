@@ -5,22 +5,15 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
+
+#include "study/paper_item.h"
 
 namespace lamina {
 
 class LamarStage;
 
-// One table or figure: `reproduce`, or `draw` where it needs OpenGL. Either writes its CSV and
-// pictures into `folder`, which exists, and returns {values, paper, agrees, note, ...} (see
-// Findings::result). Errors in units of 1/255.
-struct LamarItem {
-    std::string name;
-    nlohmann::ordered_json (*reproduce)(const std::filesystem::path& folder) = nullptr;
-    nlohmann::ordered_json (*draw)(const std::filesystem::path& folder,
-                                   LamarStage& stage) = nullptr;
-};
+using LamarItem = PaperItem<LamarStage>;
 
 // In the order of the paper; behind them what answers questions that it leaves open.
 const std::vector<LamarItem>& lamar_items();

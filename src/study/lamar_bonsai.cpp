@@ -7,6 +7,7 @@
 #include "study/findings.h"
 #include "study/lamar.h"
 #include "study/lamar_stage.h"
+#include "study/picture_sheet.h"
 #include "study/text_file.h"
 #include "volume/nrrd.h"
 

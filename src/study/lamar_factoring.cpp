@@ -11,6 +11,7 @@
 #include "study/lamar.h"
 #include "study/lamar_stage.h"
 #include "study/mixing_scene.h"
+#include "study/picture_sheet.h"
 #include "study/text_file.h"
 
 namespace lamina {

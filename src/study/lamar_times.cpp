@@ -96,21 +96,6 @@ TimedFrame frame_of(const std::string& name, const DrawnVolume& volume, const Sc
             [renderer, view] { renderer->draw(view); }};
 }
 
-// Names beside times, and ratios to the frame of number `base`.
-Json rows_of(const std::vector<TimedFrame>& frames, const std::vector<FrameTimes>& times,
-             std::size_t base) {
-    Json rows = Json::array();
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-        rows.push_back({{"technique", frames[i].name},
-                        {"ms", times[i].ms},
-                        {"ratio", times[i].ms / times[base].ms},
-                        {"cpu_ms", times[i].cpu_ms},
-                        {"cpu_ratio", times[i].cpu_ms / times[base].cpu_ms},
-                        {"slowest_over_fastest", times[i].spread}});
-    }
-    return rows;
-}
-
 Json time_techniques(const DrawnVolume& volume, const Capabilities& capabilities) {
     std::vector<TimedFrame> frames;
     for (const Technique& technique : techniques()) {
@@ -119,7 +104,7 @@ Json time_techniques(const DrawnVolume& volume, const Capabilities& capabilities
         frames.push_back(
             frame_of(technique.name, volume, scene_of(technique), capabilities, omissions));
     }
-    return rows_of(frames, time_interleaved("times: techniques", frames, rounds), 0);
+    return time_rows(frames, time_interleaved("times: techniques", frames, rounds));
 }
 
 // A context that cannot read its own pixel needs a barrier after each slab.
@@ -137,7 +122,7 @@ Json time_barriers(const DrawnVolume& volume, const Capabilities& capabilities) 
     if (capabilities.framebuffer_fetch)
         add("emulated 8 bits, fetch", Target::emulated, capabilities);
     add("emulated 8 bits, texture barriers", Target::emulated, without_fetch);
-    return rows_of(frames, time_interleaved("times: barriers", frames, rounds), 0);
+    return time_rows(frames, time_interleaved("times: barriers", frames, rounds));
 }
 
 // Section 5 leaves open what a palette for every slice costs.
@@ -154,7 +139,7 @@ Json time_palettes(bool& same_picture) {
     add("an upload a slice", Way::upload, images[1]);
     const std::vector<FrameTimes> times = time_interleaved("times: palettes", frames, rounds);
     same_picture = images[0].rgba == images[1].rgba;
-    return rows_of(frames, times, 0);
+    return time_rows(frames, times);
 }
 
 }  // namespace

@@ -25,17 +25,27 @@ void CsvTable::add_row(const std::vector<std::string>& cells) {
     text_ += fmt::format("{}\n", fmt::join(cells, ","));
 }
 
+namespace {
+
+// RFC 4180: in quotes where it holds a comma.
+std::string cell_of(const nlohmann::ordered_json& value) {
+    if (value.is_null()) return {};
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (!value.is_string()) return value.dump();
+    const std::string text = value.get<std::string>();
+    assert(text.find('"') == std::string::npos);
+    return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
+}
+
+}  // namespace
+
 std::string csv_of_rows(const nlohmann::ordered_json& rows) {
     std::vector<std::string> names;
     for (const auto& [key, value] : rows.front().items()) names.push_back(key);
     CsvTable csv(names);
     for (const nlohmann::ordered_json& row : rows) {
         std::vector<std::string> cells;
-        for (const auto& [key, value] : row.items()) {
-            cells.push_back(value.is_string()         ? value.get<std::string>()
-                            : value.is_number_float() ? fmt::format("{:.6g}", value.get<double>())
-                                                      : value.dump());
-        }
+        for (const auto& [key, value] : row.items()) cells.push_back(cell_of(value));
         csv.add_row(cells);
     }
     return csv.text();

@@ -24,7 +24,8 @@ class CsvTable {
     std::string text_;
 };
 
-// Objects of the same keys and plain values, one a row.
+// Objects of the same keys and plain values, one a row; null is an empty cell, a string with a
+// comma is quoted.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace lamina

@@ -58,7 +58,13 @@ TEST(Reproduce, BadNamesAreExitTwo) {
     const ProgramResult item = reproduce({"lamar", "figure99", "-o", folder / "x"});
     EXPECT_EQ(item.exit_code, 2);
     EXPECT_NE(item.err.find("figure9,"), std::string::npos) << item.err;  // among the choices
-    EXPECT_EQ(reproduce({"newton", "-o", folder / "x"}).exit_code, 2);
+    const ProgramResult kraus = reproduce({"kraus", "figure9999", "-o", folder / "x"});
+    EXPECT_EQ(kraus.exit_code, 2);
+    EXPECT_NE(kraus.err.find("reproduce kraus figure9999: unknown item"), std::string::npos);
+    EXPECT_NE(kraus.err.find("preintegration,"), std::string::npos) << kraus.err;
+    const ProgramResult paper = reproduce({"newton", "-o", folder / "x"});
+    EXPECT_EQ(paper.exit_code, 2);
+    EXPECT_NE(paper.err.find("lamar or kraus"), std::string::npos) << paper.err;
     EXPECT_EQ(reproduce({"lamar"}).exit_code, 2);
     EXPECT_TRUE(folder.empty());
 }
@@ -66,9 +72,11 @@ TEST(Reproduce, BadNamesAreExitTwo) {
 TEST(Reproduce, AFileInTheWayIsExitOne) {
     const TemporaryFolder folder;
     write_bytes_to(folder / "x", "");
-    const ProgramResult result = reproduce({"lamar", "table2", "-o", folder / "x"});
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_NE(result.err.find("x: "), std::string::npos);
+    for (const auto& [paper, item] : {std::pair{"lamar", "table2"}, {"kraus", "figure7"}}) {
+        const ProgramResult result = reproduce({paper, item, "-o", folder / "x"});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find("x: "), std::string::npos);
+    }
 }
 
 }  // namespace

@@ -77,13 +77,13 @@ TEST(MeshShape, NonconvexMeshes) {
 
 TEST(MeshShape, EdgeRatio) {
     // Edges of unit cubes: 1 to sqrt(3).
-    EXPECT_NEAR(edge_ratio(TetMesh(box({2, 2, 2}), "box")), std::sqrt(3.), 1e-15);
+    EXPECT_NEAR(edge_lengths(TetMesh(box({2, 2, 2}), "box")).ratio(), std::sqrt(3.), 1e-15);
     MeshData data;
     data.points = {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, .5}};
     data.tets = {{0, 1, 2, 3}};
-    EXPECT_EQ(edge_ratio(TetMesh(data, "tet")), 10);
+    EXPECT_EQ(edge_lengths(TetMesh(data, "tet")).ratio(), 10);
     data.points[3] = {0, 0, 0};
-    EXPECT_EQ(edge_ratio(TetMesh(data, "tet")), INFINITY);
+    EXPECT_EQ(edge_lengths(TetMesh(data, "tet")).ratio(), INFINITY);
 }
 
 }  // namespace

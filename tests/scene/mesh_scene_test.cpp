@@ -98,7 +98,7 @@ TEST(MeshScene, MeasuresAndPlans) {
     EXPECT_EQ(facts.tets, 1);
     EXPECT_EQ(facts.range.lo, 5);
     EXPECT_EQ(facts.range.hi, 8);
-    const std::string text = explain(make_plan(scene, facts), facts);
+    const std::string text = explain(make_plan(scene, facts, {}, {}), facts, {});
     EXPECT_NE(text.find("trace of the mesh"), std::string::npos);
     EXPECT_NE(text.find("1 tets, 4 points"), std::string::npos);
 }

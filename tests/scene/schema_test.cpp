@@ -43,6 +43,7 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.insert("transfer_function.colormap_range");
     in_reader.merge(asked_for(with("/render/slice/dither", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/slice/tree", {{"factors", {4, 4}}})));
+    in_reader.merge(asked_for(with("/render/project/table", nlohmann::json::object())));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);

@@ -8,6 +8,7 @@
 
 #include "image/png.h"
 #include "study/line_plot.h"
+#include "study/text_file.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -41,6 +42,12 @@ TEST(RampFigure, WritesTheCurvesThreeTimes) {
     EXPECT_EQ(png.codes[33 * 256 + 7], 255);  // between the strips
     EXPECT_EQ(png.codes[40 * 256 + 7], 9);
     EXPECT_EQ(count_of(read_bytes_of(folder / "f.svg"), "<polyline"), 2u);
+}
+
+TEST(CsvOfRows, QuotesCommasAndLeavesNullEmpty) {
+    const nlohmann::ordered_json rows{{{"name", "a, b"}, {"x", 0.5}, {"n", nullptr}},
+                                      {{"name", "c"}, {"x", 2}, {"n", 7}}};
+    EXPECT_EQ(csv_of_rows(rows), "name,x,n\n\"a, b\",0.5,\nc,2,7\n");
 }
 
 TEST(LinePlot, EscapesNamesAndKeepsLinesInside) {

@@ -32,7 +32,7 @@ Json describe(std::span<const MeshScalar> scalars) {
 
 Json describe(const TetMesh& mesh) {
     const MeshFindings& findings = mesh.findings();
-    const double ratio = edge_ratio(mesh);
+    const double ratio = edge_lengths(mesh).ratio();
     Json info;
     info["kind"] = "mesh";
     info["points"] = mesh.points().size();

@@ -115,6 +115,7 @@ void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw&
 
 std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
     if (request.scene.method == Method::slice) return make_slice_job(request);
+    if (request.scene.method == Method::project) return make_project_job(request);
     return request.scene.draws_mesh() ? make_mesh_trace_job(request)
                                       : make_volume_trace_job(request);
 }
@@ -166,7 +167,8 @@ void add_render(CLI::App& app, int&) {
     verb->add_option("SCENE", options->scene, "Scene file (JSON)")->required();
     verb->add_option("-o,--output", options->output,
                      "Picture to write: .exr, .png, or .npy (trace only)");
-    verb->add_option("--method", options->method, "slice or trace; as --set render.method=...");
+    verb->add_option("--method", options->method,
+                     "slice, project or trace; as --set render.method=...");
     verb->add_option("--set", options->settings,
                      "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
         ->allow_extra_args(false);

@@ -40,6 +40,7 @@ class RenderJob {
 };
 
 std::unique_ptr<RenderJob> make_slice_job(const RenderRequest& request);
+std::unique_ptr<RenderJob> make_project_job(const RenderRequest& request);
 std::unique_ptr<RenderJob> make_volume_trace_job(const RenderRequest& request);
 std::unique_ptr<RenderJob> make_mesh_trace_job(const RenderRequest& request);
 

@@ -31,24 +31,53 @@ const char* word_of(VolumeSampling sampling) {
     }
 }
 
-Json plan_to_json(const Plan& plan) {
-    Json json{{"method", name_of(plan.method)}};
-    if (plan.method != Method::slice) return json;
-    const SlicePlan& slice = plan.slice;
+void add_emulation(const CompositingPlan& plan, Json& json) {
+    if (!plan.emulation) return;
+    const Emulation& emulation = *plan.emulation;
+    json["emulate"] = {
+        {"bits", emulation.bits},
+        {"alpha", name_of(emulation.alpha)},
+        {"over", name_of(emulation.over)},
+        {"by", plan.blending == Blending::fetch ? "framebuffer_fetch" : "texture_barrier"}};
+}
+
+Json project_to_json(const ProjectPlan& project) {
+    Json json{{"method", name_of(Method::project)},
+              {"target", name_of(project.target)},
+              {"source", name_of(project.source)},
+              {"interpolation", name_of(project.interpolation)},
+              {"thickness", name_of(project.thickness)},
+              {"order", name_of(project.visibility)},
+              {"geometry", name_of(project.geometry)},
+              {"dither", name_of(project.dither)}};
+    add_emulation(project, json);
+    if (project.source == SegmentSource::table) {
+        const SegmentTableRequest& table = project.table;
+        json["table"] = {{"scalars", table.scalar_nodes},
+                         {"lengths", table.colored ? table.length_layers : 1},
+                         {"mapping", name_of(table.mapping)},
+                         {"store", name_of(table.store)},
+                         {"format", name_of(table.format)},
+                         {"colored", table.colored},
+                         {"error", project.table_error}};
+    } else if (project.has_aligned_table()) {
+        json["table"] = {{"scalars", project.aligned.scalar_nodes},
+                         {"lengths", project.aligned.length_layers},
+                         {"colored", project.aligned.colored},
+                         {"error", project.table_error}};
+    }
+    return json;
+}
+
+Json slice_to_json(const SlicePlan& slice) {
+    Json json{{"method", name_of(Method::slice)}};
     json["target"] = name_of(slice.target);
     json["slabs"] = slice.slabs;
     json["classification"] = name_of(slice.classification);
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
     json["bricks"] = slice.bricks.size();
-    if (slice.emulation) {
-        const Emulation& emulation = *slice.emulation;
-        json["emulate"] = {
-            {"bits", emulation.bits},
-            {"alpha", name_of(emulation.alpha)},
-            {"over", name_of(emulation.over)},
-            {"by", slice.blending == Blending::fetch ? "framebuffer_fetch" : "texture_barrier"}};
-    }
+    add_emulation(slice, json);
     if (slice.dither) {
         json["dither"] = {{"period", slice.dither->period},
                           {"seed", slice.dither->seed},
@@ -70,6 +99,17 @@ Json plan_to_json(const Plan& plan) {
     return json;
 }
 
+Json plan_to_json(const Plan& plan) {
+    switch (plan.method) {
+        case Method::slice:
+            return slice_to_json(plan.slice);
+        case Method::project:
+            return project_to_json(plan.project);
+        default:
+            return {{"method", name_of(plan.method)}};
+    }
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
@@ -82,7 +122,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     json["stages"] = stats.stages_ms;
     json["samples"] = stats.samples;
     json["fragments"] = stats.fragments;
-    json["tets_drawn"] = 0;
+    json["tets_drawn"] = stats.tets_drawn;
     json["bytes_gpu"] = stats.bytes_gpu;
     json["peak_rss_mb"] = peak_rss_mb();
     json["context"] = stats.context;

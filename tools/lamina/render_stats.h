@@ -18,6 +18,7 @@ struct RenderStats {
     std::map<std::string, double> stages_ms;
     int samples = 0;              // slabs
     std::uint64_t fragments = 0;  // of the scene's own frame
+    std::int64_t tets_drawn = 0;  // that cover the centre of a pixel in that frame
     std::int64_t bytes_gpu = 0;
     std::string context;
     std::optional<double> error_estimate;        // trace

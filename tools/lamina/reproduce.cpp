@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +15,8 @@
 #include "base/progress.h"
 #include "context_kind.h"
 #include "gl/context.h"
+#include "study/kraus.h"
+#include "study/kraus_stage.h"
 #include "study/lamar.h"
 #include "study/lamar_stage.h"
 #include "verbs.h"
@@ -29,22 +30,22 @@ struct ReproduceOptions {
     bool quiet = false;
 };
 
-std::vector<std::string> item_names() {
+template <typename Stage>
+std::string names_of(const std::vector<PaperItem<Stage>>& items) {
     std::vector<std::string> names;
-    for (const LamarItem& item : lamar_items()) names.push_back(item.name);
-    return names;
+    for (const PaperItem<Stage>& item : items) names.push_back(item.name);
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::vector<LamarItem> chosen_items(const ReproduceOptions& options) {
-    if (options.paper != "lamar") {
-        throw UsageError(fmt::format("reproduce {}: unknown paper, expected lamar", options.paper));
-    }
-    if (options.item.empty()) return lamar_items();
-    for (const LamarItem& item : lamar_items()) {
+template <typename Stage>
+std::vector<PaperItem<Stage>> chosen_items(const std::vector<PaperItem<Stage>>& items,
+                                           const ReproduceOptions& options) {
+    if (options.item.empty()) return items;
+    for (const PaperItem<Stage>& item : items) {
         if (item.name == options.item) return {item};
     }
-    throw UsageError(fmt::format("reproduce lamar {}: unknown item, expected one of {}",
-                                 options.item, fmt::join(item_names(), ", ")));
+    throw UsageError(fmt::format("reproduce {} {}: unknown item, expected one of {}", options.paper,
+                                 options.item, names_of(items)));
 }
 
 void make_folder(const std::string& folder) {
@@ -54,11 +55,12 @@ void make_folder(const std::string& folder) {
 }
 
 // Makes the context when an item first draws, and keeps it.
+template <typename Stage>
 class Stagehand {
   public:
     explicit Stagehand(gl::ContextKind kind) : kind_(kind) {}
 
-    nlohmann::ordered_json make(const LamarItem& item, const std::filesystem::path& folder) {
+    nlohmann::ordered_json make(const PaperItem<Stage>& item, const std::filesystem::path& folder) {
         if (item.draw == nullptr) return item.reproduce(folder);
         if (!context_) {
             context_ = gl::Context::create(kind_);
@@ -70,23 +72,36 @@ class Stagehand {
   private:
     gl::ContextKind kind_;
     std::unique_ptr<gl::Context> context_;
-    std::optional<LamarStage> stage_;
+    std::optional<Stage> stage_;
 };
 
-void run(const ReproduceOptions& options) {
-    Progress::set_quiet(options.quiet);
-    Stagehand stagehand(context_kind(options.context));
-    const std::vector<LamarItem> items = chosen_items(options);
+template <typename Stage>
+void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options) {
+    Stagehand<Stage> stagehand(context_kind(options.context));
+    const std::vector<PaperItem<Stage>> items = chosen_items(all, options);
     make_folder(options.output);
     const std::filesystem::path folder = options.output;
-    AtomicFile file(folder / "lamar.json");
+    AtomicFile file(folder / (options.paper + ".json"));
     nlohmann::ordered_json report;
-    for (const LamarItem& item : items) {
-        report[item.name] = stagehand.make(item, folder);
-        fmt::print("{:<12} {}\n", item.name, report[item.name]["note"].get<std::string>());
+    for (const PaperItem<Stage>& item : items) {
+        const nlohmann::ordered_json result = stagehand.make(item, folder);
+        fmt::print("{:<14} {}\n", item.name, result["note"].get<std::string>());
+        report[item.name] = result;
     }
     file.write(report.dump(1) + "\n");
     file.commit();
+}
+
+void run(const ReproduceOptions& options) {
+    Progress::set_quiet(options.quiet);
+    if (options.paper == "lamar") {
+        reproduce(lamar_items(), options);
+    } else if (options.paper == "kraus") {
+        reproduce(kraus_items(), options);
+    } else {
+        throw UsageError(
+            fmt::format("reproduce {}: unknown paper, expected lamar or kraus", options.paper));
+    }
 }
 
 }  // namespace
@@ -96,9 +111,10 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand(
         "reproduce", "Make the tables and figures of a paper again, and compare");
     const auto options = std::make_shared<ReproduceOptions>();
-    verb->add_option("PAPER", options->paper, "lamar")->required();
+    verb->add_option("PAPER", options->paper, "lamar or kraus")->required();
     verb->add_option("ITEM", options->item,
-                     fmt::format("{}; all of them when left out", fmt::join(item_names(), ", ")));
+                     fmt::format("all of them when left out; of lamar: {}; of kraus: {}",
+                                 names_of(lamar_items()), names_of(kraus_items())));
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
     verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");

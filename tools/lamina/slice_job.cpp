@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
-#include <glm/vector_relational.hpp>
 #include <optional>
 
 #include "base/progress.h"
 #include "base/stopwatch.h"
+#include "clamped_colors.h"
 #include "context_kind.h"
 #include "gl/context.h"
 #include "gl/memory.h"
@@ -15,16 +13,6 @@
 
 namespace lamina {
 namespace {
-
-// Colours above 1 do not fit a fixed-point target: they are clamped there, and said.
-std::int64_t count_clamped_colors(const Scene& scene) {
-    if (scene.target == Target::float32 || scene.target == Target::float16) return 0;
-    std::int64_t count = 0;
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
-        count += glm::any(glm::greaterThan(knot.optics.color, glm::dvec3(1)));
-    }
-    return count;
-}
 
 class SliceJob : public RenderJob {
   public:
@@ -46,13 +34,7 @@ class SliceJob : public RenderJob {
 
     void draw(const Plan& plan, const View& view, RenderStats& stats) override {
         const Scene& scene = request_.scene;
-        const std::int64_t clamped = count_clamped_colors(scene);
-        stats.counts["clamped_colors"] = clamped;
-        if (clamped > 0) {
-            request_.message(fmt::format(
-                "{} transfer-function points have a colour above 1, which the target {} clamps",
-                clamped, name_of(scene.target)));
-        }
+        count_clamped_colors(request_, stats);
         renderer_.emplace(data_->volume, scene.transfer_function, data_->facts, plan.slice,
                           context_->capabilities(), scene.width, scene.height);
         const Stopwatch frame_watch;

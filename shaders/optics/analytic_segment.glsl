@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/opacity.glsl"
+#include "optics/transfer_function.glsl"
+#ifdef TABLE_COLORED
+#include "optics/piece_weights.glsl"
+#else
+uniform vec3 single_color;
+#endif
+
+// Associated colour and opacity of a segment on which the scalar, normalised so that the intervals cover [0, 1], runs
+// straight from `front` to `back`: exactly, interval by interval of the transfer function (NUMERICS section 5). Twin of
+// integrate_segment (optics/segment_integral.h) in float32; optical depth is a sum of terms >= 0. Extinction times
+// length is finite (slicing/shader_intervals.h) for lengths up to 1e8.
+vec4 integrate_segment(float front, float back, float world_length) {
+    front = clamp(front, 0.0, 1.0);
+    back = clamp(back, 0.0, 1.0);
+    int interval = find_interval(front);
+    int last = find_interval(back);
+    int step = interval <= last ? 1 : -1;
+    float end_share = step > 0 ? 1.0 : 0.0;  // where an interval is left
+    bool one_piece = interval == last;  // front and back may be equal
+    float length_per_scalar = world_length / abs(back - front);
+
+    float scalar = front;
+    float share = share_of_interval(interval_place(interval), front);
+    float depth = 0.0;
+#ifdef TABLE_COLORED
+    vec3 color = vec3(0.0);
+    float transmittance = 1.0;
+#endif
+    for (int left = abs(last - interval); left >= 0; --left) {
+        bool whole = left > 0;  // to the end of this interval
+        float next_scalar = whole ? interval_place(interval + max(step, 0)).x : back;
+        float next_share = whole ? end_share : share_of_interval(interval_place(interval), back);
+        vec4 near = optics_at(interval, share);
+        vec4 far = optics_at(interval, next_share);
+        float part = one_piece ? world_length : length_per_scalar * abs(next_scalar - scalar);
+        float p = near.a * part, q = far.a * part;
+        float piece_depth = 0.5 * p + 0.5 * q;
+        depth += piece_depth;
+#ifdef TABLE_COLORED
+        float opacity = opacity_from_depth(piece_depth);
+        float weight = front_weight(p, q);
+        color += transmittance * (weight * near.rgb + max(opacity - weight, 0.0) * far.rgb);
+        transmittance *= 1.0 - opacity;
+#endif
+        scalar = next_scalar;
+        share = 1.0 - end_share;
+        interval += step;
+    }
+#ifdef TABLE_COLORED
+    return vec4(color, opacity_from_depth(depth));
+#else
+    return vec4(single_color, 1.0) * opacity_from_depth(depth);
+#endif
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/opacity.glsl"
+
+// Twin of SegmentTable::lookup (optics/segment_table.h). Texel (front node, back node, layer of length): with
+// TABLE_COLORED emission (store 0) or associated colour (store 1) in rgb, and in the last component mean extinction or
+// opacity. TABLE_NODES, TABLE_LAYERS and
+#define MAPPING_OCTAVE 0  // TABLE_MAPPING, as LengthMapping
+#define MAPPING_LOG2 1
+#define MAPPING_LINEAR 2
+#define STORE_MEAN_EXTINCTION 0  // TABLE_STORE, as TableStore
+#define STORE_OPACITY 1
+// TABLE_FILTERED: by the texture unit, whose weights have 8 bits on GPUs; else four or eight texels in float32.
+
+#if TABLE_LAYERS > 1
+uniform sampler3D segment_table;
+uniform float inverse_first_length;  // 1 / length of layer 1, per world unit
+#else
+uniform sampler2D segment_table;
+#endif
+uniform float table_scale;  // value = texel * table_scale
+#ifndef TABLE_COLORED
+uniform vec3 single_color;
+#endif
+
+#if TABLE_LAYERS > 1
+// Coordinate of a length: whole numbers are layers; not clamped to the last one.
+float length_layer(float world_length) {
+    float v = world_length * inverse_first_length;
+#if TABLE_LAYERS == 2 || TABLE_MAPPING == MAPPING_LINEAR
+    return v;
+#elif TABLE_MAPPING == MAPPING_LOG2
+    return log2(max(v, 1.0)) + min(v, 1.0);  // Kraus 2004, Equation 1
+#else
+    // The bits of a float are linear within each octave: NUMERICS section 5's 1 + e + (v / 2^e - 1) is the number of
+    // octaves from 1/2 on. Below v = 1 that is less than v, which holds there.
+    const int bits_of_half = 0x3f000000;
+    float octaves = float(floatBitsToInt(v) - bits_of_half) * (1.0 / 8388608.0);
+    return max(octaves, min(v, 1.0));
+#endif
+}
+#endif
+
+#ifdef TABLE_FILTERED
+
+vec4 table_entry(float front, float back, float world_length) {
+    const float nodes = float(TABLE_NODES);
+    vec2 place = vec2(front, back) * ((nodes - 1.0) / nodes) + 0.5 / nodes;
+#if TABLE_LAYERS > 1
+    return texture(segment_table, vec3(place, (length_layer(world_length) + 0.5) * (1.0 / float(TABLE_LAYERS))));
+#else
+    return texture(segment_table, place);
+#endif
+}
+
+#else
+
+#if TABLE_LAYERS > 1
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(segment_table, ivec3(node, layer), 0); }
+#else
+vec4 table_texel(ivec2 node, int layer) { return texelFetch(segment_table, node, 0); }
+#endif
+
+vec4 table_layer(ivec2 corner, vec2 share, int layer) {
+    vec4 front = table_texel(corner, layer);
+    vec4 back = table_texel(corner + ivec2(0, 1), layer);
+    front += share.x * (table_texel(corner + ivec2(1, 0), layer) - front);
+    back += share.x * (table_texel(corner + ivec2(1, 1), layer) - back);
+    return front + share.y * (back - front);
+}
+
+vec4 table_entry(float front, float back, float world_length) {
+    vec2 nodes = clamp(vec2(front, back), 0.0, 1.0) * float(TABLE_NODES - 1);
+    ivec2 corner = min(ivec2(nodes), ivec2(TABLE_NODES - 2));
+    vec2 share = nodes - vec2(corner);
+#if TABLE_LAYERS > 1
+    float layer = min(length_layer(world_length), float(TABLE_LAYERS - 1));
+    int below = min(int(layer), TABLE_LAYERS - 2);
+    vec4 entry = table_layer(corner, share, below);
+    return entry + (layer - float(below)) * (table_layer(corner, share, below + 1) - entry);
+#else
+    return table_layer(corner, share, 0);
+#endif
+}
+
+#endif
+
+// Associated colour and opacity of a segment on which the scalar, normalised so that the table covers [0, 1], runs
+// straight from `front` to `back`.
+vec4 integrate_segment(float front, float back, float world_length) {
+    vec4 entry = table_entry(front, back, world_length);
+#if TABLE_STORE == STORE_OPACITY
+#ifdef TABLE_COLORED
+    return entry * table_scale;
+#else
+    return vec4(single_color, 1.0) * (entry.r * table_scale);
+#endif
+#elif defined(TABLE_COLORED)
+    float alpha = opacity_from_depth(entry.a * (table_scale * world_length));
+    // Of a depth that is 0, emission is, too. The scale cancels.
+    return vec4(entry.rgb * (alpha / max(entry.a, 1e-37)), alpha);
+#else
+    return vec4(single_color, 1.0) * opacity_from_depth(entry.r * (table_scale * world_length));
+#endif
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a fragment of the paper's triangles knows (projection/fan_geometry.h).
+in vec2 inverse;
+in vec4 front_values;
+in vec4 back_values;
+flat in uint tet;
+
+uint tet_number() { return tet; }
+
+#if defined(ORTHOGRAPHIC) || defined(LINEAR)
+#define DIVIDED 0
+#else
+#define DIVIDED 1
+uniform vec2 image_middle;
+uniform float pixel_size;  // at depth 1
+#endif
+
+struct TetOptics {
+    vec4 front, back;  // colour, extinction
+    float world_length;
+};
+
+// Kraus 2004, section 2.3; the thickness as in NUMERICS section 6: the difference of the inverse depths is
+// interpolated itself.
+TetOptics find_optics() {
+#if DIVIDED
+    float z_front = 1.0 / inverse.x;
+    float z_back = 1.0 / (inverse.x - inverse.y);
+    float world_length = max(inverse.y, 0.0) * z_front * z_back;
+#ifndef THICKNESS_DZ
+    vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
+    world_length *= sqrt(1.0 + dot(from_middle, from_middle));
+#endif
+    return TetOptics(front_values * z_front, back_values * z_back, world_length);
+#else
+    return TetOptics(front_values, back_values, max(inverse.y, 0.0));
+#endif
+}
+
+vec4 vertex_values() { return front_values; }
+
+struct TetRun {
+    float front, back;   // scalars, normalised
+    float world_length;
+};
+
+TetRun find_run() {
+    TetOptics optics = find_optics();
+    return TetRun(optics.front.x, optics.back.x, optics.world_length);
+}

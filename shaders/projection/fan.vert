@@ -1,0 +1,24 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// A vertex of the paper's triangles (projection/fan_geometry.h), with w = 1: what is handed on is interpolated linearly
+// in the picture (Kraus 2004, section 2.3).
+layout(location = 0) in vec2 position;  // window coordinates
+layout(location = 1) in vec2 inverse_in;
+layout(location = 2) in vec4 front_in;
+layout(location = 3) in vec4 back_in;
+layout(location = 4) in uint tet_in;
+
+uniform vec2 image_size;
+
+out vec2 inverse;
+out vec4 front_values;
+out vec4 back_values;
+flat out uint tet;
+
+void main() {
+    inverse = inverse_in;
+    front_values = front_in;
+    back_values = back_in;
+    tet = tet_in;
+    gl_Position = vec4(2.0 * position / image_size - 1.0, 0.0, 1.0);
+}

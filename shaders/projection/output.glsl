@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a fragment reaches the target. BITS: opacity is rounded to a code here, and DITHER_ALPHA: by chance, before the
+// blending unit; EMULATED: and composited here as render.emulate says; AFTER_BLEND: composited here, and the result
+// rounded by chance.
+#if defined(BITS)
+#include "compositing/codes.glsl"
+#include "compositing/random_bits.glsl"
+uniform int image_rows;
+uniform int seed;
+uint random_of_fragment() {
+    return random_bits(uint(gl_FragCoord.x), uint(image_rows) - 1u - uint(gl_FragCoord.y), tet_number(), uint(seed));
+}
+#endif
+#ifdef EMULATED
+#include "compositing/programmable_blending.glsl"
+
+void write_fragment(vec4 color) {
+    double scaled = double(LARGEST_CODE) * double(color.a);
+    vec3 separate = color.a > 0.0 ? clamp(color.rgb / color.a, 0.0, 1.0) : vec3(0.0);
+    uvec3 codes;
+    for (int channel = 0; channel < 3; ++channel)
+        codes[channel] = code_nearest(double(LARGEST_CODE) * double(separate[channel]));
+#if ALPHA_ROUNDING == ROUND_STOCHASTIC
+    composite(codes, round_alpha(split_scaled(scaled), random_of_fragment()));
+#else
+    composite(codes, round_alpha(split_scaled(scaled), 0u));
+#endif
+}
+#elif defined(AFTER_BLEND)
+#include "compositing/programmable_blending.glsl"
+#include "compositing/stochastic_over.glsl"
+
+void write_fragment(vec4 color) {
+    uvec4 there = stored_codes();
+    uint random = random_of_fragment();
+    uvec4 result;
+    for (int channel = 0; channel < 4; ++channel)
+        result[channel] = over_stochastic(double(clamp(color[channel], 0.0, 1.0)), double(color.a), there[channel], random);
+    store_codes(result);
+}
+#elif defined(DITHER_ALPHA)
+layout(location = 0) out vec4 associated;
+
+// Kraus 2004, section 4.2, with one random number for all channels: the blending unit rounds associated colours, too.
+void write_fragment(vec4 color) {
+    float largest = float(LARGEST_CODE);
+    vec4 scaled = clamp(color, 0.0, 1.0) * largest;
+    vec4 whole = floor(scaled);
+    float random = float(random_of_fragment() >> 8u) / 16777216.0;
+    associated = (whole + vec4(lessThan(vec4(random), scaled - whole))) / largest;
+}
+#else
+layout(location = 0) out vec4 associated;
+
+void write_fragment(vec4 color) { associated = color; }
+#endif

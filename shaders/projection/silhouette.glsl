@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a fragment's ray is inside its tet, from the planes of the faces (projection/tet_record.h). Coverage, too, is
+// decided here: the polygon covers a little more than the tet, and rasterisers move its corners.
+#ifdef CAREFUL
+flat in vec4 face_depths[6];
+uniform dvec3 tie_shift;   // pixels: moves rays that run along faces to one side, the same for all tets
+uniform float near_depth;  // "depth" of the near plane
+#else
+flat in vec4 face_depths[3];
+#endif
+flat in vec4 center;
+#ifdef SCALARS
+flat in vec4 scalars;
+#endif
+flat in vec4 limits;
+
+uniform vec2 image_middle;  // window coordinates
+uniform float pixel_size;   // at depth 1
+
+uint tet_number() { return floatBitsToUint(limits.w); }
+
+struct TetRun {
+    float front, back;   // scalars, normalised
+    float world_length;  // 0 where the ray misses the tet
+};
+
+#ifdef CAREFUL
+dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
+
+// The depths, less the center's, between which the ray is inside the tet. In double: faces that are nearly edge-on are
+// steep functions of the pixel, and both tets that share one must find it in the same place.
+vec2 find_depths(vec2 place) {
+    // The ray is moved in space; what that moves along the ray itself does not count.
+    dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
+    dvec2 moved = dvec2(place) + tie_shift.xy - tie_shift.z * from_middle;
+    vec4 depths = vec4(four_doubles(face_depths[0], face_depths[1]) +
+                       four_doubles(face_depths[2], face_depths[3]) * moved.x +
+                       four_doubles(face_depths[4], face_depths[5]) * moved.y);
+    uint fronts = floatBitsToUint(limits.z);
+    float enter = near_depth - center.z;
+    enter = max(enter, fronts > 0u ? depths.x : enter);
+    enter = max(enter, fronts > 1u ? depths.y : enter);
+    enter = max(enter, fronts > 2u ? depths.z : enter);
+    float leave = depths.w;
+    leave = min(leave, fronts > 0u ? leave : depths.x);
+    leave = min(leave, fronts > 1u ? leave : depths.y);
+    leave = min(leave, fronts > 2u ? leave : depths.z);
+    return vec2(enter, leave);
+}
+#else
+// The same for tets with 1 to 3 front faces, none of them nearly edge-on.
+vec2 find_depths(vec2 place) {
+    vec4 depths = face_depths[0] + face_depths[1] * place.x + face_depths[2] * place.y;
+    uint fronts = floatBitsToUint(limits.z);
+    bool two = fronts > 1u, three = fronts > 2u;
+    float enter = depths.x;
+    enter = max(enter, two ? depths.y : enter);
+    enter = max(enter, three ? depths.z : enter);
+    float leave = depths.w;
+    leave = min(leave, two ? leave : depths.y);
+    leave = min(leave, three ? leave : depths.z);
+    return vec2(enter, leave);
+}
+#endif
+
+TetRun find_run() {
+    vec2 place = gl_FragCoord.xy - center.xy;  // exact
+    vec2 depths = find_depths(place);
+    bool inside = depths.y > depths.x;
+    TetRun run;
+#ifdef ORTHOGRAPHIC
+    run.world_length = inside ? depths.y - depths.x : 0.0;
+    vec2 from_center = depths;
+    vec2 reach = vec2(1.0);
+#else
+    // z = -1 / depth; differences of z from differences of depth, so that far eyes cost no digits (NUMERICS section 6).
+    vec2 z = -1.0 / min(center.z + depths, -1e-30);
+    float world_length = (depths.y - depths.x) * z.x * z.y;
+#ifndef THICKNESS_DZ
+    vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
+    world_length *= sqrt(1.0 + dot(from_middle, from_middle));
+#endif
+    run.world_length = inside ? world_length : 0.0;
+    vec2 from_center = depths * z * center.w;
+    vec2 reach = z;
+#endif
+#ifdef SCALARS
+    vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);
+    ends = clamp(ends, limits.x, limits.y);
+    run.front = ends.x;
+    run.back = ends.y;
+#else
+    run.front = 0.0;
+    run.back = 0.0;
+#endif
+    return run;
+}

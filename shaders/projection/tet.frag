@@ -1,0 +1,26 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+#ifdef FRAMEBUFFER_FETCH
+#extension GL_EXT_shader_framebuffer_fetch : require
+#endif
+// One tet of the projected-tetrahedra renderer: what the fragment's ray gathers inside it, put over what is there.
+#define SOURCE_CONSTANT 0
+#define SOURCE_TABLE 1
+#define SOURCE_ALIGNED_TABLE 2
+#define SOURCE_PIECES 3
+#define SOURCE_CUT_TABLE 4
+#define SOURCE_ANALYTIC 5
+#define SOURCE_MEAN 6
+#define SOURCE_VERTICES 7
+#if SOURCE == SOURCE_CONSTANT
+uniform vec4 constant_optics;  // colour, extinction
+#endif
+#ifdef FAN
+#include "projection/fan.glsl"
+#else
+#include "projection/silhouette.glsl"
+#endif
+#include "projection/tet_color.glsl"
+#include "projection/output.glsl"
+
+void main() { write_fragment(tet_color()); }

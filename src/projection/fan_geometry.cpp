@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/fan_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "optics/opacity.h"
+
+namespace lamina {
+namespace {
+
+// A tet is cut by the near plane into at most three, each with five vertices and four triangles.
+constexpr std::size_t most_parts = 3, most_vertices = 5, most_triangles = 4;
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// The three tets of a prism with the triangles a0 a1 a2 and b0 b1 b2.
+constexpr std::array<std::array<std::size_t, 4>, 3> prism_tets{
+    {{0, 1, 2, 3}, {1, 2, 3, 4}, {2, 3, 4, 5}}};
+
+}  // namespace
+
+FanGeometry::FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                         const ProjectPlan& plan, const View& view)
+    : mesh_(mesh),
+      transfer_function_(transfer_function),
+      plan_(plan),
+      view_(view),
+      signer_(mesh.mesh, eye_of(view)),
+      middle_(0.5 * view.width, 0.5 * view.height),
+      perspective_view_(view.projection == Projection::perspective),
+      divided_(perspective_view_ && plan.interpolation == Interpolation::perspective) {}
+
+TetGeometry::Size FanGeometry::largest_size() {
+    return {sizeof(FanVertex), most_parts * most_vertices, most_parts * most_triangles * 3, false};
+}
+
+glm::dvec2 FanGeometry::to_window(const glm::dvec3& seen) const {
+    const double scale = perspective_view_ ? view_.pixel * seen.z : view_.pixel;
+    return middle_ + glm::dvec2(seen.x / scale, seen.y / scale);
+}
+
+FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
+    const auto index = static_cast<std::size_t>(point);
+    const glm::dvec3 p = mesh_.mesh.points()[index] - view_.eye;
+    Corner corner;
+    corner.seen = {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
+    corner.window = to_window(corner.seen);
+    const double value = mesh_.scalar.values[index];
+    if (plan_.source == SegmentSource::mean || plan_.source == SegmentSource::vertices) {
+        const OpticalProperties optics = transfer_function_.at(value);
+        corner.values = glm::dvec4(optics.color, optics.extinction);
+    } else {
+        corner.values =
+            glm::dvec4((value - plan_.range.lo) / (plan_.range.hi - plan_.range.lo), 0, 0, 0);
+    }
+    return corner;
+}
+
+// Faces that are edge-on: as in tet_projector.cpp, in front for one of their two tets.
+FanGeometry::Fronts FanGeometry::fronts_of(std::int32_t index) const {
+    const auto tet = static_cast<std::size_t>(index);
+    const FaceSigns signs = signer_.signs(tet);
+    Fronts fronts;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const auto [a, b, c] = corners_of_face(mesh_.mesh.tets()[tet], face);
+        const bool turned = (a > b) != ((b > c) != (a > c));
+        const bool farther = (signs & farther_bit(face)) != 0;
+        fronts[face] = (signs & nearer_bit(face)) != 0 || (!farther && turned);
+    }
+    return fronts;
+}
+
+FanGeometry::Fronts FanGeometry::fronts_of(const Corners& corners) const {
+    Fronts fronts;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const glm::dvec3& a = corners[face_corners[face][0]].seen;
+        const glm::dvec3& b = corners[face_corners[face][1]].seen;
+        const glm::dvec3& c = corners[face_corners[face][2]].seen;
+        const glm::dvec3 normal = glm::cross(b - a, c - a);
+        const double eye_side = perspective_view_ ? -glm::dot(normal, a) : -normal.z;
+        const double inner_side = glm::dot(normal, corners[face].seen - a);
+        fronts[face] = (eye_side > 0) != (inner_side > 0);
+    }
+    return fronts;
+}
+
+FanGeometry::Point FanGeometry::point_of(const Corner& corner) const {
+    const double inverse = perspective_view_ ? 1 / corner.seen.z : 1;
+    return {inverse, corner.seen.z, corner.values * inverse};
+}
+
+FanGeometry::Point FanGeometry::mix(std::span<const Point> points,
+                                    std::span<const double> weights) const {
+    Point sum{0, 0, glm::dvec4(0)};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        sum.inverse_z += weights[i] * points[i].inverse_z;
+        sum.z += weights[i] * points[i].z;
+        sum.values += weights[i] * points[i].values;
+    }
+    if (perspective_view_) sum.z = 1 / sum.inverse_z;
+    return sum;
+}
+
+// `inverse_difference`: of inverse depths in perspective views, of depths in orthographic ones.
+FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
+                                    double inverse_difference) const {
+    const double difference = std::max(inverse_difference, 0.0);
+    FanVertex vertex{};
+    vertex.position = window;
+    if (divided_) {
+        vertex.inverse = glm::dvec2(front.inverse_z, difference);
+        vertex.front = front.values;
+        vertex.back = back.values;
+        return vertex;
+    }
+    double thickness = difference;
+    if (perspective_view_) {
+        thickness *= front.z * back.z;
+        const glm::dvec2 place = (window - middle_) * view_.pixel;
+        if (plan_.thickness == Thickness::exact) thickness *= std::sqrt(1 + glm::dot(place, place));
+    }
+    vertex.inverse = glm::dvec2(0, thickness);
+    const glm::dvec4 at_front = front.values / front.inverse_z;
+    const glm::dvec4 at_back = back.values / back.inverse_z;
+    vertex.front = at_front;
+    vertex.back = at_back;
+    if (plan_.source == SegmentSource::vertices) {
+        const glm::dvec4 mean = 0.5 * (at_front + at_back);
+        vertex.front = glm::dvec4(glm::dvec3(mean), opacity_from_depth(mean.a * thickness));
+    }
+    return vertex;
+}
+
+FanVertex FanGeometry::thin_vertex(const Corner& corner) const {
+    const Point point = point_of(corner);
+    return thick_vertex(corner.window, point, point, 0);
+}
+
+bool FanGeometry::make_fan(const Corners& corners, const Fronts& fronts, Fan& fan) const {
+    std::array<std::size_t, 4> front_faces{}, back_faces{};
+    std::size_t front_count = 0, back_count = 0;
+    for (std::size_t face = 0; face < 4; ++face) {
+        if (fronts[face]) {
+            front_faces[front_count++] = face;
+        } else {
+            back_faces[back_count++] = face;
+        }
+    }
+    if (front_count == 1) return make_around_corner(corners, front_faces[0], true, fan);
+    if (front_count == 3) return make_around_corner(corners, back_faces[0], false, fan);
+    if (front_count != 2) return false;
+    return make_around_crossing(corners, {front_faces[0], front_faces[1]},
+                                {back_faces[0], back_faces[1]}, fan);
+}
+
+// Classes 1a and 1b (Kraus 2004, Figure 1): a corner is seen inside the face opposite.
+bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_face, bool front,
+                                     Fan& fan) const {
+    const Corner& apex = corners[lone_face];
+    const auto& rim = face_corners[lone_face];
+    std::array<double, 3> weights;
+    std::array<Point, 3> points;
+    double area = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec2& b = corners[rim[(i + 1) % 3]].window;
+        const glm::dvec2& c = corners[rim[(i + 2) % 3]].window;
+        weights[i] = cross(b - apex.window, c - apex.window);
+        points[i] = point_of(corners[rim[i]]);
+        area += weights[i];
+    }
+    if (area == 0 || !std::isfinite(area)) return false;
+    // How much deeper (perspective: less in 1/z) the apex is than the face; differences of 1/z from
+    // differences of z (NUMERICS section 6).
+    double deeper = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        weights[i] = std::clamp(weights[i] / area, 0.0, 1.0);
+        const double dz = apex.seen.z - corners[rim[i]].seen.z;
+        deeper +=
+            weights[i] * (perspective_view_ ? dz / (apex.seen.z * corners[rim[i]].seen.z) : dz);
+    }
+    const Point hit = mix(points, weights), tip = point_of(apex);
+    fan.vertices[0] = front ? thick_vertex(apex.window, hit, tip, deeper)
+                            : thick_vertex(apex.window, tip, hit, -deeper);
+    fan.rim = 3;
+    for (std::size_t i = 0; i < 3; ++i) fan.vertices[i + 1] = thin_vertex(corners[rim[i]]);
+    return true;
+}
+
+// Class 2: two edges cross. The two front faces share the edge of the other two corners, and so do
+// the back faces.
+bool FanGeometry::make_around_crossing(const Corners& corners,
+                                       const std::array<std::size_t, 2>& front_faces,
+                                       const std::array<std::size_t, 2>& back_faces,
+                                       Fan& fan) const {
+    const Corner& i = corners[front_faces[0]];
+    const Corner& j = corners[front_faces[1]];
+    const Corner& k = corners[back_faces[0]];
+    const Corner& l = corners[back_faces[1]];
+    const glm::dvec2 along_front = l.window - k.window, along_back = j.window - i.window;
+    const double area = cross(along_front, along_back);
+    if (area == 0 || !std::isfinite(area)) return false;
+    const glm::dvec2 apart = i.window - k.window;
+    const double at_front = std::clamp(cross(apart, along_back) / area, 0.0, 1.0);
+    const double at_back = std::clamp(cross(apart, along_front) / area, 0.0, 1.0);
+    const std::array front_points{point_of(k), point_of(l)}, back_points{point_of(i), point_of(j)};
+    const std::array front_weights{1 - at_front, at_front}, back_weights{1 - at_back, at_back};
+    const Point front = mix(front_points, front_weights), back = mix(back_points, back_weights);
+    const auto deeper = [&](const Corner& near, const Corner& far) {
+        const double dz = far.seen.z - near.seen.z;
+        return perspective_view_ ? dz / (far.seen.z * near.seen.z) : dz;
+    };
+    const double difference = deeper(k, i) + at_back * deeper(i, j) - at_front * deeper(k, l);
+    fan.vertices[0] = thick_vertex(k.window + at_front * along_front, front, back, difference);
+    fan.rim = 4;
+    fan.vertices[1] = thin_vertex(j);
+    fan.vertices[2] = thin_vertex(l);
+    fan.vertices[3] = thin_vertex(i);
+    fan.vertices[4] = thin_vertex(k);
+    return true;
+}
+
+void FanGeometry::append(const Fan& fan, std::int32_t tet, const Place& place, Written& written) {
+    const auto first = place.first_vertex + static_cast<std::uint32_t>(written.vertices);
+    for (int i = 0; i <= fan.rim; ++i) {
+        FanVertex vertex = fan.vertices[static_cast<std::size_t>(i)];
+        vertex.tet = static_cast<std::uint32_t>(tet);
+        std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
+    }
+    for (int i = 0; i < fan.rim; ++i) {
+        place.indices[written.indices++] = first;
+        place.indices[written.indices++] = first + 1 + static_cast<std::uint32_t>(i);
+        place.indices[written.indices++] =
+            first + 1 + static_cast<std::uint32_t>((i + 1) % fan.rim);
+    }
+}
+
+TetGeometry::Written FanGeometry::write(std::int32_t index, const Place& place) const {
+    const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(index)];
+    Corners corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = corner_of(tet[i]);
+    std::size_t behind = 0;
+    glm::dvec2 lo(INFINITY), hi(-INFINITY);
+    for (const Corner& corner : corners) {
+        behind += corner.seen.z < plan_.near_depth;
+        lo = glm::min(lo, corner.window);
+        hi = glm::max(hi, corner.window);
+    }
+    if (behind == 4) return {};
+    if (behind > 0) return write_clipped(index, corners, place);
+    if (hi.x < 0 || hi.y < 0 || lo.x > view_.width || lo.y > view_.height) return {};
+    Written written;
+    Fan fan;
+    if (make_fan(corners, fronts_of(index), fan)) append(fan, index, place, written);
+    return written;
+}
+
+// The part in front of the near plane: a tet where one corner is, a prism where two or three are.
+TetGeometry::Written FanGeometry::write_clipped(std::int32_t index, const Corners& corners,
+                                                const Place& place) const {
+    std::array<std::size_t, 4> before{}, behind{};
+    std::size_t count = 0, behind_count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        (corners[i].seen.z < plan_.near_depth ? behind[behind_count++] : before[count++]) = i;
+    }
+    const auto cut = [&](std::size_t from, std::size_t to) {
+        const Corner& a = corners[from];
+        const Corner& b = corners[to];
+        const double share = (plan_.near_depth - a.seen.z) / (b.seen.z - a.seen.z);
+        Corner corner;
+        corner.seen = a.seen + share * (b.seen - a.seen);
+        corner.seen.z = plan_.near_depth;
+        corner.window = to_window(corner.seen);
+        corner.values = a.values + share * (b.values - a.values);
+        return corner;
+    };
+    std::array<Corner, 6> prism;
+    std::size_t parts = 3;
+    if (count == 1) {
+        prism[0] = corners[before[0]];
+        for (std::size_t i = 0; i < 3; ++i) prism[i + 1] = cut(before[0], behind[i]);
+        parts = 1;
+    } else if (count == 2) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            prism[3 * i] = corners[before[i]];
+            for (std::size_t j = 0; j < 2; ++j) prism[3 * i + j + 1] = cut(before[i], behind[j]);
+        }
+    } else {
+        for (std::size_t i = 0; i < 3; ++i) {
+            prism[i] = corners[before[i]];
+            prism[i + 3] = cut(before[i], behind[0]);
+        }
+    }
+    Written written;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const auto& [a, b, c, d] = prism_tets[part];
+        const Corners piece{prism[a], prism[b], prism[c], prism[d]};
+        Fan fan;
+        if (make_fan(piece, fronts_of(piece), fan)) append(fan, index, place, written);
+    }
+    return written;
+}
+
+}  // namespace lamina

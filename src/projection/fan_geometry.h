@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesh/face_signs.h"
+#include "projection/tet_geometry.h"
+#include "scene/project_plan.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// A vertex of the paper's triangles (shaders/projection/fan.vert): the points at the front and at
+// the back of the tet that are seen at one place.
+struct FanVertex {
+    glm::vec2 position;  // window coordinates
+    // Perspective interpolation: 1/z at the front, and how much more that is than at the back (both
+    // linear in window coordinates). Linear: 0, and the thickness.
+    glm::vec2 inverse;
+    // The scalar (normalised) in x, or colour and extinction; over z for perspective interpolation.
+    // Coloring `vertex`: in `front` the vertex's colour and opacity.
+    glm::vec4 front, back;
+    std::uint32_t tet;
+};
+
+// Three or four triangles around a thick vertex for each tet: the projections of the smaller tets
+// of Kraus 2004, Figure 3. Tets that cross the near plane are cut first.
+class FanGeometry : public TetGeometry {
+  public:
+    // All must outlive it.
+    FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                const ProjectPlan& plan, const View& view);
+    static Size largest_size();
+    Written write(std::int32_t tet, const Place& place) const override;
+
+    // A corner of a tet, or of a part of one.
+    struct Corner {
+        glm::dvec3 seen;    // from the eye: along right, up and forward
+        glm::dvec2 window;  // window coordinates
+        glm::dvec4 values;  // as in FanVertex, not divided
+    };
+    using Corners = std::array<Corner, 4>;
+    using Fronts = std::array<bool, 4>;  // of the faces opposite the corners
+
+  private:
+    struct Fan {
+        int rim = 0;  // 3 or 4 vertices around the first one
+        std::array<FanVertex, 5> vertices;
+    };
+    // What is seen at one place, front or back.
+    struct Point {
+        double inverse_z;  // 1 in orthographic views
+        double z;
+        glm::dvec4 values;  // divided by z
+    };
+
+    Corner corner_of(std::int32_t point) const;
+    glm::dvec2 to_window(const glm::dvec3& seen) const;
+    Fronts fronts_of(std::int32_t tet) const;
+    Fronts fronts_of(const Corners& corners) const;
+    Point point_of(const Corner& corner) const;
+    Point mix(std::span<const Point> points, std::span<const double> weights) const;
+    bool make_fan(const Corners& corners, const Fronts& fronts, Fan& fan) const;
+    bool make_around_corner(const Corners& corners, std::size_t lone_face, bool front,
+                            Fan& fan) const;
+    bool make_around_crossing(const Corners& corners, const std::array<std::size_t, 2>& front_faces,
+                              const std::array<std::size_t, 2>& back_faces, Fan& fan) const;
+    FanVertex thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
+                           double inverse_difference) const;
+    FanVertex thin_vertex(const Corner& corner) const;
+    Written write_clipped(std::int32_t tet, const Corners& corners, const Place& place) const;
+    static void append(const Fan& fan, std::int32_t tet, const Place& place, Written& written);
+
+    const SceneMesh& mesh_;
+    const TransferFunction& transfer_function_;
+    const ProjectPlan& plan_;
+    const View& view_;
+    FaceSigner signer_;
+    glm::dvec2 middle_;
+    bool perspective_view_;  // depths are divided by in projecting
+    bool divided_;           // values are interpolated over z
+};
+
+}  // namespace lamina

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/gl_project_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/stopwatch.h"
+#include "slicing/shader_intervals.h"
+
+namespace lamina {
+namespace {
+
+constexpr unsigned table_unit = GlTransferTables::first_free_unit;
+
+gl::TextureFormat format_of(const SegmentTable& table) {
+    const bool one = table.channels == 1;
+    switch (table.request.format) {
+        case TableFormat::fixed8:
+            return one ? gl::TextureFormat::r8 : gl::TextureFormat::rgba8;
+        case TableFormat::fixed16:
+            return one ? gl::TextureFormat::r16 : gl::TextureFormat::rgba16;
+        case TableFormat::float16:
+            return one ? gl::TextureFormat::r16f : gl::TextureFormat::rgba16f;
+        default:
+            return one ? gl::TextureFormat::r32f : gl::TextureFormat::rgba32f;
+    }
+}
+
+template <typename Code>
+std::vector<Code> to_codes(const std::vector<float>& texels) {
+    constexpr double largest = std::numeric_limits<Code>::max();
+    std::vector<Code> codes(texels.size());
+    std::transform(texels.begin(), texels.end(), codes.begin(), [](float value) {
+        return static_cast<Code>(std::lround(static_cast<double>(value) * largest));
+    });
+    return codes;
+}
+
+}  // namespace
+
+GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
+    : plan_(plan) {
+    const Stopwatch watch;
+    single_color_ = glm::vec3(first_color(transfer_function, plan.range));
+    switch (plan.source) {
+        case SegmentSource::constant:
+            constant_ = transfer_function.at(plan.range.lo);
+            break;
+        case SegmentSource::table:
+            table_ = segment_table(transfer_function, plan.table);
+            upload(*table_);
+            break;
+        case SegmentSource::aligned_table:
+        case SegmentSource::pieces:
+        case SegmentSource::cut_table:
+            if (plan.has_aligned_table()) {
+                intervals_.emplace(transfer_function, plan.range, &plan_.aligned,
+                                   plan.table_filtered);
+            }
+            if (plan.source != SegmentSource::cut_table) set_pieces(transfer_function);
+            break;
+        case SegmentSource::analytic:
+            intervals_.emplace(transfer_function, plan.range, nullptr, false);
+            break;
+        default:
+            break;
+    }
+    build_ms_ = watch.milliseconds();
+}
+
+// The table's anchors are the ends of the pieces; a step is two anchors at one scalar.
+void GlProjectTables::set_pieces(const TransferFunction& transfer_function) {
+    const ExtinctionPieces extinction(transfer_function, plan_.range.lo, plan_.range.hi);
+    for (const auto& [left, right, at_left, slope] : extinction.pieces())
+        pieces_.emplace_back(left, right, at_left, 0.5 * slope);
+    if (!intervals_) return;
+    const auto& anchors = intervals_->anchors();
+    for (std::size_t i = 0; i + 1 < anchors.size(); ++i) {
+        const double width =
+            (anchors[i + 1].value - anchors[i].value) / (plan_.range.hi - plan_.range.lo);
+        const int nodes = anchors[i + 1].node - anchors[i].node;
+        if (width > 0) {
+            piece_nodes_.emplace_back(nodes / width, 0);
+        } else {
+            piece_nodes_.back().y = static_cast<float>(nodes);
+        }
+    }
+}
+
+void GlProjectTables::upload(const SegmentTable& table) {
+    const int nodes = table.request.scalar_nodes;
+    const gl::TextureFormat format = format_of(table);
+    texture_ = table.layers > 1 ? gl::Texture::make_3d(format, nodes, nodes, table.layers)
+                                : gl::Texture::make_2d(format, nodes, nodes);
+    const gl::TexelBox whole{0, 0, 0, nodes, nodes, table.layers};
+    switch (table.request.format) {
+        case TableFormat::fixed8:
+            texture_->upload(whole,
+                             std::span<const std::uint8_t>(to_codes<std::uint8_t>(table.texels)));
+            break;
+        case TableFormat::fixed16:
+            texture_->upload(whole,
+                             std::span<const std::uint16_t>(to_codes<std::uint16_t>(table.texels)));
+            break;
+        default:
+            texture_->upload(whole, std::span<const float>(table.texels));
+    }
+    if (plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
+}
+
+void GlProjectTables::set_defines(gl::Defines& defines) const {
+    defines.set("SOURCE", static_cast<int>(plan_.source));
+    if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
+    if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
+    if (!pieces_.empty()) defines.set("PIECES", static_cast<int>(pieces_.size()));
+    if (plan_.source == SegmentSource::pieces) defines.set("EXACT_OPACITY", 1);
+    if (!piece_nodes_.empty()) defines.set("PIECE_NODES", 1);
+    const auto skips = [](const glm::vec2& nodes) { return nodes.y != 0; };
+    if (std::ranges::any_of(piece_nodes_, skips)) defines.set("SKIPPED_NODES", 1);
+    if (intervals_) {
+        defines.set("INTERVALS", intervals_->intervals());
+        if (intervals_->nodes() > 0) defines.set("TABLE_NODES", intervals_->nodes());
+        defines.set("TABLE_LAYERS", plan_.aligned.length_layers);
+    }
+    if (!table_) return;
+    defines.set("TABLE_NODES", table_->request.scalar_nodes);
+    defines.set("TABLE_LAYERS", table_->layers);
+    defines.set("TABLE_MAPPING", static_cast<int>(table_->request.mapping));
+    defines.set("TABLE_STORE", static_cast<int>(table_->request.store));
+}
+
+void GlProjectTables::bind(gl::Program& program) const {
+    if (plan_.source == SegmentSource::constant) {
+        const double extinction = std::min(constant_.extinction, max_shader_extinction);
+        program.set("constant_optics", glm::vec4(constant_.color, extinction));
+        return;
+    }
+    if (plan_.single_color) program.set("single_color", single_color_);
+    if (intervals_) intervals_->bind(program);
+    if (!pieces_.empty()) program.set("extinction_pieces", std::span<const glm::vec4>(pieces_));
+    if (!piece_nodes_.empty()) program.set("piece_nodes", std::span<const glm::vec2>(piece_nodes_));
+    if (!table_) return;
+    texture_->bind(table_unit);
+    program.set("segment_table", static_cast<int>(table_unit));
+    program.set("table_scale", table_->scale);
+    if (table_->layers > 1) {
+        program.set("inverse_first_length", static_cast<float>(table_->inverse_first_length()));
+    }
+}
+
+}  // namespace lamina

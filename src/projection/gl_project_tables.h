@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "optics/extinction_pieces.h"
+#include "optics/transfer_function.h"
+#include "scene/project_plan.h"
+#include "slicing/gl_transfer_tables.h"
+
+namespace lamina {
+
+// The transfer function as the fragments of tets read it (shaders/projection/tet_color.glsl).
+class GlProjectTables {
+  public:
+    GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan);
+
+    void set_defines(gl::Defines& defines) const;
+    void bind(gl::Program& program) const;  // textures and uniforms
+    double build_ms() const { return build_ms_; }
+    std::int64_t table_bytes() const { return texture_ ? texture_->byte_count() : 0; }
+
+  private:
+    void upload(const SegmentTable& table);
+    void set_pieces(const TransferFunction& transfer_function);
+
+    ProjectPlan plan_;
+    glm::vec3 single_color_{0};
+    OpticalProperties constant_;
+    std::shared_ptr<const SegmentTable> table_;
+    std::optional<gl::Texture> texture_;         // of table_
+    std::optional<GlTransferTables> intervals_;  // analytic, and with an aligned table
+    // shaders/optics/mean_extinction.glsl; none for other sources.
+    std::vector<glm::vec4> pieces_;
+    std::vector<glm::vec2> piece_nodes_;
+    double build_ms_ = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/fence.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+#include "projection/tet_geometry.h"
+
+namespace lamina {
+
+// Streams tets through mapped buffers in batches: while the context draws one, all cores write the
+// next. Takes its memory once.
+class GlTetStream {
+  public:
+    // An attribute of a vertex, from location 0 on.
+    struct Attribute {
+        int components;
+        std::size_t byte_offset;
+        bool integer;
+    };
+    // `tets`: at most so many are drawn at a time.
+    GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
+                std::size_t tets);
+
+    // Waits between tets, for programs that read the target as a texture.
+    void set_barriers(bool barriers) { barriers_ = barriers; }
+
+    struct Programs {
+        const gl::Program& plain;
+        const gl::Program& careful;  // for tets that need it, and some around them
+    };
+    // Draws the tets in their order with the state that is bound; Ctrl-C ends it between batches.
+    // `batch_done` is called after each. Returns how many tets were drawn: those that cover the
+    // centre of a pixel.
+    std::int64_t draw(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+                      const Programs& programs, const std::function<void()>& batch_done);
+
+    std::size_t batch_count(std::size_t tets) const;
+    double write_ms() const { return write_ms_; }  // of the last draw
+
+  private:
+    struct Batch {
+        gl::Buffer vertices, indices, records;
+        gl::VertexArray vertex_array;
+        gl::Fence drawn;
+    };
+    // Tets that one task writes to a part of the buffers of its own.
+    struct Chunk {
+        int indices = 0;
+        std::int64_t tets = 0;
+        bool careful = false;
+    };
+    void write(const TetGeometry& geometry, std::span<const std::int32_t> tets, Batch& batch);
+    void write_chunk(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+                     std::size_t number, const Batch& batch);
+    void submit(std::size_t chunks, const Programs& programs);
+    void submit_with_barriers(std::size_t tets, const Programs& programs) const;
+
+    TetGeometry::Size size_;
+    bool barriers_ = false;
+    std::size_t batch_tets_;
+    std::array<Batch, 3> batches_;
+    std::vector<Chunk> chunks_;
+    std::vector<int> tet_indices_;  // of each tet of the batch, for barriers
+    std::vector<int> counts_;       // of indices, of the chunks of one draw
+    std::vector<const void*> offsets_;
+    double write_ms_ = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/screen_polygon.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t most_points = 6;
+
+// Corners farther out than this are cut off, so that rasterisers keep their sub-pixel digits.
+constexpr double guard = 2;  // pixels
+
+// Corners nearer to each other than this are one.
+constexpr double same = 1e-9;  // pixels
+
+// Corners of the enlarged polygon stick out by at most 1 / sqrt((1 + this) / 2) margins; sharper
+// ones are cut off square.
+constexpr double sharpest = -0.96;
+
+struct Hull {
+    std::size_t count = 0;
+    std::array<glm::dvec2, most_points + 5> corners;
+};
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+// Andrew's monotone chain: counter-clockwise, without corners on straight edges.
+Hull convex_hull(std::span<const glm::dvec2> points) {
+    std::array<glm::dvec2, most_points> sorted;
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i) {  // by insertion
+        std::size_t place = i;
+        const auto before = [&](const glm::dvec2& other) {
+            return points[i].x != other.x ? points[i].x < other.x : points[i].y < other.y;
+        };
+        for (; place > 0 && before(sorted[place - 1]); --place) sorted[place] = sorted[place - 1];
+        sorted[place] = points[i];
+    }
+    std::array<glm::dvec2, 2 * most_points> chain;
+    std::size_t top = 0;
+    const auto add = [&](const glm::dvec2& point, std::size_t floor) {
+        while (top >= floor + 2 &&
+               cross(chain[top - 1] - chain[top - 2], point - chain[top - 1]) <= 0)
+            --top;
+        chain[top++] = point;
+    };
+    for (std::size_t i = 0; i < count; ++i) add(sorted[i], 0);
+    const std::size_t floor = top - 1;
+    for (std::size_t i = count - 1; i-- > 0;) add(sorted[i], floor);
+    Hull hull;
+    for (std::size_t i = 0; i + 1 < top; ++i) {
+        const bool repeated =
+            hull.count > 0 && glm::distance(chain[i], hull.corners[hull.count - 1]) < same;
+        if (!repeated) hull.corners[hull.count++] = chain[i];
+    }
+    while (hull.count > 1 && glm::distance(hull.corners[0], hull.corners[hull.count - 1]) < same)
+        --hull.count;
+    if (hull.count == 0) hull.corners[hull.count++] = chain[0];
+    return hull;
+}
+
+// The part where the coordinate `axis` is at most `limit`, or at least where `sign` is -1
+// (Sutherland and Hodgman 1974).
+Hull cut(const Hull& hull, int axis, double limit, double sign) {
+    Hull part;
+    for (std::size_t i = 0; i < hull.count; ++i) {
+        const glm::dvec2& a = hull.corners[i];
+        const glm::dvec2& b = hull.corners[(i + 1) % hull.count];
+        const double inside_a = sign * (limit - a[axis]), inside_b = sign * (limit - b[axis]);
+        if (inside_a >= 0) part.corners[part.count++] = a;
+        if (inside_a * inside_b < 0)
+            part.corners[part.count++] = a + inside_a / (inside_a - inside_b) * (b - a);
+    }
+    return part;
+}
+
+struct Bounds {
+    glm::dvec2 min, max;
+};
+
+Bounds bounds_of(std::span<const glm::dvec2> points, double margin) {
+    Bounds bounds{points[0], points[0]};
+    for (const glm::dvec2& point : points) {
+        bounds.min = glm::min(bounds.min, point);
+        bounds.max = glm::max(bounds.max, point);
+    }
+    return {bounds.min - margin, bounds.max + margin};
+}
+
+ScreenPolygon rectangle(const Bounds& bounds) {
+    const glm::vec2 lo(bounds.min), hi(bounds.max);
+    return {4, {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)}};
+}
+
+// The hull's edges moved outwards by `margin`.
+ScreenPolygon enlarged(const Hull& hull, double margin) {
+    ScreenPolygon polygon;
+    const auto add = [&](const glm::dvec2& corner) {
+        polygon.corners[static_cast<std::size_t>(polygon.count++)] = glm::vec2(corner);
+    };
+    glm::dvec2 in = glm::normalize(hull.corners[0] - hull.corners[hull.count - 1]);
+    for (std::size_t i = 0; i < hull.count; ++i) {
+        const glm::dvec2& corner = hull.corners[i];
+        const glm::dvec2 out = glm::normalize(hull.corners[(i + 1) % hull.count] - corner);
+        const glm::dvec2 normal_in(in.y, -in.x), normal_out(out.y, -out.x);
+        const double cosine = glm::dot(in, out);
+        if (cosine > sharpest) {
+            add(corner + margin / (1 + cosine) * (normal_in + normal_out));
+        } else {
+            add(corner + margin * (normal_in + in));
+            add(corner + margin * (normal_out - out));
+        }
+        in = out;
+    }
+    return polygon;
+}
+
+}  // namespace
+
+ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height) {
+    assert(!points.empty() && points.size() <= most_points);
+    const Bounds bounds = bounds_of(points, margin);
+    // The first and the last pixel centre inside the bounds.
+    const glm::dvec2 first = glm::max(glm::ceil(bounds.min - 0.5), glm::dvec2(0));
+    const glm::dvec2 last =
+        glm::min(glm::floor(bounds.max - 0.5), glm::dvec2(width - 1, height - 1));
+    if (!(first.x <= last.x && first.y <= last.y)) return {};
+    Hull hull = convex_hull(points);
+    const glm::dvec2 lo(-guard), hi(width + guard, height + guard);
+    for (const int axis : {0, 1}) {
+        if (bounds.min[axis] < lo[axis]) hull = cut(hull, axis, lo[axis], -1);
+        if (bounds.max[axis] > hi[axis]) hull = cut(hull, axis, hi[axis], 1);
+    }
+    if (hull.count == 0) return {};
+    // What a rectangle covers beside the tet is found there to have no thickness.
+    if (hull.count == 1 || hull.count > 6)
+        return rectangle(bounds_of({hull.corners.data(), hull.count}, margin));
+    return enlarged(hull, margin);
+}
+
+}  // namespace lamina

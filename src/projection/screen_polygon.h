@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include <array>
+#include <span>
+
+namespace lamina {
+
+// A convex polygon in window coordinates: pixels to the right and upwards from the picture's lower
+// left corner, pixel centres at half integers.
+struct ScreenPolygon {
+    static constexpr int most_corners = 8;
+
+    int count = 0;
+    std::array<glm::vec2, most_corners> corners;
+};
+
+// A polygon around `points` (at most 6) that covers every pixel centre nearer to their convex hull
+// than `margin`, in spite of the rounding of corners to the rasteriser's grid: margin is at least 2
+// steps of that. Of count 0 where no pixel centre of a picture of width x height pixels can be
+// covered. Each pixel centre lies in one triangle of a fan around a corner.
+ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height);
+
+}  // namespace lamina

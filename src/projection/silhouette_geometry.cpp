@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/silhouette_geometry.h"
+
+#include <cstring>
+
+namespace lamina {
+
+TetGeometry::Size SilhouetteGeometry::largest_size() {
+    constexpr std::size_t corners = ScreenPolygon::most_corners;
+    return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true};
+}
+
+TetGeometry::Written SilhouetteGeometry::write(std::int32_t tet, const Place& place) const {
+    ScreenPolygon polygon;
+    TetRecord record;  // not written where it goes: that memory may be slow to read
+    const TetProjector::Result result = projector_.project(tet, record, polygon);
+    if (result == TetProjector::Result::hidden) return {};
+    std::memcpy(place.record, &record, sizeof(record));
+    Written written;
+    written.careful = result == TetProjector::Result::careful;
+    for (int i = 0; i < polygon.count; ++i) {
+        const SilhouetteVertex vertex{polygon.corners[static_cast<std::size_t>(i)],
+                                      place.record_number};
+        std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
+    }
+    for (std::uint32_t i = 2; i < written.vertices; ++i) {
+        place.indices[written.indices++] = place.first_vertex;
+        place.indices[written.indices++] = place.first_vertex + i - 1;
+        place.indices[written.indices++] = place.first_vertex + i;
+    }
+    return written;
+}
+
+}  // namespace lamina

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "projection/tet_record.h"
+
+namespace lamina {
+
+// Turns the tets of one view into triangles for a rasteriser. Safe from many threads.
+class TetGeometry {
+  public:
+    virtual ~TetGeometry() = default;
+
+    // What one tet takes at most.
+    struct Size {
+        std::size_t vertex_bytes;  // of one vertex
+        std::size_t vertices, indices;
+        bool has_record;
+    };
+
+    // Where a tet goes.
+    struct Place {
+        std::byte* vertices;
+        std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
+        std::uint32_t* indices;      // of triangles
+        TetRecord* record;           // null without records
+        std::uint32_t record_number;
+    };
+    // Vertices and indices written; none where no pixel centre is covered. Triangles of one tet do
+    // not overlap.
+    struct Written {
+        std::size_t vertices = 0, indices = 0;
+        bool careful = false;  // needs the more precise of two programs
+    };
+    virtual Written write(std::int32_t tet, const Place& place) const = 0;
+};
+
+}  // namespace lamina

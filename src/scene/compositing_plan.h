@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "compositing/emulation.h"
+#include "compositing/order.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// Who computes OVER on what a target holds.
+enum class Blending {
+    native,   // the blending unit
+    fetch,    // the program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
+    barrier,  // the program, which reads the target as a texture, with a barrier between layers
+};
+
+// How fragments are put over one another.
+struct CompositingPlan {
+    Target target = Target::float32;
+    std::optional<Emulation> emulation;  // for Target::emulated
+    Blending blending = Blending::native;
+    Order order = Order::back_to_front;
+
+    // Bits of a code where fragments are rounded to codes in the program.
+    int code_bits() const {
+        return emulation ? emulation->bits : target == Target::fixed16 ? 16 : 8;
+    }
+};
+
+}  // namespace lamina

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "mesh/visibility_order.h"
+#include "optics/segment_table.h"
+#include "scene/compositing_plan.h"
+#include "scene/project_settings.h"
+#include "scene/table_plan.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// How the fragments of a tet are integrated between its front and its back.
+enum class SegmentSource {
+    constant,       // the transfer function is constant over the mesh: no scalar is needed
+    table,          // one look-up in a table with equally spaced scalars
+    aligned_table,  // one look-up in a table whose nodes lie on the transfer function's points
+    pieces,     // opacity in closed form; colour, where it is not one, by one look-up in a table
+                // whose nodes lie on the transfer function's points
+    cut_table,  // up to three in such a table: runs are cut at those points
+    analytic,   // its pieces, each in closed form
+    mean,       // means of what front and back show: Coloring::attenuation
+    vertices    // no integration: Coloring::vertex
+};
+
+struct ProjectPlan : CompositingPlan {
+    SegmentSource source = SegmentSource::table;
+    Interpolation interpolation = Interpolation::perspective;
+    Thickness thickness = Thickness::exact;
+    OrderMethod visibility = OrderMethod::exact;
+    ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
+    ProjectDither dither = ProjectDither::none;
+    std::uint32_t seed = 1;         // of dithering and stochastic rounding
+    bool orthographic = false;      // rays are parallel: no division per fragment
+    bool single_color = false;      // colour is a constant of the program
+    bool plain = true;              // tets whose faces can be found in float32 are
+    bool draw_transparent = false;  // tets that show nothing are drawn, too
+    bool nothing_visible = false;   // no tet is drawn
+    bool table_filtered = false;    // tables go through the texture unit's filter
+    double near_depth = 0;          // of the near plane
+    ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
+    SegmentTableRequest table;      // for SegmentSource::table
+    TablePlan aligned;              // where has_aligned_table()
+    double table_error = 0;         // measured on rays of the view, in 1/255
+    std::string table_reason;
+
+    // Opacity is rounded to codes in the program, not by the blending unit.
+    bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
+    bool has_aligned_table() const {
+        return source == SegmentSource::aligned_table || source == SegmentSource::cut_table ||
+               (source == SegmentSource::pieces && !single_color);
+    }
+};
+
+const char* name_of(SegmentSource source);
+
+}  // namespace lamina

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/project_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/vec4.hpp>
+
+#include "base/parallel.h"
+#include "optics/extinction_pieces.h"
+#include "optics/opacity.h"
+#include "optics/preintegration_table.h"
+
+namespace lamina {
+namespace {
+
+// DESIGN section 4: there is no near key; the eye's plane plus 1e-6 of the box's diagonal.
+constexpr double near_share = 1e-6;
+
+// What the table may add to the picture's error, in 1/255.
+constexpr double most_table_error = 0.5;
+
+// The rays that tables are tried on are a sample: others may be this much worse.
+constexpr double sampling_margin = 2;
+
+// Of a transfer function; with more of them, a search for the right ones costs less than a sum over
+// all (shaders/optics/mean_extinction.glsl).
+constexpr std::size_t most_pieces = 16;
+
+// Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
+// their faces are always found in double, which takes some third longer.
+constexpr std::int64_t fewest_plain_tets = 10000;
+
+class ProjectPlanner {
+  public:
+    ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
+                   const OmissionSwitch& omissions, std::vector<Omission>& omitted)
+        : scene_(scene),
+          settings_(scene.project),
+          facts_(facts),
+          capabilities_(capabilities),
+          omissions_(omissions),
+          omitted_(omitted) {}
+
+    ProjectPlan make() {
+        plan_.target = scene_.target;
+        plan_.seed = scene_.emulate.seed;
+        plan_.interpolation = settings_.interpolation;
+        plan_.thickness = settings_.thickness;
+        plan_.table_filtered = capabilities_.exact_float_filter;
+        plan_.near_depth = near_share * facts_.diagonal;
+        plan_.range = facts_.range;
+        if (plan_.range.lo == plan_.range.hi) plan_.range.hi = next_scalar(plan_.range.lo);
+        choose_geometry();
+        choose_precision();
+        choose_visibility();
+        choose_compositing();
+        choose_source();
+        return std::move(plan_);
+    }
+
+  private:
+    // True, and said, where the scene does not need `name`.
+    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
+        if (!unneeded || !omissions_.allows(name)) return false;
+        omitted_.push_back({name, reason});
+        return true;
+    }
+
+    // A little more, so that shaders have a range to divide by.
+    static double next_scalar(double value) {
+        return value + std::max(std::abs(value) * 1e-6, 1e-30);
+    }
+
+    void choose_geometry() {
+        // What is interpolated between the vertices of a fan, a silhouette cannot carry.
+        const bool fan = settings_.interpolation == Interpolation::linear ||
+                         settings_.coloring == Coloring::vertex ||
+                         settings_.coloring == Coloring::attenuation;
+        plan_.geometry = settings_.geometry;
+        if (plan_.geometry == ProjectGeometry::automatic)
+            plan_.geometry = fan ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
+        plan_.orthographic = leave_out(facts_.orthographic, "perspective",
+                                       "parallel rays: depth is linear in the picture, nothing is "
+                                       "divided per fragment");
+        const bool transparent = facts_.transparent_tets == facts_.tets;
+        plan_.nothing_visible =
+            leave_out(transparent || !facts_.in_front, "drawing",
+                      transparent ? "the transfer function shows no value that the mesh has"
+                                  : "the mesh lies behind the eye");
+        plan_.draw_transparent =
+            !leave_out(facts_.transparent_tets > 0, "transparent_tets",
+                       fmt::format("{} of {} tets show nothing: they are ordered and not projected",
+                                   facts_.transparent_tets, facts_.tets));
+    }
+
+    void choose_precision() {
+        const bool fan = plan_.geometry == ProjectGeometry::triangles;
+        plan_.plain = leave_out(!fan && facts_.tets >= fewest_plain_tets, "double_precision",
+                                fmt::format("{} tets: only where a face is seen nearly edge-on are "
+                                            "faces found in double",
+                                            facts_.tets)) ||
+                      fan;
+    }
+
+    void choose_visibility() {
+        switch (settings_.order) {
+            case ProjectOrder::automatic:
+                plan_.visibility =
+                    facts_.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
+                break;
+            case ProjectOrder::mpvo:
+                plan_.visibility = OrderMethod::mpvo;
+                break;
+            case ProjectOrder::exact:
+                plan_.visibility = OrderMethod::exact;
+                break;
+            case ProjectOrder::centroid:
+                plan_.visibility = OrderMethod::centroid;
+                break;
+            case ProjectOrder::none:
+                plan_.visibility = OrderMethod::none;
+                break;
+        }
+        const bool asked = settings_.order == ProjectOrder::automatic;
+        if (asked && scene_.target == Target::float32 &&
+            leave_out(
+                facts_.single_color, "order",
+                "one colour: OVER gives the same whatever comes first, to float32's rounding"))
+            plan_.visibility = OrderMethod::none;
+    }
+
+    void choose_compositing() {
+        if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
+        plan_.dither = settings_.dither;
+        if (!is_fixed_point(scene_.target) && plan_.dither != ProjectDither::none) {
+            plan_.dither = ProjectDither::none;
+            omitted_.push_back(
+                {"dither", "tets are composited in float: there is nothing to dither"});
+        }
+        if (plan_.emulation || plan_.dither == ProjectDither::after_blend) {
+            plan_.blending = capabilities_.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+        }
+    }
+
+    void choose_source() {
+        plan_.single_color =
+            leave_out(facts_.single_color, "color",
+                      "one colour in all that can be seen: only extinction is looked up");
+        if (settings_.coloring == Coloring::vertex) {
+            plan_.source = SegmentSource::vertices;
+        } else if (settings_.coloring == Coloring::attenuation) {
+            plan_.source = SegmentSource::mean;
+        } else if (leave_out(facts_.constant && facts_.non_finite == 0, "scalars",
+                             "the transfer function is constant over the mesh: opacity has a "
+                             "closed form of the length alone")) {
+            plan_.source = SegmentSource::constant;
+        } else if (settings_.coloring == Coloring::analytic) {
+            plan_.source = SegmentSource::analytic;
+        } else if (settings_.table) {
+            plan_.table = request(settings_.table->scalar, settings_.table->length);
+            plan_.table.mapping = settings_.table->mapping;
+            plan_.table.store = settings_.table->store;
+            plan_.table.format = settings_.table->format;
+            plan_.table.construction = settings_.table->construction;
+            plan_.table_error = error_of(plan_.table);
+            plan_.table_reason = "as the scene asks";
+        } else if (!plan_.nothing_visible) {
+            choose_table();
+        }
+    }
+
+    SegmentTableRequest request(int scalar_nodes, int length_layers) const {
+        SegmentTableRequest table;
+        table.lo = plan_.range.lo;
+        table.hi = plan_.range.hi;
+        table.max_length = facts_.longest_edge;
+        table.scalar_nodes = scalar_nodes;
+        table.length_layers = length_layers;
+        table.format = TableFormat::float32;
+        table.colored = !plan_.single_color;
+        return table;
+    }
+
+    using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
+
+    // Of rays of the view, in 1/255: the largest difference in colour or opacity that a way of
+    // integrating tets makes.
+    double error_of(const Lookup& lookup) const {
+        std::vector<double> errors(facts_.trial_rays.size());
+        parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
+            const auto ray = static_cast<std::size_t>(index);
+            glm::dvec4 exact(0), found(0);
+            for (const MeshFacts::Run& run : facts_.trial_rays[ray]) {
+                append(exact, integrate_segment(scene_.transfer_function, run.front, run.back,
+                                                run.length));
+                append(found, lookup(run));
+            }
+            for (int channel = 0; channel < 4; ++channel)
+                errors[ray] = std::max(errors[ray], std::abs(exact[channel] - found[channel]));
+        });
+        return errors.empty() ? 0 : 255 * *std::ranges::max_element(errors);
+    }
+
+    // Puts a segment behind what a ray has met.
+    static void append(glm::dvec4& sum, const SegmentIntegral& segment) {
+        sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
+    }
+
+    double error_of(const SegmentTableRequest& wanted) const {
+        const auto table = segment_table(scene_.transfer_function, wanted);
+        return error_of([&](const MeshFacts::Run& run) {
+            return table->lookup(run.front, run.back, run.length);
+        });
+    }
+
+    // A way of integrating that may be good enough, the cheaper ones first.
+    struct Candidate {
+        SegmentSource source;
+        int scalar_nodes, length_layers;
+    };
+
+    std::vector<Candidate> candidates(std::size_t pieces) const {
+        const double depth = facts_.max_extinction * facts_.longest_edge;
+        const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
+        std::vector<Candidate> list;
+        if (pieces <= most_pieces) {
+            list = {{SegmentSource::aligned_table, 128, 1},
+                    {SegmentSource::aligned_table, 128, std::min(layers, 4)},
+                    {SegmentSource::aligned_table, 256, layers},
+                    {SegmentSource::pieces, 256, layers}};
+        }
+        list.push_back({SegmentSource::cut_table, 256, layers});
+        return list;
+    }
+
+    // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
+    // has a value next to one would be off by several codes.
+    void choose_table() {
+        const double enough = std::min(most_table_error, scene_.max_error / 2) / sampling_margin;
+        const ExtinctionPieces extinction(scene_.transfer_function, plan_.range.lo, plan_.range.hi);
+        const std::size_t pieces = extinction.pieces().size();
+        if (plan_.single_color &&
+            leave_out(pieces <= most_pieces, "table",
+                      fmt::format("one colour and {} pieces of extinction: opacity in closed form",
+                                  pieces))) {
+            plan_.source = SegmentSource::pieces;
+            return;
+        }
+        for (const Candidate& candidate : candidates(pieces)) {
+            plan_.source = candidate.source;
+            plan_.aligned = {candidate.scalar_nodes, candidate.length_layers, facts_.longest_edge,
+                             !plan_.single_color};
+            if (plan_.single_color) plan_.aligned.length_layers = 1;
+            plan_.table_error = error_of_aligned(extinction);
+            plan_.table_reason = fmt::format("of {} rays of this view", facts_.trial_rays.size());
+            if (plan_.table_error <= enough) return;
+        }
+        plan_.source = SegmentSource::analytic;  // slower, and right whatever the transfer function
+    }
+
+    double error_of_aligned(const ExtinctionPieces& extinction) const {
+        const auto table =
+            preintegration_table(scene_.transfer_function, request_of(plan_.aligned));
+        switch (plan_.source) {
+            case SegmentSource::aligned_table:
+                return error_of([&](const MeshFacts::Run& run) {
+                    return table->lookup_once(run.front, run.back, run.length);
+                });
+            case SegmentSource::pieces:
+                return error_of([&](const MeshFacts::Run& run) {
+                    SegmentIntegral segment;
+                    segment.optical_depth = extinction.mean(run.front, run.back) * run.length;
+                    segment.alpha = opacity_from_depth(segment.optical_depth);
+                    segment.color =
+                        segment.alpha * table->emission_ratio(run.front, run.back, run.length);
+                    return segment;
+                });
+            default:
+                return error_of([&](const MeshFacts::Run& run) {
+                    return table->lookup(run.front, run.back, run.length);
+                });
+        }
+    }
+
+    PreintegrationRequest request_of(const TablePlan& table) const {
+        return {plan_.range.lo,     plan_.range.hi,      table.max_length,
+                table.scalar_nodes, table.length_layers, table.colored};
+    }
+
+    const Scene& scene_;
+    const ProjectSettings& settings_;
+    const MeshFacts& facts_;
+    const Capabilities& capabilities_;
+    const OmissionSwitch& omissions_;
+    std::vector<Omission>& omitted_;
+    ProjectPlan plan_;
+};
+
+}  // namespace
+
+const char* name_of(SegmentSource source) {
+    switch (source) {
+        case SegmentSource::constant:
+            return "constant";
+        case SegmentSource::table:
+            return "table";
+        case SegmentSource::aligned_table:
+            return "aligned_table";
+        case SegmentSource::pieces:
+            return "pieces";
+        case SegmentSource::cut_table:
+            return "cut_table";
+        case SegmentSource::analytic:
+            return "analytic";
+        case SegmentSource::mean:
+            return "mean";
+        default:
+            return "vertices";
+    }
+}
+
+ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
+                            const Capabilities& capabilities, const OmissionSwitch& omissions,
+                            std::vector<Omission>& omitted) {
+    return ProjectPlanner(scene, facts, capabilities, omissions, omitted).make();
+}
+
+}  // namespace lamina

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "optics/segment_table.h"
+
+namespace lamina {
+
+// How the colour of a projected tetrahedron comes about.
+enum class Coloring {
+    preintegrated,  // a table over (scalar at the front, at the back, length), Roettger et al. 2000
+    attenuation,    // mean of colours and mean extinction of front and back, Stein et al. 1994
+    vertex,         // colours and opacities of vertices, interpolated: Shirley and Tuchman 1990
+    analytic        // the transfer function's pieces, each in closed form
+};
+enum class Interpolation { perspective, linear };
+enum class Thickness {
+    exact,
+    dz  // difference of eye-space depths (Kraus 2004, section 2.3)
+};
+enum class ProjectOrder { automatic, mpvo, exact, centroid, none };
+enum class ProjectGeometry {
+    automatic,
+    silhouette,  // one polygon around the tet, faces as linear functions of the pixel
+    triangles    // three or four, with a thick vertex (Kraus 2004, Figure 3)
+};
+// Rounding of opacity to codes of 8 or 16 bits by chance.
+enum class ProjectDither {
+    none,
+    alpha,       // of the fragment, before the blending unit rounds again (Kraus 2004, section 4.2)
+    after_blend  // of the result of a programmable blend: unbiased (NUMERICS section 8)
+};
+
+struct TableSettings {
+    int scalar = 256;
+    int length = 16;
+    LengthMapping mapping = LengthMapping::octave;
+    TableStore store = TableStore::mean_extinction;
+    TableFormat format = TableFormat::fixed16;
+    TableConstruction construction = TableConstruction::exact;
+};
+
+struct ProjectSettings {
+    Coloring coloring = Coloring::preintegrated;
+    Interpolation interpolation = Interpolation::perspective;
+    Thickness thickness = Thickness::exact;
+    ProjectOrder order = ProjectOrder::automatic;
+    ProjectGeometry geometry = ProjectGeometry::automatic;
+    ProjectDither dither = ProjectDither::none;
+    std::optional<TableSettings> table;  // none: "auto"
+};
+
+const char* name_of(Coloring coloring);
+const char* name_of(Interpolation interpolation);
+const char* name_of(Thickness thickness);
+const char* name_of(ProjectGeometry geometry);
+const char* name_of(ProjectDither dither);
+const char* name_of(LengthMapping mapping);
+const char* name_of(TableStore store);
+const char* name_of(TableFormat format);
+
+}  // namespace lamina

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace lamina {
+
+// A pre-integration table whose nodes are aligned with the transfer function's points
+// (optics/preintegration_table.h).
+struct TablePlan {
+    int scalar_nodes = 256;
+    int length_layers = 1;
+    double max_length = 0;  // world units
+    bool colored = true;
+};
+
+}  // namespace lamina

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/segment_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "base/error.h"
+#include "optics/opacity.h"
+
+namespace lamina {
+namespace {
+
+TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
+    return {value, {color, extinction}};
+}
+
+TransferFunction smooth() {
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i <= 16; ++i) {
+        const double x = i / 16.0;
+        knots.push_back(knot(x, glm::dvec3(x, 1 - x, 0.5 + 0.5 * std::sin(5 * x)), 4 * x * x));
+    }
+    return TransferFunction::linear(knots);
+}
+
+// Knots at nodes of a table of 33 over [0, 1], one of them a step.
+TransferFunction stepped() {
+    return TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(.25, {1, .5, 0}, 2),
+                                     knot(.5, {1, .5, 0}, 1), knot(.5, {0, 0, 1}, 5),
+                                     knot(1, {0, 1, 0}, 8)});
+}
+
+TransferFunction grey_ramp() {
+    return TransferFunction::linear({knot(0, {.5, .25, 1}, 0), knot(1, {.5, .25, 1}, 3)});
+}
+
+double worst_difference(const SegmentIntegral& a, const SegmentIntegral& b) {
+    double worst = std::abs(a.alpha - b.alpha);
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(a.color[c] - b.color[c]));
+    return worst;
+}
+
+SegmentTableRequest request_of(int nodes, int layers) {
+    SegmentTableRequest request;
+    request.max_length = 3;
+    request.scalar_nodes = nodes;
+    request.length_layers = layers;
+    request.format = TableFormat::float32;
+    return request;
+}
+
+constexpr LengthMapping mappings[] = {LengthMapping::octave, LengthMapping::log2,
+                                      LengthMapping::linear};
+constexpr TableStore stores[] = {TableStore::mean_extinction, TableStore::opacity};
+
+TEST(SegmentTable, IsExactAtItsNodesAndLengths) {
+    for (const auto& f : {smooth(), stepped()}) {
+        for (const LengthMapping mapping : mappings) {
+            for (const TableStore store : stores) {
+                SegmentTableRequest request = request_of(33, 5);
+                request.mapping = mapping;
+                request.store = store;
+                const SegmentTable table = build_segment_table(f, request);
+                for (int i = 0; i < 33 * 33 * 5; ++i) {
+                    const double front = (i % 33) / 32.0, back = (i / 33 % 33) / 32.0;
+                    const double length = table.length_of(i / (33 * 33));
+                    // Three floats of 6e-8 each and a few roundings.
+                    EXPECT_LE(worst_difference(table.lookup(front, back, length),
+                                               integrate_segment(f, front, back, length)),
+                              4e-7)
+                        << front << " " << back << " " << length;
+                }
+            }
+        }
+    }
+}
+
+TEST(SegmentTable, LengthsAndLayersAreEachOthersInverse) {
+    SegmentTableRequest request = request_of(2, 8);
+    request.max_length = 5;
+    for (const LengthMapping mapping : mappings) {
+        request.mapping = mapping;
+        const SegmentTable table = build_segment_table(smooth(), request);
+        EXPECT_EQ(table.length_of(0), 0);
+        EXPECT_DOUBLE_EQ(table.length_of(7), 5);
+        for (int layer = 0; layer < 8; ++layer) {
+            EXPECT_NEAR(table.layer_of(table.length_of(layer)), layer, 1e-12);
+        }
+        EXPECT_EQ(table.layer_of(6), 7);
+        const double middle = (table.length_of(4) + table.length_of(5)) / 2;
+        // Kraus's Equation 1 puts 1.5 dl at log2(1.5) of its octave, which is .085 too far.
+        const double expected = mapping == LengthMapping::log2 ? 4 + std::log2(1.5) : 4.5;
+        EXPECT_NEAR(table.layer_of(middle), expected, 1e-12);
+        EXPECT_NEAR(table.layer_of(table.length_of(1) / 4), .25, 1e-12);
+    }
+}
+
+TEST(SegmentTable, MeanExtinctionMakesOpacityExactAtEveryLength) {
+    const SegmentTable table = build_segment_table(smooth(), request_of(33, 4));
+    for (const double length : {1e-9, 1e-3, .37, 2.9, 50.0}) {
+        const SegmentIntegral expected = integrate_segment(smooth(), 0.25, 0.75, length);
+        EXPECT_NEAR(table.lookup(.25, .75, length).alpha, expected.alpha, 1e-7 * expected.alpha);
+    }
+}
+
+TEST(SegmentTable, OneColorTakesOneChannel) {
+    SegmentTableRequest request = request_of(16, 6);
+    request.colored = false;
+    const SegmentTable table = build_segment_table(grey_ramp(), request);
+    EXPECT_EQ(table.layers, 1);
+    EXPECT_EQ(table.byte_count(), 16 * 16 * 4);
+    const SegmentIntegral expected = integrate_segment(grey_ramp(), .15, .8, 1.7);
+    // The mean extinction of a single linear piece is bilinear in the scalars.
+    EXPECT_LE(worst_difference(table.lookup(.15, .8, 1.7), expected), 3e-7);
+
+    request.store = TableStore::opacity;
+    EXPECT_EQ(build_segment_table(grey_ramp(), request).layers, 6);
+    request.length_layers = 1;
+    const SegmentTable longest = build_segment_table(grey_ramp(), request);
+    EXPECT_NEAR(longest.lookup(1, 1, .1).alpha, opacity_from_depth(3 * 3), 1e-7);
+}
+
+// The largest error of colour of a table as NUMERICS section 5 counts it, in 1/255: over rays of
+// `count` equal segments that together run over all scalars.
+double worst_color(const TransferFunction& f, const SegmentTable& table) {
+    double worst = 0;
+    for (const int count : {10, 100, 1000, 10000}) {
+        // Edge ratios up to 1e4: segments of the table's largest length down to 1e-4 of it.
+        for (const double share : {1e-4, .0021, .034, .3, .73, 1.0}) {
+            const double length = table.request.max_length * share;
+            if (length * count > 30 || length * count < .1) continue;
+            glm::dvec3 color(0);
+            double transmittance = 1;
+            for (int i = 0; i < count; ++i) {
+                const SegmentIntegral part =
+                    table.lookup(double(i) / count, double(i + 1) / count, length);
+                color += transmittance * part.color;
+                transmittance *= 1 - part.alpha;
+            }
+            const SegmentIntegral whole = integrate_segment(f, 0, 1, length * count);
+            for (int c = 0; c < 3; ++c) {
+                worst = std::max(worst, 255 * std::abs(color[c] - whole.color[c]));
+            }
+        }
+    }
+    return worst;
+}
+
+TEST(SegmentTable, VariantsRankAsNumericsFound) {
+    const auto worst = [](TableStore store, LengthMapping mapping, TableFormat format) {
+        SegmentTableRequest request = request_of(65, 16);
+        request.max_length = 10;
+        request.store = store;
+        request.mapping = mapping;
+        request.format = format;
+        return worst_color(smooth(), build_segment_table(smooth(), request));
+    };
+    constexpr auto opacity = TableStore::opacity, mean = TableStore::mean_extinction;
+    constexpr auto octave = LengthMapping::octave, log2 = LengthMapping::log2;
+    constexpr auto linear = LengthMapping::linear;
+    constexpr auto fixed16 = TableFormat::fixed16, fixed8 = TableFormat::fixed8;
+    // NUMERICS section 5, first and second row: 239, and 206, 3.5, 1.5 with its own rays and
+    // transfer function; the orders and the ranks must be the same with these.
+    EXPECT_GT(worst(opacity, octave, fixed8), 100);
+    const double of_linear = worst(opacity, linear, fixed16);
+    const double of_log2 = worst(opacity, log2, fixed16);
+    const double of_octave = worst(opacity, octave, fixed16);
+    EXPECT_GT(of_linear, 20);
+    EXPECT_GT(of_log2, 1.5);
+    EXPECT_LT(of_log2, 6);
+    EXPECT_LT(of_octave, .6 * of_log2);
+    // Last row: .29 and .04, quantised to 16 bits.
+    const double of_mean = worst(mean, octave, fixed16);
+    EXPECT_LT(of_mean, .1);
+    EXPECT_LT(of_mean, .25 * of_octave);
+}
+
+TEST(SegmentTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
+    // A depth so small that alpha is linear in length; NUMERICS section 5: log2(v) / (v - 1) - 1
+    // inside an octave, 6.1 % of the whole at most.
+    const auto f = TransferFunction::linear({knot(0, {1, 1, 1}, 1e-6)});
+    SegmentTableRequest request = request_of(2, 8);
+    request.store = TableStore::opacity;
+    double worst_log2 = 0, worst_octave = 0;
+    for (const LengthMapping mapping : {LengthMapping::log2, LengthMapping::octave}) {
+        request.mapping = mapping;
+        const SegmentTable table = build_segment_table(f, request);
+        double& worst = mapping == LengthMapping::log2 ? worst_log2 : worst_octave;
+        for (int i = 0; i <= 1000; ++i) {
+            const double length = .75 + .75 * i / 1000;
+            worst = std::max(worst, table.lookup(0, 0, length).alpha / (1e-6 * length) - 1);
+        }
+    }
+    EXPECT_NEAR(worst_log2, .0615, .0005);
+    EXPECT_LT(worst_octave, 1e-6);
+}
+
+// Largest difference of texels, times the scales, over the largest texel.
+double texel_difference(const SegmentTable& a, const SegmentTable& b) {
+    double worst = 0, largest = 0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) {
+        const double x = double{a.texels[i]} * a.scale, y = double{b.texels[i]} * b.scale;
+        worst = std::max(worst, std::abs(x - y));
+        largest = std::max(largest, x);
+    }
+    return worst / largest;
+}
+
+TEST(SegmentTable, IncrementalTablesConvergeToExactOnes) {
+    for (const TableStore store : stores) {
+        for (const LengthMapping mapping : mappings) {
+            std::array<double, 2> differences{};
+            for (const int refined : {0, 1}) {
+                SegmentTableRequest request = request_of(refined ? 129 : 33, 7);
+                request.store = store;
+                request.mapping = mapping;
+                const SegmentTable exact = build_segment_table(smooth(), request);
+                request.construction = TableConstruction::incremental;
+                differences[refined] =
+                    texel_difference(exact, build_segment_table(smooth(), request));
+            }
+            // Bilinear interpolation of a function with kinks: at least of first order in the
+            // distance of the nodes, of which the second table has a quarter.
+            EXPECT_LT(differences[0], .02);
+            EXPECT_LT(differences[1], differences[0] / 3);
+            EXPECT_GT(differences[0], 0);
+        }
+    }
+}
+
+TEST(SegmentTable, IncrementalIsExactForOneExtinctionAndColor) {
+    const auto f = TransferFunction::linear({knot(0, {1, .5, .25}, 2)});
+    for (const TableStore store : stores) {
+        for (const LengthMapping mapping : mappings) {
+            SegmentTableRequest request = request_of(5, 9);
+            request.store = store;
+            request.mapping = mapping;
+            const SegmentTable exact = build_segment_table(f, request);
+            request.construction = TableConstruction::incremental;
+            // One rounding to float a layer.
+            EXPECT_LE(texel_difference(exact, build_segment_table(f, request)), 9 * 6e-8);
+        }
+    }
+}
+
+TEST(SegmentTable, FormatsRoundToNearest) {
+    const SegmentTableRequest request = request_of(20, 4);
+    const SegmentTable exact = build_segment_table(stepped(), request);
+    for (const TableFormat format :
+         {TableFormat::fixed16, TableFormat::fixed8, TableFormat::float16}) {
+        SegmentTableRequest rounded_request = request;
+        rounded_request.format = format;
+        const SegmentTable rounded = build_segment_table(stepped(), rounded_request);
+        const bool half = format == TableFormat::float16;
+        const double codes = format == TableFormat::fixed8 ? 255 : 65535;
+        for (std::size_t i = 0; i < exact.texels.size(); ++i) {
+            const double value = exact.texels[i], found = double{rounded.texels[i]};
+            // Half of the last place: a code, or 11 bits of the number itself; the float that holds
+            // the code is off by another 2e-5 of that.
+            const double bound = half ? std::max(value * 0x1p-11, 0x1p-25 * rounded.scale)
+                                      : .5 / codes * rounded.scale;
+            EXPECT_NEAR(found * rounded.scale, value, bound * (1 + 1e-4) + 1e-7 * value);
+            if (!half) {
+                EXPECT_NEAR(found * codes, std::round(found * codes), 1e-2);
+            }
+        }
+        const float largest = *std::ranges::max_element(rounded.texels);
+        if (half) {
+            EXPECT_LT(largest, 65504);
+        } else {
+            EXPECT_EQ(largest, 1);
+        }
+    }
+    EXPECT_EQ(exact.byte_count(), 20 * 20 * 4 * 16);
+}
+
+// Every variant of a table, tried at and beyond the ends of its scalars and lengths.
+void expect_finite(const TransferFunction& f, SegmentTableRequest request) {
+    for (const TableStore store : stores) {
+        for (const LengthMapping mapping : mappings) {
+            for (const TableFormat format :
+                 {TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
+                for (const auto construction :
+                     {TableConstruction::exact, TableConstruction::incremental}) {
+                    request.store = store;
+                    request.mapping = mapping;
+                    request.format = format;
+                    request.construction = construction;
+                    const SegmentTable table = build_segment_table(f, request);
+                    for (const float texel : table.texels) {
+                        ASSERT_TRUE(texel >= 0 && texel <= std::numeric_limits<float>::max());
+                    }
+                    for (const double front : {request.lo, request.lo - 1, request.hi}) {
+                        for (const double length : {0.0, 1e-30, .5, 1e3}) {
+                            const auto found = table.lookup(front, request.hi, length);
+                            ASSERT_TRUE(found.alpha >= 0 && found.alpha <= 1);
+                            for (int c = 0; c < 3; ++c) ASSERT_TRUE(std::isfinite(found.color[c]));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(SegmentTable, HoldsOutAtTheEnds) {
+    SegmentTableRequest request = request_of(8, 5);
+    expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 0)}), request);
+    expect_finite(TransferFunction::linear({knot(0, {1, 0, 1}, 1e300), knot(1, {0, 1, 9}, 0)}),
+                  request);
+    expect_finite(
+        TransferFunction::linear({knot(0, {1, 0, 1}, 1e-300), knot(1, {0, 1, 9}, 1e-310)}),
+        request);
+    expect_finite(stepped(), request);
+    request.max_length = 0;
+    expect_finite(stepped(), request);
+    request.length_layers = 1;
+    expect_finite(stepped(), request);
+    request.max_length = 1e-300;
+    request.length_layers = 64;
+    expect_finite(stepped(), request);
+    request.max_length = 1e200;
+    expect_finite(stepped(), request);
+    request = request_of(8, 3);
+    request.lo = request.hi = .5;
+    expect_finite(stepped(), request);
+    // At a step's very value the later knot counts.
+    const SegmentTable point = build_segment_table(stepped(), request);
+    EXPECT_NEAR(point.lookup(.5, .5, .2).alpha, opacity_from_depth(5 * .2), 1e-7);
+}
+
+TEST(SegmentTable, OpaqueStaysOpaque) {
+    const auto f = TransferFunction::linear({knot(0, {1, .5, 0}, 1e30), knot(1, {1, .5, 0}, 1e30)});
+    for (const TableFormat format :
+         {TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
+        SegmentTableRequest request = request_of(4, 4);
+        request.format = format;
+        const auto found = build_segment_table(f, request).lookup(.1, .9, .01);
+        EXPECT_EQ(found.alpha, 1);
+        EXPECT_NEAR(found.color.g, .5, 1e-3);  // a half float's
+    }
+}
+
+TEST(SegmentTable, RefusesWhatIsTooLarge) {
+    EXPECT_THROW(build_segment_table(smooth(), request_of(4096, 5)), Error);
+}
+
+TEST(SegmentTable, IsRememberedByContent) {
+    const auto first = segment_table(smooth(), request_of(16, 3));
+    EXPECT_EQ(segment_table(smooth(), request_of(16, 3)), first);
+    EXPECT_NE(segment_table(stepped(), request_of(16, 3)), first);
+    EXPECT_NE(segment_table(smooth(), request_of(16, 4)), first);
+    for (int nodes = 2; nodes < 12; ++nodes) segment_table(smooth(), request_of(nodes, 2));
+    EXPECT_EQ(first.use_count(), 1);  // forgotten, and still ours
+    EXPECT_EQ(first->texels.size(), 16u * 16 * 3 * 4);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conforming meshes of a constant field: every pixel is 1 - exp(-extinction * chord), whatever the
+// tets: no cracks, no double fragments, no effect of the rasteriser's grid.
+#include "projection_fixture.h"
+#include "support/delaunay_mesh.h"
+#include "support/split_box.h"
+
+namespace lamina {
+namespace {
+
+MeshData scaled(MeshData data, double factor) {
+    for (glm::dvec3& point : data.points) point = factor * point;
+    return data;
+}
+
+class Conforming : public ProjectionTest {
+  protected:
+    // Views along the axes and diagonals of the box [0, 1]^3, where walls of the mesh are edge-on
+    // and meet pixel centres, and oblique ones.
+    void expect_constant(const SceneMesh& mesh, double bound, const std::string& name) {
+        const std::vector<glm::dvec3> eyes{{.5, .5, 3},     {3, .5, .5},  {.5, -2, .5},
+                                           {2, 2, 2},       {.5, 2, 2},   {1.9, -.7, .8},
+                                           {-1.2, 1.5, .3}, {.4, .45, .6}};
+        for (const glm::dvec3& eye : eyes) {
+            for (const int pixels : {48, 65}) {
+                for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+                    Scene scene = projection_scene(
+                        TransferFunction::linear({knot(0, {1, 1, 1}, 2.5)}), pixels, pixels);
+                    scene.camera.projection = projection;
+                    scene.camera.eye = eye;
+                    scene.camera.center = {.5, .5, .5};
+                    scene.camera.up = {0, 1, .001};
+                    scene.camera.fov_y = 50;
+                    scene.camera.height = 1.5;
+                    const double error =
+                        image_error(project(mesh, scene, capabilities()), trace(mesh, scene))
+                            .all.linf;
+                    EXPECT_LE(error, bound)
+                        << name << ", eye " << eye.x << " " << eye.y << " " << eye.z << ", "
+                        << pixels << " pixels, projection " << static_cast<int>(projection);
+                }
+            }
+        }
+    }
+};
+
+const auto zero = [](const glm::dvec3&) { return 0.0; };
+
+// The bounds, in 1/255. Float32 OVER of 100 tets leaves 100 * 6e-8 * 255 = .0015.
+TEST_F(Conforming, Kuhn) {
+    expect_constant(scene_mesh(scaled(test::kuhn_box({8, 8, 8}, zero), 0.125)), 0.02, "kuhn");
+}
+
+TEST_F(Conforming, KuhnOfManyTets) {  // float32 faces but where they are edge-on
+    expect_constant(scene_mesh(scaled(test::kuhn_box({13, 13, 13}, zero), 1 / 13.0)), 0.02,
+                    "kuhn 13");
+}
+
+TEST_F(Conforming, Irregular) {
+    expect_constant(scene_mesh(test::split_box(3, 2000, 1e-2, zero)), 0.02, "split");
+}
+
+TEST_F(Conforming, Graded) {
+    expect_constant(scene_mesh(test::split_box(4, 4000, 1e-4, zero)), 0.2, "graded");
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "projection_fixture.h"
+#include "support/split_box.h"
+
+namespace lamina {
+namespace {
+
+Plan plan_for(const TransferFunction& transfer_function,
+              const std::function<void(Scene&)>& change = {}) {
+    const SceneMesh mesh = scene_mesh(
+        test::split_box(2, 200, .1, [](const glm::dvec3& p) { return p.x * p.y + .3 * p.z; }));
+    Scene scene = projection_scene(transfer_function, 32, 32);
+    scene.camera.eye = {2, 2, 2};
+    scene.camera.center = {.5, .5, .5};
+    scene.camera.up = {0, 1, 0};
+    if (change) change(scene);
+    Capabilities capabilities;
+    capabilities.max_texture_size = 1024;
+    return plan_of(mesh, scene, capabilities);
+}
+
+bool leaves_out(const Plan& plan, const std::string& name) {
+    return std::ranges::any_of(plan.omitted, [&](const Omission& o) { return o.name == name; });
+}
+
+const TransferFunction colored =
+    TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(1, {0, 0, 1}, .9)});
+
+TEST(ProjectPlan, UsesWhatTheTransferFunctionNeeds) {
+    const Plan constant = plan_for(TransferFunction::linear({knot(0, {1, 0, 0}, .2)}));
+    EXPECT_EQ(constant.project.source, SegmentSource::constant);
+    EXPECT_TRUE(leaves_out(constant, "scalars"));
+    EXPECT_EQ(constant.project.visibility, OrderMethod::none);
+    EXPECT_TRUE(leaves_out(constant, "order"));
+    const Plan single =
+        plan_for(TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(1, {1, 0, 0}, .9)}));
+    EXPECT_EQ(single.project.source, SegmentSource::pieces);
+    EXPECT_TRUE(leaves_out(single, "table"));
+    const Plan both = plan_for(colored);
+    EXPECT_EQ(both.project.source, SegmentSource::aligned_table);
+    EXPECT_EQ(both.project.visibility, OrderMethod::mpvo);  // a box is convex
+    EXPECT_LE(both.project.table_error, .25);
+    const Plan hidden = plan_for(TransferFunction::linear({knot(0, {1, 1, 1}, 0)}));
+    EXPECT_TRUE(hidden.project.nothing_visible);
+}
+
+TEST(ProjectPlan, GeometryFollowsInterpolation) {
+    EXPECT_EQ(plan_for(colored).project.geometry, ProjectGeometry::silhouette);
+    for (const auto& change : {std::function<void(Scene&)>([](Scene& scene) {
+                                   scene.project.interpolation = Interpolation::linear;
+                               }),
+                               std::function<void(Scene&)>(
+                                   [](Scene& scene) { scene.project.coloring = Coloring::vertex; }),
+                               std::function<void(Scene&)>([](Scene& scene) {
+                                   scene.project.coloring = Coloring::attenuation;
+                               })}) {
+        EXPECT_EQ(plan_for(colored, change).project.geometry, ProjectGeometry::triangles);
+    }
+}
+
+TEST(ProjectPlan, DitherNeedsCodes) {
+    const auto dithered = [](Scene& scene) { scene.project.dither = ProjectDither::after_blend; };
+    const Plan plan = plan_for(colored, dithered);
+    EXPECT_EQ(plan.project.dither, ProjectDither::none);
+    EXPECT_TRUE(leaves_out(plan, "dither"));
+    const Plan fixed8 = plan_for(colored, [&](Scene& scene) {
+        dithered(scene);
+        scene.target = Target::fixed8;
+    });
+    EXPECT_EQ(fixed8.project.blending, Blending::barrier);  // without framebuffer fetch
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a mesh and a scene to the projected picture and to the exact one.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "gl/gl_fixture.h"
+#include "image/metrics.h"
+#include "projection/gl_project_renderer.h"
+#include "reference/mesh_tracer.h"
+#include "scene/plan.h"
+
+namespace lamina {
+
+using ProjectionTest = gl::GlTest;
+
+inline SceneMesh scene_mesh(MeshData data) {
+    MeshScalar scalar = data.point_scalars.front();
+    data.point_scalars.clear();
+    return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}};
+}
+
+inline TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
+    return {value, {color, extinction}};
+}
+
+inline Scene projection_scene(const TransferFunction& transfer_function, int width, int height) {
+    Scene scene;
+    scene.method = Method::project;
+    scene.transfer_function = transfer_function;
+    scene.width = width;
+    scene.height = height;
+    return scene;
+}
+
+inline Plan plan_of(const SceneMesh& mesh, const Scene& scene, const Capabilities& capabilities,
+                    const OmissionSwitch& omissions = {}) {
+    return make_plan(scene, measure(scene, mesh), capabilities, omissions);
+}
+
+inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabilities& capabilities,
+                     const OmissionSwitch& omissions = {}) {
+    const Plan plan = plan_of(mesh, scene, capabilities, omissions);
+    GlProjectRenderer renderer(mesh, scene.transfer_function, plan.project, capabilities,
+                               scene.width, scene.height);
+    renderer.draw(View(scene.camera, scene.width, scene.height));
+    return renderer.read();
+}
+
+inline Image trace(const SceneMesh& mesh, const Scene& scene) {
+    const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
+    return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, scene.transfer_function,
+                               View(scene.camera, scene.width, scene.height))
+                        .image);
+}
+
+// A random unit vector.
+inline glm::dvec3 direction(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const glm::dvec3 v(normal(random), normal(random), normal(random));
+    return v / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+}  // namespace lamina

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every specialisation of the projection shaders that a plan can ask for compiles.
+#include <set>
+#include <string>
+
+#include "projection_fixture.h"
+
+namespace lamina {
+namespace {
+
+using ProjectionShaders = ProjectionTest;
+
+std::vector<ProjectPlan> geometry_plans() {
+    std::vector<ProjectPlan> plans;
+    for (int bits = 0; bits < 16; ++bits) {
+        ProjectPlan plan;
+        plan.geometry = (bits & 1) != 0 ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
+        plan.orthographic = (bits & 2) != 0;
+        plan.thickness = (bits & 4) != 0 ? Thickness::dz : Thickness::exact;
+        plan.interpolation = (bits & 8) != 0 ? Interpolation::linear : Interpolation::perspective;
+        if (plan.geometry == ProjectGeometry::silhouette &&
+            plan.interpolation == Interpolation::linear)
+            continue;
+        plans.push_back(plan);
+    }
+    return plans;
+}
+
+std::vector<ProjectPlan> output_plans() {
+    std::vector<ProjectPlan> plans(1);
+    for (const ProjectDither dither : {ProjectDither::alpha, ProjectDither::after_blend}) {
+        ProjectPlan plan;
+        plan.target = Target::fixed8;
+        plan.dither = dither;
+        plan.blending = dither == ProjectDither::after_blend ? Blending::barrier : Blending::native;
+        plans.push_back(plan);
+    }
+    for (const AlphaRounding rounding :
+         {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
+        for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
+            for (const Blending blending : {Blending::fetch, Blending::barrier}) {
+                ProjectPlan plan;
+                plan.target = Target::emulated;
+                plan.emulation = Emulation{8, rounding, over, 1};
+                plan.blending = blending;
+                plans.push_back(plan);
+            }
+        }
+    }
+    return plans;
+}
+
+TEST_F(ProjectionShaders, EveryPlanCompiles) {
+    const TransferFunction transfer_function =
+        TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(.5, {1, 1, 0}, .2),
+                                  knot(.5, {0, 1, 0}, .4), knot(1, {0, 0, 1}, .9)});
+    std::set<std::string> seen;
+    const auto compile = [&](ProjectPlan plan, const SegmentSource source, bool single_color,
+                             bool filtered, int lengths) {
+        const bool values = source == SegmentSource::mean || source == SegmentSource::vertices;
+        if (values && plan.geometry == ProjectGeometry::silhouette) return;
+        plan.source = source;
+        plan.range = {0, 1};
+        plan.single_color = single_color;
+        plan.table_filtered = filtered;
+        plan.table.scalar_nodes = 16;
+        plan.table.length_layers = lengths;
+        plan.table.colored = !single_color;
+        plan.aligned = {32, single_color ? 1 : lengths, 1.0, !single_color};
+        const GlProjectTables tables(transfer_function, plan);
+        for (const TetPrecision precision : {TetPrecision::plain, TetPrecision::careful}) {
+            const bool fan = plan.geometry == ProjectGeometry::triangles;
+            if (fan && precision == TetPrecision::careful) continue;
+            gl::Defines defines = project_defines(plan, precision);
+            tables.set_defines(defines);
+            const char* const vertex = fan ? "projection/fan.vert" : "projection/silhouette.vert";
+            if (!seen.insert(gl::compose_shader(vertex, defines).text +
+                             gl::compose_shader("projection/tet.frag", defines).text)
+                     .second)
+                continue;
+            EXPECT_NO_THROW(gl::Program(vertex, "projection/tet.frag", defines));
+        }
+    };
+    const std::vector sources{SegmentSource::constant,      SegmentSource::table,
+                              SegmentSource::aligned_table, SegmentSource::pieces,
+                              SegmentSource::cut_table,     SegmentSource::analytic,
+                              SegmentSource::mean,          SegmentSource::vertices};
+    for (const SegmentSource source : sources) {
+        for (const bool single_color : {false, true})
+            for (const bool filtered : {false, true})
+                for (const int lengths : {1, 4})
+                    compile(ProjectPlan{}, source, single_color, filtered, lengths);
+        for (const ProjectPlan& plan : geometry_plans()) compile(plan, source, false, true, 4);
+    }
+    for (const ProjectPlan& plan : output_plans())
+        compile(plan, SegmentSource::table, false, true, 4);
+    EXPECT_GT(seen.size(), 60u);
+}
+
+}  // namespace
+}  // namespace lamina
