@@ -74,8 +74,7 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     measure_edges(mesh.mesh, facts);
     measure_transfer_function(scene, mesh, facts);
     measure_view(scene, mesh.mesh, facts);
-    if (scene.method == Method::project)
-        facts.trial_rays = find_trial_rays(mesh, View(scene.camera, scene.width, scene.height));
+    if (scene.method == Method::project) facts.trial_rays = find_trial_rays(scene, mesh);
     return facts;
 }
 

@@ -36,8 +36,8 @@ struct MeshFacts {
     bool orthographic = false;
     bool in_front = true;  // some point lies in front of the eye's plane
 
-    // Rays through pixels all over the picture, as runs through tets, nearest first: what tables of
-    // segments are tried on.
+    // Rays through pixels all over the picture, as runs through tets, nearest first, and single
+    // tets that show something: what tables of segments are tried on.
     struct Run {
         double front, back;  // scalars
         double length;       // world units
@@ -50,8 +50,8 @@ struct MeshFacts {
 bool shows_nothing(const TransferFunction& transfer_function, std::span<const double> scalar,
                    const Tet& tet);
 
-// Rays of the view for MeshFacts::trial_rays; those that miss the mesh are left out.
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const SceneMesh& mesh, const View& view);
+// MeshFacts::trial_rays: rays of the view, and tets of the mesh one by one.
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh);
 
 // Throws Error when the scalar has values that are no finite numbers and the scene does not say
 // what to do with them, or has none but such.

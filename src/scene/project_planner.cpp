@@ -22,8 +22,8 @@ constexpr double near_share = 1e-6;
 // What the table may add to the picture's error, in 1/255.
 constexpr double most_table_error = 0.5;
 
-// The rays that tables are tried on are a sample: others may be this much worse.
-constexpr double sampling_margin = 2;
+// What tables are tried on is a sample: the rest of the picture may be this much worse.
+constexpr double sampling_margin = 1.25;
 
 // Of a transfer function; with more of them, a search for the right ones costs less than a sum over
 // all (shaders/optics/mean_extinction.glsl).
@@ -230,6 +230,7 @@ class ProjectPlanner {
             list = {{SegmentSource::aligned_table, 128, 1},
                     {SegmentSource::aligned_table, 128, std::min(layers, 4)},
                     {SegmentSource::aligned_table, 256, layers},
+                    {SegmentSource::pieces, 128, std::min(layers, 4)},
                     {SegmentSource::pieces, 256, layers}};
         }
         list.push_back({SegmentSource::cut_table, 256, layers});
@@ -255,7 +256,8 @@ class ProjectPlanner {
                              !plan_.single_color};
             if (plan_.single_color) plan_.aligned.length_layers = 1;
             plan_.table_error = error_of_aligned(extinction);
-            plan_.table_reason = fmt::format("of {} rays of this view", facts_.trial_rays.size());
+            plan_.table_reason = fmt::format(
+                "at most on {} rays of this view and tets of this mesh", facts_.trial_rays.size());
             if (plan_.table_error <= enough) return;
         }
         plan_.source = SegmentSource::analytic;  // slower, and right whatever the transfer function

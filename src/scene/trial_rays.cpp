@@ -31,9 +31,36 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     return runs;
 }
 
+// Tets that show something, evenly from the whole mesh: what few rays meet, narrow peaks say, is
+// met. Each as a ray of its own along its edge of most change, there and back.
+constexpr std::size_t most_trial_tets = 20000;
+
+void append_tets(const Scene& scene, const SceneMesh& mesh,
+                 std::vector<std::vector<MeshFacts::Run>>& rays) {
+    const auto& values = mesh.scalar.values;
+    const auto points = mesh.mesh.points();
+    std::vector<const Tet*> seen;
+    for (const Tet& tet : mesh.mesh.tets()) {
+        if (!shows_nothing(scene.transfer_function, values, tet)) seen.push_back(&tet);
+    }
+    const std::size_t step = seen.size() / most_trial_tets + 1;
+    for (std::size_t i = 0; i < seen.size(); i += step) {
+        const auto value = [&](std::int32_t corner) {
+            return values[static_cast<std::size_t>(corner)];
+        };
+        const auto [low, high] = std::ranges::minmax_element(*seen[i], {}, value);
+        const double length = glm::distance(points[static_cast<std::size_t>(*low)],
+                                            points[static_cast<std::size_t>(*high)]);
+        rays.push_back({{value(*low), value(*high), length}});
+        rays.push_back({{value(*high), value(*low), length}});
+    }
+}
+
 }  // namespace
 
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const SceneMesh& mesh, const View& view) {
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene,
+                                                         const SceneMesh& mesh) {
+    const View view(scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     const int columns = std::min(rays_along_side, view.width);
     const int rows = std::min(rays_along_side, view.height);
@@ -47,6 +74,7 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const SceneMesh& mesh, 
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
+    append_tets(scene, mesh, rays);
     return rays;
 }
 

@@ -43,7 +43,7 @@ TEST(ProjectPlan, UsesWhatTheTransferFunctionNeeds) {
     const Plan both = plan_for(colored);
     EXPECT_EQ(both.project.source, SegmentSource::aligned_table);
     EXPECT_EQ(both.project.visibility, OrderMethod::mpvo);  // a box is convex
-    EXPECT_LE(both.project.table_error, .25);
+    EXPECT_LE(both.project.table_error, .4);                // .5 less what sampling may miss
     const Plan hidden = plan_for(TransferFunction::linear({knot(0, {1, 1, 1}, 0)}));
     EXPECT_TRUE(hidden.project.nothing_visible);
 }
