@@ -69,4 +69,16 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
+// The colour of the first part of [lo, hi] with extinction > 0; black where there is none.
+inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
+    glm::dvec3 color(0);
+    bool found = false;
+    for_each_linear_piece(transfer_function.knots(), lo, hi, [&](const LinearPiece& piece) {
+        if (found) return;
+        found = piece.at_from.extinction > 0 || piece.at_to.extinction > 0;
+        if (found) color = piece.at_from.color;
+    });
+    return color;
+}
+
 }  // namespace lamina

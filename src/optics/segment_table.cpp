@@ -46,17 +46,6 @@ TransferFunction with_finite_depths(const TransferFunction& transfer_function, d
     return TransferFunction::linear(std::move(knots));
 }
 
-glm::dvec3 first_seen_color(const TransferFunction& transfer_function, double lo, double hi) {
-    glm::dvec3 color(0);
-    bool found = false;
-    for_each_linear_piece(transfer_function.knots(), lo, hi, [&](const LinearPiece& piece) {
-        if (found) return;
-        found = piece.at_from.extinction > 0 || piece.at_to.extinction > 0;
-        if (found) color = piece.at_from.color;
-    });
-    return color;
-}
-
 // To the nearest number with 11 significant bits, or multiple of 2^-24.
 float round_to_half(float x) {
     int exponent = 0;
@@ -200,7 +189,7 @@ SegmentTable build_segment_table(const TransferFunction& transfer_function,
     }
     table.texels.resize(static_cast<std::size_t>(count));
     const TransferFunction finite = with_finite_depths(transfer_function, request.max_length);
-    if (!request.colored) table.single_color = first_seen_color(finite, request.lo, request.hi);
+    if (!request.colored) table.single_color = first_color(finite, request.lo, request.hi);
 
     // The first two layers are those of length 0 and of the shortest segments.
     const bool incremental =

@@ -14,10 +14,6 @@ namespace {
 // A tet is cut by the near plane into at most three, each with five vertices and four triangles.
 constexpr std::size_t most_parts = 3, most_vertices = 5, most_triangles = 4;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
-
 // The three tets of a prism with the triangles a0 a1 a2 and b0 b1 b2.
 constexpr std::array<std::array<std::size_t, 4>, 3> prism_tets{
     {{0, 1, 2, 3}, {1, 2, 3, 4}, {2, 3, 4, 5}}};
@@ -29,27 +25,19 @@ FanGeometry::FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer
     : mesh_(mesh),
       transfer_function_(transfer_function),
       plan_(plan),
-      view_(view),
+      window_(view),
       signer_(mesh.mesh, eye_of(view)),
-      middle_(0.5 * view.width, 0.5 * view.height),
-      perspective_view_(view.projection == Projection::perspective),
-      divided_(perspective_view_ && plan.interpolation == Interpolation::perspective) {}
+      divided_(window_.perspective() && plan.interpolation == Interpolation::perspective) {}
 
 TetGeometry::Size FanGeometry::largest_size() {
     return {sizeof(FanVertex), most_parts * most_vertices, most_parts * most_triangles * 3, false};
 }
 
-glm::dvec2 FanGeometry::to_window(const glm::dvec3& seen) const {
-    const double scale = perspective_view_ ? view_.pixel * seen.z : view_.pixel;
-    return middle_ + glm::dvec2(seen.x / scale, seen.y / scale);
-}
-
 FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
     const auto index = static_cast<std::size_t>(point);
-    const glm::dvec3 p = mesh_.mesh.points()[index] - view_.eye;
     Corner corner;
-    corner.seen = {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
-    corner.window = to_window(corner.seen);
+    corner.seen = window_.see(mesh_.mesh.points()[index]);
+    corner.window = window_.to_window(corner.seen);
     const double value = mesh_.scalar.values[index];
     if (plan_.source == SegmentSource::mean || plan_.source == SegmentSource::vertices) {
         const OpticalProperties optics = transfer_function_.at(value);
@@ -61,17 +49,12 @@ FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
     return corner;
 }
 
-// Faces that are edge-on: as in tet_projector.cpp, in front for one of their two tets.
 FanGeometry::Fronts FanGeometry::fronts_of(std::int32_t index) const {
     const auto tet = static_cast<std::size_t>(index);
     const FaceSigns signs = signer_.signs(tet);
     Fronts fronts;
-    for (std::size_t face = 0; face < 4; ++face) {
-        const auto [a, b, c] = corners_of_face(mesh_.mesh.tets()[tet], face);
-        const bool turned = (a > b) != ((b > c) != (a > c));
-        const bool farther = (signs & farther_bit(face)) != 0;
-        fronts[face] = (signs & nearer_bit(face)) != 0 || (!farther && turned);
-    }
+    for (std::size_t face = 0; face < 4; ++face)
+        fronts[face] = is_front(mesh_.mesh.tets()[tet], face, signs);
     return fronts;
 }
 
@@ -82,7 +65,7 @@ FanGeometry::Fronts FanGeometry::fronts_of(const Corners& corners) const {
         const glm::dvec3& b = corners[face_corners[face][1]].seen;
         const glm::dvec3& c = corners[face_corners[face][2]].seen;
         const glm::dvec3 normal = glm::cross(b - a, c - a);
-        const double eye_side = perspective_view_ ? -glm::dot(normal, a) : -normal.z;
+        const double eye_side = window_.perspective() ? -glm::dot(normal, a) : -normal.z;
         const double inner_side = glm::dot(normal, corners[face].seen - a);
         fronts[face] = (eye_side > 0) != (inner_side > 0);
     }
@@ -90,7 +73,7 @@ FanGeometry::Fronts FanGeometry::fronts_of(const Corners& corners) const {
 }
 
 FanGeometry::Point FanGeometry::point_of(const Corner& corner) const {
-    const double inverse = perspective_view_ ? 1 / corner.seen.z : 1;
+    const double inverse = window_.perspective() ? 1 / corner.seen.z : 1;
     return {inverse, corner.seen.z, corner.values * inverse};
 }
 
@@ -102,7 +85,7 @@ FanGeometry::Point FanGeometry::mix(std::span<const Point> points,
         sum.z += weights[i] * points[i].z;
         sum.values += weights[i] * points[i].values;
     }
-    if (perspective_view_) sum.z = 1 / sum.inverse_z;
+    if (window_.perspective()) sum.z = 1 / sum.inverse_z;
     return sum;
 }
 
@@ -119,9 +102,9 @@ FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front
         return vertex;
     }
     double thickness = difference;
-    if (perspective_view_) {
+    if (window_.perspective()) {
         thickness *= front.z * back.z;
-        const glm::dvec2 place = (window - middle_) * view_.pixel;
+        const glm::dvec2 place = (window - window_.middle()) * window_.view().pixel;
         if (plan_.thickness == Thickness::exact) thickness *= std::sqrt(1 + glm::dot(place, place));
     }
     vertex.inverse = glm::dvec2(0, thickness);
@@ -181,7 +164,7 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
         weights[i] = std::clamp(weights[i] / area, 0.0, 1.0);
         const double dz = apex.seen.z - corners[rim[i]].seen.z;
         deeper +=
-            weights[i] * (perspective_view_ ? dz / (apex.seen.z * corners[rim[i]].seen.z) : dz);
+            weights[i] * (window_.perspective() ? dz / (apex.seen.z * corners[rim[i]].seen.z) : dz);
     }
     const Point hit = mix(points, weights), tip = point_of(apex);
     fan.vertices[0] = front ? thick_vertex(apex.window, hit, tip, deeper)
@@ -212,7 +195,7 @@ bool FanGeometry::make_around_crossing(const Corners& corners,
     const Point front = mix(front_points, front_weights), back = mix(back_points, back_weights);
     const auto deeper = [&](const Corner& near, const Corner& far) {
         const double dz = far.seen.z - near.seen.z;
-        return perspective_view_ ? dz / (far.seen.z * near.seen.z) : dz;
+        return window_.perspective() ? dz / (far.seen.z * near.seen.z) : dz;
     };
     const double difference = deeper(k, i) + at_back * deeper(i, j) - at_front * deeper(k, l);
     fan.vertices[0] = thick_vertex(k.window + at_front * along_front, front, back, difference);
@@ -252,7 +235,8 @@ TetGeometry::Written FanGeometry::write(std::int32_t index, const Place& place) 
     }
     if (behind == 4) return {};
     if (behind > 0) return write_clipped(index, corners, place);
-    if (hi.x < 0 || hi.y < 0 || lo.x > view_.width || lo.y > view_.height) return {};
+    if (hi.x < 0 || hi.y < 0 || lo.x > window_.view().width || lo.y > window_.view().height)
+        return {};
     Written written;
     Fan fan;
     if (make_fan(corners, fronts_of(index), fan)) append(fan, index, place, written);
@@ -274,7 +258,7 @@ TetGeometry::Written FanGeometry::write_clipped(std::int32_t index, const Corner
         Corner corner;
         corner.seen = a.seen + share * (b.seen - a.seen);
         corner.seen.z = plan_.near_depth;
-        corner.window = to_window(corner.seen);
+        corner.window = window_.to_window(corner.seen);
         corner.values = a.values + share * (b.values - a.values);
         return corner;
     };

@@ -10,6 +10,7 @@
 
 #include "mesh/face_signs.h"
 #include "projection/tet_geometry.h"
+#include "projection/window_view.h"
 #include "scene/project_plan.h"
 #include "scene/scene_mesh.h"
 
@@ -60,7 +61,6 @@ class FanGeometry : public TetGeometry {
     };
 
     Corner corner_of(std::int32_t point) const;
-    glm::dvec2 to_window(const glm::dvec3& seen) const;
     Fronts fronts_of(std::int32_t tet) const;
     Fronts fronts_of(const Corners& corners) const;
     Point point_of(const Corner& corner) const;
@@ -79,11 +79,9 @@ class FanGeometry : public TetGeometry {
     const SceneMesh& mesh_;
     const TransferFunction& transfer_function_;
     const ProjectPlan& plan_;
-    const View& view_;
+    WindowView window_;
     FaceSigner signer_;
-    glm::dvec2 middle_;
-    bool perspective_view_;  // depths are divided by in projecting
-    bool divided_;           // values are interpolated over z
+    bool divided_;  // values are interpolated over z
 };
 
 }  // namespace lamina

@@ -11,7 +11,6 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "gl/check.h"
-#include "gl/query.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
 #include "slicing/gl_compositing.h"
@@ -183,14 +182,6 @@ Image GlProjectRenderer::read() const {
     Image image = target_.read_back();
     if (plan_.in_codes() && plan_.blending != Blending::native) decode(image, plan_);
     return image;
-}
-
-std::uint64_t GlProjectRenderer::draw_counting(const View& view, Progress* progress) {
-    gl::Query query(gl::Query::Kind::samples_passed);
-    query.begin();
-    draw(view, progress);
-    query.end();
-    return query.result();
 }
 
 }  // namespace lamina

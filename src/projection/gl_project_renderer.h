@@ -39,7 +39,6 @@ class GlProjectRenderer {
     void draw(const View& view, Progress* progress = nullptr);
     int step_count() const;
     Image read() const;
-    std::uint64_t draw_counting(const View& view, Progress* progress);  // returns its fragments
 
     const OrderReport& order_report() const { return order_.report(); }
     std::int64_t tets_drawn() const { return tets_drawn_; }  // of the last frame, like these:

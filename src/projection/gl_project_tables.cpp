@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
 
 namespace lamina {
@@ -43,7 +44,7 @@ std::vector<Code> to_codes(const std::vector<float>& texels) {
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
     : plan_(plan) {
     const Stopwatch watch;
-    single_color_ = glm::vec3(first_color(transfer_function, plan.range));
+    single_color_ = glm::vec3(first_color(transfer_function, plan.range.lo, plan.range.hi));
     switch (plan.source) {
         case SegmentSource::constant:
             constant_ = transfer_function.at(plan.range.lo);

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "projection/window_view.h"
+
 namespace lamina {
 namespace {
 
@@ -26,10 +28,6 @@ struct Hull {
     std::size_t count = 0;
     std::array<glm::dvec2, most_points + 5> corners;
 };
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 // Andrew's monotone chain: counter-clockwise, without corners on straight edges.
 Hull convex_hull(std::span<const glm::dvec2> points) {

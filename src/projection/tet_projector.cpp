@@ -17,24 +17,16 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// The corners of a face in the order of their numbers, the same for both tets that share it, and
-// whether that turns the order round.
-struct SortedFace {
-    std::array<std::size_t, 3> corners;  // of the tet
-    bool turned;
-};
-SortedFace sorted_face(const Tet& tet, std::size_t face) {
-    SortedFace sorted{face_corners[face], false};
-    auto& [a, b, c] = sorted.corners;
+// The corners of a face in the order of their numbers, the same for both tets that share it.
+std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
+    std::array<std::size_t, 3> corners = face_corners[face];
     const auto sort = [&](std::size_t& low, std::size_t& high) {
-        if (tet[low] <= tet[high]) return;
-        std::swap(low, high);
-        sorted.turned = !sorted.turned;
+        if (tet[low] > tet[high]) std::swap(low, high);
     };
-    sort(a, b);
-    sort(b, c);
-    sort(a, b);
-    return sorted;
+    sort(corners[0], corners[1]);
+    sort(corners[1], corners[2]);
+    sort(corners[0], corners[1]);
+    return corners;
 }
 
 // Depths on faces in float32 are good enough where their rounding is at most this share of the
@@ -79,22 +71,10 @@ TetProjector::TetProjector(const TetMesh& mesh, std::span<const double> scalar,
       tets_(mesh.tets()),
       scalar_(scalar),
       range_(range),
-      view_(view),
+      window_(view),
       signer_(mesh, eye_of(view)),
       near_depth_(near_depth),
-      margin_(margin),
-      middle_(0.5 * view.width, 0.5 * view.height),
-      perspective_(view.projection == Projection::perspective) {}
-
-TetProjector::Seen TetProjector::see(std::int32_t point) const {
-    const glm::dvec3 p = points_[static_cast<std::size_t>(point)] - view_.eye;
-    return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
-}
-
-glm::dvec2 TetProjector::to_window(const Seen& seen) const {
-    const double scale = perspective_ ? view_.pixel * seen.z : view_.pixel;
-    return middle_ + glm::dvec2(seen.x / scale, seen.y / scale);
-}
+      margin_(margin) {}
 
 // The plane through A, B, C with normal n is met by the ray z (x, y, 1) of the window place (x, y)
 // at 1/z = n.(x, y, 1) / n.A, and by the parallel ray (x, y, z) at z = (n.A - n.(x, y, 0)) / n_z.
@@ -103,30 +83,30 @@ glm::dvec2 TetProjector::to_window(const Seen& seen) const {
 TetProjector::DepthPlane TetProjector::depth_plane(const Tet& tet, std::size_t face,
                                                    FaceSigns signs,
                                                    const std::array<Seen, 4>& corners) const {
-    const SortedFace sorted = sorted_face(tet, face);
-    const Seen& a = corners[sorted.corners[0]];
-    const Seen& b = corners[sorted.corners[1]];
-    const Seen& c = corners[sorted.corners[2]];
+    const auto sorted = sorted_face(tet, face);
+    const Seen& a = corners[sorted[0]];
+    const Seen& b = corners[sorted[1]];
+    const Seen& c = corners[sorted[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double distance = glm::dot(normal, a);
     // Of the exact sign, where the face is not edge-on; the same for both tets where it is.
-    const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
-    const bool front = nearer || (!farther && sorted.turned);
+    const bool front = is_front(tet, face, signs);
     // right, up, forward are left-handed: determinants have the other sign than in the world.
-    const double sign = front == sorted.turned ? -1 : 1;
-    const double rounded = perspective_ ? distance : normal.z;
-    const double reach = perspective_ ? std::max({largest(a), largest(b), largest(c)}) : 1;
+    const double sign = front == turned_by_sorting(tet, face) ? -1 : 1;
+    const double rounded = window_.perspective() ? distance : normal.z;
+    const double reach = window_.perspective() ? std::max({largest(a), largest(b), largest(c)}) : 1;
     const double least = least_inclination * largest(normal) * reach;
     const double divisor = sign * std::max(sign * rounded, std::max(least, 1e-300));
-    const double per_pixel = -view_.pixel / divisor;
-    return {(perspective_ ? -normal.z : distance) / divisor, normal.x * per_pixel,
+    const double per_pixel = -window_.view().pixel / divisor;
+    return {(window_.perspective() ? -normal.z : distance) / divisor, normal.x * per_pixel,
             normal.y * per_pixel, front};
 }
 
 TetProjector::Result TetProjector::set_depths(const Tet& tet, FaceSigns signs,
                                               const std::array<Seen, 4>& corners,
                                               const Extent& extent, TetRecord& record) const {
-    const double column = record.center[0] - middle_.x, row = record.center[1] - middle_.y;
+    const double column = record.center[0] - window_.middle().x,
+                 row = record.center[1] - window_.middle().y;
     std::size_t first_back = 0, place_of_back = 3;
     double rounding = 0;
     for (std::size_t face = 0; face < 4; ++face) {
@@ -166,33 +146,35 @@ void TetProjector::set_scalars(const Tet& tet, const std::array<Seen, 4>& corner
         glm::dot(e1, n1);
     // A tet without volume shows nothing, whatever its scalar.
     if (!(largest(gradient) < 1e30)) gradient = glm::dvec3(0);
-    const double x = (record.center[0] - middle_.x) * view_.pixel,
-                 y = (record.center[1] - middle_.y) * view_.pixel,
+    const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
+                 y = (record.center[1] - window_.middle().y) * window_.view().pixel,
                  z = static_cast<double>(record.center_z);
-    const glm::dvec3 direction = perspective_ ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 center = perspective_ ? z * direction : glm::dvec3(x, y, z);
+    const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 center = window_.perspective() ? z * direction : glm::dvec3(x, y, z);
     record.scalar = static_cast<float>(values[0] + glm::dot(gradient, center - corners[0]));
     record.scalar_per_z = static_cast<float>(glm::dot(gradient, direction));
-    record.scalar_per_column = static_cast<float>(gradient.x * view_.pixel);
-    record.scalar_per_row = static_cast<float>(gradient.y * view_.pixel);
+    record.scalar_per_column = static_cast<float>(gradient.x * window_.view().pixel);
+    record.scalar_per_row = static_cast<float>(gradient.y * window_.view().pixel);
 }
 
 TetProjector::Result TetProjector::project(std::int32_t index, TetRecord& record,
                                            ScreenPolygon& polygon) const {
     const Tet& tet = tets_[static_cast<std::size_t>(index)];
     std::array<Seen, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i) corners[i] = see(tet[i]);
+    for (std::size_t i = 0; i < 4; ++i)
+        corners[i] = window_.see(points_[static_cast<std::size_t>(tet[i])]);
     const VisibleCorners visible = clip_near(corners, near_depth_);
     if (visible.count == 0) return Result::hidden;
-    std::array<glm::dvec2, 6> window;
+    std::array<glm::dvec2, 6> places;
     double z = 0, nearest = INFINITY, farthest = 0;
     for (std::size_t i = 0; i < visible.count; ++i) {
-        window[i] = to_window(visible.seen[i]);
+        places[i] = window_.to_window(visible.seen[i]);
         z += visible.seen[i].z / static_cast<double>(visible.count);
         nearest = std::min(nearest, visible.seen[i].z);
         farthest = std::max(farthest, visible.seen[i].z);
     }
-    polygon = surround({window.data(), visible.count}, margin_, view_.width, view_.height);
+    polygon = surround({places.data(), visible.count}, margin_, window_.view().width,
+                       window_.view().height);
     if (polygon.count == 0) return Result::hidden;
     glm::dvec2 lo(polygon.corners[0]), hi = lo;
     for (int i = 1; i < polygon.count; ++i) {
@@ -201,13 +183,13 @@ TetProjector::Result TetProjector::project(std::int32_t index, TetRecord& record
         hi = glm::max(hi, corner);
     }
     const glm::dvec2 center = glm::floor(0.5 * (lo + hi)) + 0.5;
-    const auto depth_of = [&](double at) { return perspective_ ? -1 / at : at; };
+    const auto depth_of = [&](double at) { return window_.perspective() ? -1 / at : at; };
     record.center = {static_cast<float>(center.x), static_cast<float>(center.y)};
     record.center_depth = static_cast<float>(depth_of(z));
-    record.center_z = perspective_ ? -1 / record.center_depth : record.center_depth;
+    record.center_z = window_.perspective() ? -1 / record.center_depth : record.center_depth;
     record.tet = static_cast<std::uint32_t>(index);
     // A change of 1/z means most at the far end.
-    const double range = (farthest - nearest) / (perspective_ ? farthest * farthest : 1);
+    const double range = (farthest - nearest) / (window_.perspective() ? farthest * farthest : 1);
     const Extent extent{hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};
     set_scalars(tet, corners, record);
     return set_depths(tet, signer_.signs(static_cast<std::size_t>(index)), corners, extent, record);

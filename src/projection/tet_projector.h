@@ -12,6 +12,7 @@
 #include "mesh/tet_mesh.h"
 #include "projection/screen_polygon.h"
 #include "projection/tet_record.h"
+#include "projection/window_view.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"
 
@@ -35,8 +36,6 @@ class TetProjector {
   private:
     // A point relative to the eye: along right, up and forward.
     using Seen = glm::dvec3;
-    Seen see(std::int32_t point) const;
-    glm::dvec2 to_window(const Seen& seen) const;
 
     // `depth` (TetRecord) on a face's plane, as a function of window coordinates from the middle of
     // the picture.
@@ -60,11 +59,9 @@ class TetProjector {
     std::span<const Tet> tets_;
     std::span<const double> scalar_;
     ValueRange range_;
-    View view_;
+    WindowView window_;
     FaceSigner signer_;
     double near_depth_, margin_;
-    glm::dvec2 middle_;
-    bool perspective_;
 };
 
 }  // namespace lamina

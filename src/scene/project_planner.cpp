@@ -160,11 +160,7 @@ class ProjectPlanner {
         } else if (settings_.coloring == Coloring::analytic) {
             plan_.source = SegmentSource::analytic;
         } else if (settings_.table) {
-            plan_.table = request(settings_.table->scalar, settings_.table->length);
-            plan_.table.mapping = settings_.table->mapping;
-            plan_.table.store = settings_.table->store;
-            plan_.table.format = settings_.table->format;
-            plan_.table.construction = settings_.table->construction;
+            plan_.table = request_of(*settings_.table);
             plan_.table_error = error_of(plan_.table);
             plan_.table_reason = "as the scene asks";
         } else if (!plan_.nothing_visible) {
@@ -172,22 +168,23 @@ class ProjectPlanner {
         }
     }
 
-    SegmentTableRequest request(int scalar_nodes, int length_layers) const {
-        SegmentTableRequest table;
-        table.lo = plan_.range.lo;
-        table.hi = plan_.range.hi;
-        table.max_length = facts_.longest_edge;
-        table.scalar_nodes = scalar_nodes;
-        table.length_layers = length_layers;
-        table.format = TableFormat::float32;
-        table.colored = !plan_.single_color;
-        return table;
+    SegmentTableRequest request_of(const TableSettings& settings) const {
+        return {.lo = plan_.range.lo,
+                .hi = plan_.range.hi,
+                .max_length = facts_.longest_edge,
+                .scalar_nodes = settings.scalar,
+                .length_layers = settings.length,
+                .mapping = settings.mapping,
+                .store = settings.store,
+                .format = settings.format,
+                .construction = settings.construction,
+                .colored = !plan_.single_color};
     }
 
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
-    // Of rays of the view, in 1/255: the largest difference in colour or opacity that a way of
-    // integrating tets makes.
+    // In 1/255: the largest difference in colour or opacity that a way of integrating tets makes on
+    // the trial rays.
     double error_of(const Lookup& lookup) const {
         std::vector<double> errors(facts_.trial_rays.size());
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {

@@ -9,6 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "gl/check.h"
+#include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
@@ -59,7 +60,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     : facts_(facts),
       plan_(plan),
       range_(shader_range(facts.range)),
-      single_color_(first_color(transfer_function, range_)),
+      single_color_(first_color(transfer_function, range_.lo, range_.hi)),
       constant_(transfer_function.at(range_.lo)) {
     const Stopwatch table_watch;
     if (plan_.sampling != VolumeSampling::none) {

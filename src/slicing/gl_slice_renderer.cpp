@@ -6,7 +6,6 @@
 #include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "gl/check.h"
-#include "gl/query.h"
 #include "slicing/gl_compositing.h"
 
 namespace lamina {
@@ -74,14 +73,6 @@ Image GlSliceRenderer::read() const {
     Image image = target_.read_back();
     if (plan_.emulation) decode(image, plan_);
     return image;
-}
-
-std::uint64_t GlSliceRenderer::draw_counting(const View& view, Progress* progress) {
-    gl::Query query(gl::Query::Kind::samples_passed);
-    query.begin();
-    draw(view, progress);
-    query.end();
-    return query.result();
 }
 
 }  // namespace lamina

@@ -29,7 +29,6 @@ class GlSliceRenderer {
     void draw(const View& view, Progress* progress = nullptr);
     int step_count() const;
     Image read() const;
-    std::uint64_t draw_counting(const View& view, Progress* progress);  // returns its fragments
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }

@@ -71,16 +71,4 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
     return intervals;
 }
 
-glm::dvec3 first_color(const TransferFunction& transfer_function, const ValueRange& range) {
-    glm::dvec3 color{0};
-    bool found = false;
-    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
-                          [&](const LinearPiece& piece) {
-                              if (found) return;
-                              found = piece.at_from.extinction > 0 || piece.at_to.extinction > 0;
-                              if (found) color = piece.at_from.color;
-                          });
-    return color;
-}
-
 }  // namespace lamina

@@ -32,7 +32,4 @@ struct ShaderIntervals {
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
                                const std::vector<PreintegrationTable::Anchor>& anchors);
 
-// The colour of the first part of [lo, hi] with extinction > 0; black where there is none.
-glm::dvec3 first_color(const TransferFunction& transfer_function, const ValueRange& range);
-
 }  // namespace lamina

@@ -2,7 +2,6 @@
 // Conforming meshes of a constant field: every pixel is 1 - exp(-extinction * chord), whatever the
 // tets: no cracks, no double fragments, no effect of the rasteriser's grid.
 #include "projection_fixture.h"
-#include "support/delaunay_mesh.h"
 #include "support/split_box.h"
 
 namespace lamina {

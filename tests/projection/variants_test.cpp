@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each remedy switched off gives its artifact (Kraus 2004, section 5), and the variants agree where
 // they must.
-#include <set>
-
 #include "projection_fixture.h"
 #include "support/split_box.h"
 

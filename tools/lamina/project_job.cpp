@@ -3,12 +3,11 @@
 
 #include <optional>
 
-#include "base/progress.h"
 #include "base/stopwatch.h"
 #include "clamped_colors.h"
 #include "context_kind.h"
+#include "first_frame.h"
 #include "gl/context.h"
-#include "gl/memory.h"
 #include "loaded_mesh.h"
 #include "projection/gl_project_renderer.h"
 #include "render_job.h"
@@ -44,22 +43,10 @@ class ProjectJob : public RenderJob {
         renderer_.emplace(mesh_->data, scene.transfer_function, plan.project,
                           context_->capabilities(), scene.width, scene.height);
         stats.stages_ms["set_up"] = set_up_watch.milliseconds();
-        const Stopwatch frame_watch;
-        {
-            Progress progress("projecting", renderer_->step_count());
-            if (request_.count_fragments)
-                stats.fragments = renderer_->draw_counting(view, &progress);
-            else
-                renderer_->draw(view, &progress);
-        }
-        stats.frames_ms = {frame_watch.milliseconds()};
+        image_.emplace(draw_first_frame(*renderer_, "projecting", request_, view, stats));
         record_stages(stats);
         report_order(stats);
-        const Stopwatch read_watch;
-        image_.emplace(renderer_->read());
-        stats.stages_ms["read"] = read_watch.milliseconds();
         stats.tets_drawn = renderer_->tets_drawn();
-        stats.bytes_gpu = gl::bytes_allocated();
     }
 
     void draw_frame(const View& view) override { renderer_->draw(view); }

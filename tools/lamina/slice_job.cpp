@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
-#include "base/progress.h"
 #include "base/stopwatch.h"
 #include "clamped_colors.h"
 #include "context_kind.h"
+#include "first_frame.h"
 #include "gl/context.h"
-#include "gl/memory.h"
 #include "loaded_volume.h"
 #include "render_job.h"
 #include "slicing/gl_slice_renderer.h"
@@ -37,24 +36,12 @@ class SliceJob : public RenderJob {
         count_clamped_colors(request_, stats);
         renderer_.emplace(data_->volume, scene.transfer_function, data_->facts, plan.slice,
                           context_->capabilities(), scene.width, scene.height);
-        const Stopwatch frame_watch;
-        {
-            Progress progress("slicing", renderer_->step_count());
-            if (request_.count_fragments)
-                stats.fragments = renderer_->draw_counting(view, &progress);
-            else
-                renderer_->draw(view, &progress);
-        }
-        stats.frames_ms = {frame_watch.milliseconds()};
+        image_.emplace(draw_first_frame(*renderer_, "slicing", request_, view, stats));
         stats.stages_ms["tables"] = renderer_->table_ms();
         stats.stages_ms["upload"] = renderer_->upload_ms();
         stats.stages_ms["geometry"] = renderer_->geometry_ms();
         stats.stages_ms["draw"] = renderer_->draw_ms();
-        const Stopwatch read_watch;
-        image_.emplace(renderer_->read());
-        stats.stages_ms["read"] = read_watch.milliseconds();
         stats.samples = plan.slice.slabs;
-        stats.bytes_gpu = gl::bytes_allocated();
     }
 
     void draw_frame(const View& view) override { renderer_->draw(view); }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+
+#include "mesh/face_signs.h"
+#include "mesh/tet.h"
+#include "scene/camera.h"
+
+namespace lamina {
+
+// Where points lie in the eye's space and in the window: pixels to the right and upwards from the
+// picture's lower left corner.
+class WindowView {
+  public:
+    explicit WindowView(const View& view)
+        : view_(view),
+          middle_(0.5 * view.width, 0.5 * view.height),
+          perspective_(view.projection == Projection::perspective) {}
+
+    const View& view() const { return view_; }
+    const glm::dvec2& middle() const { return middle_; }
+    bool perspective() const { return perspective_; }
+
+    // From the eye: along right, up and forward.
+    glm::dvec3 see(const glm::dvec3& point) const {
+        const glm::dvec3 p = point - view_.eye;
+        return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
+    }
+    glm::dvec2 to_window(const glm::dvec3& seen) const {
+        const double scale = perspective_ ? view_.pixel * seen.z : view_.pixel;
+        return middle_ + glm::dvec2(seen.x / scale, seen.y / scale);
+    }
+
+  private:
+    View view_;
+    glm::dvec2 middle_;
+    bool perspective_;
+};
+
+// Whether sorting the corners of a face by their numbers turns its order round: for one of the two
+// tets that share it.
+inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
+    const auto [a, b, c] = corners_of_face(tet, face);
+    return (a > b) != ((b > c) != (a > c));
+}
+
+// Whether the eye is in front of a face; where it is seen edge-on, it is for one of its two tets.
+inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
+    const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
+    return nearer || (!farther && turned_by_sorting(tet, face));
+}
+
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+}  // namespace lamina
