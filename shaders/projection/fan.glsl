@@ -5,7 +5,7 @@ in vec4 front_values;
 in vec4 back_values;
 flat in uint tet;
 
-uint tet_number() { return tet; }
+uint part_number() { return tet; }
 
 #if defined(ORTHOGRAPHIC) || defined(LINEAR)
 #define DIVIDED 0

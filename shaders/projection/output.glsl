@@ -8,7 +8,7 @@
 uniform int image_rows;
 uniform int seed;
 uint random_of_fragment() {
-    return random_bits(uint(gl_FragCoord.x), uint(image_rows) - 1u - uint(gl_FragCoord.y), tet_number(), uint(seed));
+    return random_bits(uint(gl_FragCoord.x), uint(image_rows) - 1u - uint(gl_FragCoord.y), part_number(), uint(seed));
 }
 #endif
 #ifdef EMULATED

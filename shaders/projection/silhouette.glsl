@@ -13,14 +13,20 @@ flat in vec4 center;
 flat in vec4 scalars;
 #endif
 flat in vec4 limits;
+#ifdef CUT
+flat in vec4 cuts;
+flat in OPTICS low_optics, high_optics;
+#endif
 
 uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
-uint tet_number() { return floatBitsToUint(limits.w); }
+uint part_number() { return floatBitsToUint(limits.w); }
+
+uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
 
 struct TetRun {
-    float front, back;   // scalars, normalised
+    float front, back;   // scalars, of a range that is [0, 1]
     float world_length;  // 0 where the ray misses the tet
 };
 
@@ -36,7 +42,7 @@ vec2 find_depths(vec2 place) {
     vec4 depths = vec4(four_doubles(face_depths[0], face_depths[1]) +
                        four_doubles(face_depths[2], face_depths[3]) * moved.x +
                        four_doubles(face_depths[4], face_depths[5]) * moved.y);
-    uint fronts = floatBitsToUint(limits.z);
+    uint fronts = front_faces();
     float enter = near_depth - center.z;
     enter = max(enter, fronts > 0u ? depths.x : enter);
     enter = max(enter, fronts > 1u ? depths.y : enter);
@@ -51,7 +57,7 @@ vec2 find_depths(vec2 place) {
 // The same for tets with 1 to 3 front faces, none of them nearly edge-on.
 vec2 find_depths(vec2 place) {
     vec4 depths = face_depths[0] + face_depths[1] * place.x + face_depths[2] * place.y;
-    uint fronts = floatBitsToUint(limits.z);
+    uint fronts = front_faces();
     bool two = fronts > 1u, three = fronts > 2u;
     float enter = depths.x;
     enter = max(enter, two ? depths.y : enter);
@@ -63,9 +69,26 @@ vec2 find_depths(vec2 place) {
 }
 #endif
 
+#ifdef CUT
+// The part of a ray's run on which the scalar is between the part's least and largest. The part on the other side of a
+// cut computes the same numbers: nothing is lost or counted twice between them.
+vec2 cut_depths(vec2 depths, vec2 place) {
+    uint fronts = floatBitsToUint(limits.z);
+    bool lower_front = (fronts & 8u) != 0u, upper_front = (fronts & 16u) != 0u;
+    float lower = cuts.x + cuts.y * place.x + cuts.z * place.y;
+    float upper = cuts.w + limits.x * place.x + limits.y * place.y;
+    float enter = max(depths.x, lower_front ? lower : depths.x);
+    float leave = min(depths.y, lower_front ? depths.y : lower);
+    return vec2(max(enter, upper_front ? upper : enter), min(leave, upper_front ? leave : upper));
+}
+#endif
+
 TetRun find_run() {
     vec2 place = gl_FragCoord.xy - center.xy;  // exact
     vec2 depths = find_depths(place);
+#ifdef CUT
+    depths = cut_depths(depths, place);
+#endif
     bool inside = depths.y > depths.x;
     TetRun run;
 #ifdef ORTHOGRAPHIC
@@ -86,7 +109,11 @@ TetRun find_run() {
 #endif
 #ifdef SCALARS
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);
+#ifdef CUT
+    ends = clamp(ends, 0.0, 1.0);
+#else
     ends = clamp(ends, limits.x, limits.y);
+#endif
     run.front = ends.x;
     run.back = ends.y;
 #else

@@ -5,30 +5,44 @@ layout(location = 0) in vec2 position;  // window coordinates
 layout(location = 1) in uint record;
 
 layout(std430, binding = 0) readonly buffer Records { uvec4 records[]; };
-const uint record_size = 9u;
+const uint record_size = 12u;
 
 uniform vec2 image_size;
 
 // Of four faces: depth, per column, per row; with CAREFUL, high and low parts of each.
 #ifdef CAREFUL
-#define PARTS 2u
+#define PAIR 2u
 #else
-#define PARTS 1u
+#define PAIR 1u
 #endif
-flat out vec4 face_depths[3u * PARTS];
+flat out vec4 face_depths[3u * PAIR];
 flat out vec4 center;           // column, row, depth, z
 #ifdef SCALARS
 flat out vec4 scalars;          // at the center, per z, per column, per row
 #endif
-flat out vec4 limits;           // least and largest scalar, bits of the number of front faces and of the tet
+flat out vec4 limits;           // of the scalar, or upper cut per column and row; bits: fronts, number
+#ifdef CUT
+flat out vec4 cuts;             // lower: depth, per column, per row; upper: depth
+flat out OPTICS low_optics, high_optics;  // colour (where TABLE_COLORED) and extinction at least and largest scalar
+#endif
 
 void main() {
     uint first = record * record_size;
-    for (uint i = 0u; i < 3u * PARTS; ++i) face_depths[i] = uintBitsToFloat(records[first + i * 2u / PARTS]);
+    for (uint i = 0u; i < 3u * PAIR; ++i) face_depths[i] = uintBitsToFloat(records[first + i * 2u / PAIR]);
     center = uintBitsToFloat(records[first + 6u]);
 #ifdef SCALARS
     scalars = uintBitsToFloat(records[first + 7u]);
 #endif
     limits = uintBitsToFloat(records[first + 8u]);
+#ifdef CUT
+    cuts = uintBitsToFloat(records[first + 9u]);
+#ifdef TABLE_COLORED
+    low_optics = uintBitsToFloat(records[first + 10u]);
+    high_optics = uintBitsToFloat(records[first + 11u]);
+#else
+    low_optics = uintBitsToFloat(records[first + 10u].a);
+    high_optics = uintBitsToFloat(records[first + 11u].a);
+#endif
+#endif
     gl_Position = vec4(2.0 * position / image_size - 1.0, 0.0, 1.0);
 }

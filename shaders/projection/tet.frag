@@ -6,12 +6,11 @@
 // One tet of the projected-tetrahedra renderer: what the fragment's ray gathers inside it, put over what is there.
 #define SOURCE_CONSTANT 0
 #define SOURCE_TABLE 1
-#define SOURCE_ALIGNED_TABLE 2
-#define SOURCE_PIECES 3
-#define SOURCE_CUT_TABLE 4
-#define SOURCE_ANALYTIC 5
-#define SOURCE_MEAN 6
-#define SOURCE_VERTICES 7
+#define SOURCE_PARTS 2
+#define SOURCE_CUT_TABLE 3
+#define SOURCE_ANALYTIC 4
+#define SOURCE_MEAN 5
+#define SOURCE_VERTICES 6
 #if SOURCE == SOURCE_CONSTANT
 uniform vec4 constant_optics;  // colour, extinction
 #endif

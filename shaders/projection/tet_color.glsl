@@ -7,6 +7,14 @@ vec4 tet_color() {
     float opacity = opacity_from_depth(constant_optics.a * find_run().world_length);
     return vec4(constant_optics.rgb * opacity, opacity);
 }
+#elif SOURCE == SOURCE_PARTS
+#include "optics/linear_segment.glsl"
+vec4 tet_color() {
+    TetRun run = find_run();
+    OPTICS front = low_optics + run.front * (high_optics - low_optics);
+    OPTICS back = low_optics + run.back * (high_optics - low_optics);
+    return integrate_linear(front, back, run.world_length);
+}
 #elif SOURCE == SOURCE_MEAN
 // Stein, Becker, Max 1994: extinction linear in the tet, so that its mean over the ray is that of front and back; the
 // colour is the mean of both.
@@ -40,8 +48,6 @@ vec4 tet_color() {
 #else
 #if SOURCE == SOURCE_TABLE
 #include "optics/segment_table.glsl"
-#elif SOURCE == SOURCE_PIECES || SOURCE == SOURCE_ALIGNED_TABLE
-#include "optics/aligned_table.glsl"
 #else
 #include "optics/analytic_segment.glsl"
 #endif

@@ -121,17 +121,4 @@ SegmentIntegral PreintegrationTable::lookup(double front, double back, double le
     return result;
 }
 
-SegmentIntegral PreintegrationTable::lookup_once(double front, double back, double length) const {
-    return sample(*this, coordinate(front), coordinate(back), length);
-}
-
-glm::dvec3 PreintegrationTable::emission_ratio(double front, double back, double length) const {
-    if (!colored) return single_color;
-    // At length 0 opacity would be 0; the table's entry is that of the shortest segments.
-    const double shortest = 1e-9 * std::max(lengths.back(), 1e-300);
-    const SegmentIntegral found =
-        sample(*this, coordinate(front), coordinate(back), std::max(length, shortest));
-    return found.alpha > 0 ? found.color / found.alpha : glm::dvec3(0);
-}
-
 }  // namespace lamina

@@ -41,7 +41,11 @@ class NodeBuilder {
   public:
     explicit NodeBuilder(PreintegrationTable& table) : table_(table) {}
 
-    void add_interval(const LinearPiece& piece, int cells) {
+    void add_interval(const LinearPiece& piece, int wanted_cells) {
+        // Between points a few roundings apart there is no room for more nodes.
+        const double rounding = std::numeric_limits<double>::epsilon() *
+                                std::max(std::abs(piece.from), std::abs(piece.to));
+        const int cells = piece.to - piece.from > 2 * wanted_cells * rounding ? wanted_cells : 1;
         add_anchor(piece.from, piece.at_from);
         const TransferKnot a{piece.from, piece.at_from}, b{piece.to, piece.at_to};
         for (int i = 1; i < cells; ++i) {

@@ -59,15 +59,6 @@ struct PreintegrationTable {
     // cells or, between anchors, exact in the scalars.
     SegmentIntegral lookup(double front, double back, double length) const;
 
-    // The same by one look-up without cuts (optics/aligned_table.glsl): as good but for segments
-    // that cross a knot within a cell of it.
-    SegmentIntegral lookup_once(double front, double back, double length) const;
-
-    // Associated colour over opacity, by one look-up without cuts: E / tbar, in which the errors of
-    // segments that cross a knot within a cell of it cancel but for the difference of their
-    // colours. 0 where tbar is.
-    glm::dvec3 emission_ratio(double front, double back, double length) const;
-
     std::int64_t byte_count() const {
         return static_cast<std::int64_t>((mean_extinction.size() + emission.size()) *
                                          sizeof(float));

@@ -222,7 +222,8 @@ void FanGeometry::append(const Fan& fan, std::int32_t tet, const Place& place, W
     }
 }
 
-TetGeometry::Written FanGeometry::write(std::int32_t index, const Place& place) const {
+TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place) const {
+    const std::int32_t index = part.tet;
     const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(index)];
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = corner_of(tet[i]);

@@ -37,7 +37,8 @@ class FanGeometry : public TetGeometry {
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);
     static Size largest_size();
-    Written write(std::int32_t tet, const Place& place) const override;
+    // Whole tets, whatever the part.
+    Written write(const TetPart& part, const Place& place) const override;
 
     // A corner of a tet, or of a part of one.
     struct Corner {

@@ -38,16 +38,6 @@ bool is_fan(const ProjectPlan& plan) {
     return plan.geometry == ProjectGeometry::triangles;
 }
 
-std::vector<char> find_hidden(const SceneMesh& mesh, const TransferFunction& transfer_function) {
-    const auto tets = mesh.mesh.tets();
-    std::vector<char> hidden(tets.size());
-    parallel_for(static_cast<std::int64_t>(tets.size()), 4096, [&](std::int64_t index) {
-        const auto tet = static_cast<std::size_t>(index);
-        hidden[tet] = shows_nothing(transfer_function, mesh.scalar.values, tets[tet]);
-    });
-    return hidden;
-}
-
 // The direction into which the tracer moves rays that meet edges and corners (mesh/ray_walk.cpp):
 // along the world's x, y and z, the later ones much less. Its parts along right, up and forward.
 glm::dvec3 tie_shift(const View& view) {
@@ -59,10 +49,22 @@ glm::dvec3 tie_shift(const View& view) {
 
 }  // namespace
 
-gl::Defines project_defines(const ProjectPlan& plan, TetPrecision precision) {
+bool has_program(const ProjectPlan& plan, FragmentKind kind) {
+    switch (kind) {
+        case FragmentKind::thin:
+            return plan.plain && plan.source == SegmentSource::parts && !plan.single_color;
+        case FragmentKind::plain:
+            return plan.plain;
+        default:
+            return !is_fan(plan);
+    }
+}
+
+gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     gl::Defines defines;
     if (is_fan(plan)) defines.set("FAN", 1);
-    if (precision == TetPrecision::careful) defines.set("CAREFUL", 1);
+    if (kind == FragmentKind::thin) defines.set("THIN", 1);
+    if (kind == FragmentKind::careful) defines.set("CAREFUL", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.thickness == Thickness::dz) defines.set("THICKNESS_DZ", 1);
@@ -88,58 +90,55 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
       plan_(plan),
       margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)),
+      pieces_(transfer_function, plan.range),
       order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility) {
     if (plan_.nothing_visible) return;
     tables_.emplace(transfer_function, plan_);
-    if (plan_.plain) program_.emplace(make_program(TetPrecision::plain));
-    if (!is_fan(plan_)) careful_program_.emplace(make_program(TetPrecision::careful));
-    const std::size_t tets = mesh.mesh.tets().size();
+    for (std::size_t i = 0; i < fragment_kinds; ++i) {
+        const auto kind = static_cast<FragmentKind>(i);
+        if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));
+    }
+    parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
+                   plan_.draw_transparent);
+    const auto parts = static_cast<std::size_t>(parts_->count());
     if (is_fan(plan_)) {
-        stream_.emplace(FanGeometry::largest_size(), fan_attributes, tets);
+        stream_.emplace(FanGeometry::largest_size(), fan_attributes, parts);
     } else {
-        stream_.emplace(SilhouetteGeometry::largest_size(), silhouette_attributes, tets);
+        stream_.emplace(SilhouetteGeometry::largest_size(), silhouette_attributes, parts);
     }
     stream_->set_barriers(plan_.blending == Blending::barrier);
-    if (!plan_.draw_transparent) hidden_ = find_hidden(mesh, transfer_function);
 }
 
-gl::Program GlProjectRenderer::make_program(TetPrecision precision) const {
-    gl::Defines defines = project_defines(plan_, precision);
+gl::Program GlProjectRenderer::make_program(FragmentKind kind) const {
+    gl::Defines defines = project_defines(plan_, kind);
     tables_->set_defines(defines);
     return {is_fan(plan_) ? "projection/fan.vert" : "projection/silhouette.vert",
             "projection/tet.frag", defines};
 }
 
 int GlProjectRenderer::step_count() const {
-    return stream_ ? static_cast<int>(stream_->batch_count(mesh_.mesh.tets().size())) : 0;
+    return stream_
+               ? static_cast<int>(stream_->batch_count(static_cast<std::size_t>(parts_->count())))
+               : 0;
 }
 
 void GlProjectRenderer::draw(const View& view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));
     order_ms_ = draw_ms_ = 0;
-    tets_drawn_ = 0;
+    parts_drawn_ = 0;
     if (!stream_) return;
     const Stopwatch order_watch;
-    const auto tets = visible_tets(view);
+    const Eye eye = eye_of(view);
+    const auto parts = parts_->list(order_.sort(eye), eye);
     order_ms_ = order_watch.milliseconds();
     const Stopwatch draw_watch;
-    if (program_) set_view(*program_, view);
-    if (careful_program_) set_view(*careful_program_, view);
-    draw_tets(tets, view, progress);
+    for (auto& program : programs_) {
+        if (program) set_view(*program, view);
+    }
+    draw_parts(parts, view, progress);
     glFinish();
     draw_ms_ = draw_watch.milliseconds();
-}
-
-std::span<const std::int32_t> GlProjectRenderer::visible_tets(const View& view) {
-    const auto order = order_.sort(eye_of(view));
-    if (hidden_.empty()) return order;
-    visible_.clear();
-    visible_.reserve(order.size());
-    for (const std::int32_t tet : order) {
-        if (!hidden_[static_cast<std::size_t>(tet)]) visible_.push_back(tet);
-    }
-    return visible_;
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
@@ -161,19 +160,25 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     if (plan_.blending == Blending::barrier) program.set("target", target_unit);
 }
 
-void GlProjectRenderer::draw_tets(std::span<const std::int32_t> tets, const View& view,
-                                  Progress* progress) {
+void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,
+                                   Progress* progress) {
     std::unique_ptr<TetGeometry> geometry;
     if (is_fan(plan_)) {
         geometry = std::make_unique<FanGeometry>(mesh_, transfer_function_, plan_, view);
     } else {
-        geometry = std::make_unique<SilhouetteGeometry>(TetProjector(
-            mesh_.mesh, mesh_.scalar.values, plan_.range, view, plan_.near_depth, margin_));
+        geometry = std::make_unique<SilhouetteGeometry>(
+            TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view,
+                         plan_.near_depth, margin_));
     }
     const CompositingState state(plan_, false, target_);
-    const gl::Program& careful = careful_program_ ? *careful_program_ : *program_;
-    const gl::Program& plain = program_ ? *program_ : careful;
-    tets_drawn_ = stream_->draw(*geometry, tets, {plain, careful}, [&] {
+    // The next kind that has a program; fans are all plain.
+    GlTetStream::Programs programs{};
+    const gl::Program* last = nullptr;
+    for (std::size_t i = fragment_kinds; i-- > 0;) {
+        if (programs_[i]) last = &*programs_[i];
+        programs[i] = last;
+    }
+    parts_drawn_ = stream_->draw(*geometry, parts, programs, [&] {
         if (progress != nullptr) progress->advance();
     });
 }

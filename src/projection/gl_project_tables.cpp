@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
 
@@ -53,14 +54,11 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             table_ = segment_table(transfer_function, plan.table);
             upload(*table_);
             break;
-        case SegmentSource::aligned_table:
-        case SegmentSource::pieces:
+        case SegmentSource::parts:
+            if (!plan.single_color) upload_front_weights();
+            break;
         case SegmentSource::cut_table:
-            if (plan.has_aligned_table()) {
-                intervals_.emplace(transfer_function, plan.range, &plan_.aligned,
-                                   plan.table_filtered);
-            }
-            if (plan.source != SegmentSource::cut_table) set_pieces(transfer_function);
+            intervals_.emplace(transfer_function, plan.range, &plan_.aligned, plan.table_filtered);
             break;
         case SegmentSource::analytic:
             intervals_.emplace(transfer_function, plan.range, nullptr, false);
@@ -71,23 +69,12 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
     build_ms_ = watch.milliseconds();
 }
 
-// The table's anchors are the ends of the pieces; a step is two anchors at one scalar.
-void GlProjectTables::set_pieces(const TransferFunction& transfer_function) {
-    const ExtinctionPieces extinction(transfer_function, plan_.range.lo, plan_.range.hi);
-    for (const auto& [left, right, at_left, slope] : extinction.pieces())
-        pieces_.emplace_back(left, right, at_left, 0.5 * slope);
-    if (!intervals_) return;
-    const auto& anchors = intervals_->anchors();
-    for (std::size_t i = 0; i + 1 < anchors.size(); ++i) {
-        const double width =
-            (anchors[i + 1].value - anchors[i].value) / (plan_.range.hi - plan_.range.lo);
-        const int nodes = anchors[i + 1].node - anchors[i].node;
-        if (width > 0) {
-            piece_nodes_.emplace_back(nodes / width, 0);
-        } else {
-            piece_nodes_.back().y = static_cast<float>(nodes);
-        }
-    }
+void GlProjectTables::upload_front_weights() {
+    constexpr int nodes = FrontWeightTable::nodes;
+    texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
+    texture_->upload({0, 0, 0, nodes, nodes, 1},
+                     std::span<const float>(FrontWeightTable::get().texels()));
+    if (plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
 }
 
 void GlProjectTables::upload(const SegmentTable& table) {
@@ -115,11 +102,11 @@ void GlProjectTables::set_defines(gl::Defines& defines) const {
     defines.set("SOURCE", static_cast<int>(plan_.source));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (!pieces_.empty()) defines.set("PIECES", static_cast<int>(pieces_.size()));
-    if (plan_.source == SegmentSource::pieces) defines.set("EXACT_OPACITY", 1);
-    if (!piece_nodes_.empty()) defines.set("PIECE_NODES", 1);
-    const auto skips = [](const glm::vec2& nodes) { return nodes.y != 0; };
-    if (std::ranges::any_of(piece_nodes_, skips)) defines.set("SKIPPED_NODES", 1);
+    if (plan_.source == SegmentSource::parts) {
+        defines.set("CUT", 1);
+        defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
+        defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+    }
     if (intervals_) {
         defines.set("INTERVALS", intervals_->intervals());
         if (intervals_->nodes() > 0) defines.set("TABLE_NODES", intervals_->nodes());
@@ -140,11 +127,10 @@ void GlProjectTables::bind(gl::Program& program) const {
     }
     if (plan_.single_color) program.set("single_color", single_color_);
     if (intervals_) intervals_->bind(program);
-    if (!pieces_.empty()) program.set("extinction_pieces", std::span<const glm::vec4>(pieces_));
-    if (!piece_nodes_.empty()) program.set("piece_nodes", std::span<const glm::vec2>(piece_nodes_));
-    if (!table_) return;
+    if (!texture_) return;
     texture_->bind(table_unit);
-    program.set("segment_table", static_cast<int>(table_unit));
+    program.set(table_ ? "segment_table" : "front_weights", static_cast<int>(table_unit));
+    if (!table_) return;
     program.set("table_scale", table_->scale);
     if (table_->layers > 1) {
         program.set("inverse_first_length", static_cast<float>(table_->inverse_first_length()));

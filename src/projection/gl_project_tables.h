@@ -9,7 +9,6 @@
 
 #include "gl/program.h"
 #include "gl/texture.h"
-#include "optics/extinction_pieces.h"
 #include "optics/transfer_function.h"
 #include "scene/project_plan.h"
 #include "slicing/gl_transfer_tables.h"
@@ -28,17 +27,14 @@ class GlProjectTables {
 
   private:
     void upload(const SegmentTable& table);
-    void set_pieces(const TransferFunction& transfer_function);
+    void upload_front_weights();
 
     ProjectPlan plan_;
     glm::vec3 single_color_{0};
     OpticalProperties constant_;
     std::shared_ptr<const SegmentTable> table_;
-    std::optional<gl::Texture> texture_;         // of table_
-    std::optional<GlTransferTables> intervals_;  // analytic, and with an aligned table
-    // shaders/optics/mean_extinction.glsl; none for other sources.
-    std::vector<glm::vec4> pieces_;
-    std::vector<glm::vec2> piece_nodes_;
+    std::optional<gl::Texture> texture_;         // of table_, or of the weights of parts
+    std::optional<GlTransferTables> intervals_;  // analytic and cut_table
     double build_ms_ = 0;
 };
 

@@ -14,11 +14,11 @@ namespace lamina {
 namespace {
 
 // Small enough that the second core has work soon, large enough that a draw costs little.
-constexpr std::size_t most_batch_tets = 32768;
-constexpr std::size_t chunk_tets = 64;
+constexpr std::size_t most_batch_parts = 32768;
+constexpr std::size_t chunk_parts = 64;
 
-std::size_t chunks_of(std::size_t tets) {
-    return (tets + chunk_tets - 1) / chunk_tets;
+std::size_t chunks_of(std::size_t parts) {
+    return (parts + chunk_parts - 1) / chunk_parts;
 }
 
 const void* offset_of(std::size_t index) {
@@ -28,18 +28,19 @@ const void* offset_of(std::size_t index) {
 }  // namespace
 
 GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
-                         std::size_t tets)
+                         std::size_t parts)
     : size_(size),
-      batch_tets_(std::min(most_batch_tets, chunks_of(tets) * chunk_tets)),
-      chunks_(chunks_of(batch_tets_)) {
+      batch_parts_(std::min(most_batch_parts, chunks_of(parts) * chunk_parts)),
+      chunks_(chunks_of(batch_parts_)) {
     counts_.reserve(chunks_.size());
     offsets_.reserve(chunks_.size());
     for (Batch& batch : batches_) {
-        batch.vertices = gl::Buffer::make_mapped(batch_tets_ * size_.vertices * size_.vertex_bytes);
+        batch.vertices =
+            gl::Buffer::make_mapped(batch_parts_ * size_.vertices * size_.vertex_bytes);
         batch.indices =
-            gl::Buffer::make_mapped(batch_tets_ * size_.indices * sizeof(std::uint32_t));
+            gl::Buffer::make_mapped(batch_parts_ * size_.indices * sizeof(std::uint32_t));
         if (size_.has_record)
-            batch.records = gl::Buffer::make_mapped(batch_tets_ * sizeof(TetRecord));
+            batch.records = gl::Buffer::make_mapped(batch_parts_ * sizeof(TetRecord));
         batch.vertex_array.set_indices(batch.indices);
         unsigned location = 0;
         for (const auto& [components, offset, integer] : attributes) {
@@ -55,29 +56,29 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
     }
 }
 
-std::size_t GlTetStream::batch_count(std::size_t tets) const {
-    return (tets + batch_tets_ - 1) / batch_tets_;
+std::size_t GlTetStream::batch_count(std::size_t parts) const {
+    return (parts + batch_parts_ - 1) / batch_parts_;
 }
 
-std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                                const Programs& programs, const std::function<void()>& batch_done) {
     std::int64_t drawn = 0;
     write_ms_ = 0;
-    for (std::size_t number = 0, first = 0; first < tets.size(); ++number, first += batch_tets_) {
-        const auto part = tets.subspan(first, std::min(batch_tets_, tets.size() - first));
+    for (std::size_t number = 0, first = 0; first < parts.size(); ++number, first += batch_parts_) {
+        const auto batch_parts = parts.subspan(first, std::min(batch_parts_, parts.size() - first));
         Batch& batch = batches_[number % batches_.size()];
         batch.drawn.wait();
         const Stopwatch watch;
-        write(geometry, part, batch);
+        write(geometry, batch_parts, batch);
         write_ms_ += watch.milliseconds();
-        for (std::size_t chunk = 0; chunk < chunks_of(part.size()); ++chunk)
-            drawn += chunks_[chunk].tets;
+        for (std::size_t chunk = 0; chunk < chunks_of(batch_parts.size()); ++chunk)
+            drawn += chunks_[chunk].drawn;
         batch.vertex_array.bind();
         if (size_.has_record) batch.records.bind_storage(0);
         if (barriers_) {
-            submit_with_barriers(part.size(), programs);
+            submit_with_barriers(batch_parts.size(), programs);
         } else {
-            submit(chunks_of(part.size()), programs);
+            submit(chunks_of(batch_parts.size()), programs);
         }
         batch.drawn.set();
         check_interrupt();
@@ -87,18 +88,17 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const std:
     return drawn;
 }
 
-void GlTetStream::write(const TetGeometry& geometry, std::span<const std::int32_t> tets,
-                        Batch& batch) {
-    if (barriers_) tet_indices_.assign(tets.size(), 0);
-    parallel_for(static_cast<std::int64_t>(chunks_of(tets.size())), 4, [&](std::int64_t chunk) {
-        write_chunk(geometry, tets, static_cast<std::size_t>(chunk), batch);
+void GlTetStream::write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch) {
+    if (barriers_) part_indices_.assign(parts.size(), 0);
+    parallel_for(static_cast<std::int64_t>(chunks_of(parts.size())), 4, [&](std::int64_t chunk) {
+        write_chunk(geometry, parts, static_cast<std::size_t>(chunk), batch);
     });
 }
 
-void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
                               std::size_t number, const Batch& batch) {
-    const std::size_t first = number * chunk_tets;
-    const std::size_t end = std::min(first + chunk_tets, tets.size());
+    const std::size_t first = number * chunk_parts;
+    const std::size_t end = std::min(first + chunk_parts, parts.size());
     std::size_t vertex = first * size_.vertices, index = first * size_.indices;
     auto* const indices = reinterpret_cast<std::uint32_t*>(batch.indices.mapped());
     auto* const records = reinterpret_cast<TetRecord*>(batch.records.mapped());
@@ -106,44 +106,48 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const std::
     chunk = {};
     for (std::size_t i = first; i < end; ++i) {
         const TetGeometry::Written written = geometry.write(
-            tets[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
-                      static_cast<std::uint32_t>(vertex), indices + index,
-                      size_.has_record ? records + i : nullptr, static_cast<std::uint32_t>(i)});
+            parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
+                       static_cast<std::uint32_t>(vertex), indices + index,
+                       size_.has_record ? records + i : nullptr, static_cast<std::uint32_t>(i)});
         vertex += written.vertices;
         index += written.indices;
-        chunk.tets += written.indices > 0;
-        chunk.careful |= written.careful;
-        if (barriers_) tet_indices_[i] = static_cast<int>(written.indices);
+        chunk.drawn += written.indices > 0;
+        chunk.kind = std::max(chunk.kind, written.kind);
+        if (barriers_) part_indices_[i] = static_cast<int>(written.indices);
     }
     chunk.indices = static_cast<int>(index - first * size_.indices);
+}
+
+const gl::Program* GlTetStream::program_of(const Chunk& chunk, const Programs& programs) {
+    return programs[static_cast<std::size_t>(chunk.kind)];
 }
 
 // Runs of chunks with the same program. Empty ones are left out: at a draw of no indices Mesa 22.3
 // forgets the rest of a multi-draw.
 void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
     for (std::size_t chunk = 0; chunk < chunks;) {
-        const bool careful = chunks_[chunk].careful;
+        const gl::Program* const program = program_of(chunks_[chunk], programs);
         counts_.clear();
         offsets_.clear();
-        for (; chunk < chunks && chunks_[chunk].careful == careful; ++chunk) {
+        for (; chunk < chunks && program_of(chunks_[chunk], programs) == program; ++chunk) {
             if (chunks_[chunk].indices == 0) continue;
             counts_.push_back(chunks_[chunk].indices);
-            offsets_.push_back(offset_of(chunk * chunk_tets * size_.indices));
+            offsets_.push_back(offset_of(chunk * chunk_parts * size_.indices));
         }
-        (careful ? programs.careful : programs.plain).use();
+        program->use();
         glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
                             static_cast<GLsizei>(counts_.size()));
     }
 }
 
-void GlTetStream::submit_with_barriers(std::size_t tets, const Programs& programs) const {
+void GlTetStream::submit_with_barriers(std::size_t parts, const Programs& programs) const {
     std::size_t index = 0;
-    for (std::size_t i = 0; i < tets; ++i) {
-        if (i % chunk_tets == 0) {
+    for (std::size_t i = 0; i < parts; ++i) {
+        if (i % chunk_parts == 0) {
             index = i * size_.indices;
-            (chunks_[i / chunk_tets].careful ? programs.careful : programs.plain).use();
+            program_of(chunks_[i / chunk_parts], programs)->use();
         }
-        const int count = tet_indices_[i];
+        const int count = part_indices_[i];
         if (count == 0) continue;
         glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
         glTextureBarrier();

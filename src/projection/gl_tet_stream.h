@@ -15,8 +15,8 @@
 
 namespace lamina {
 
-// Streams tets through mapped buffers in batches: while the context draws one, all cores write the
-// next. Takes its memory once.
+// Streams tets or parts of them through mapped buffers in batches: while the context draws one, all
+// cores write the next. Takes its memory once.
 class GlTetStream {
   public:
     // An attribute of a vertex, from location 0 on.
@@ -25,24 +25,22 @@ class GlTetStream {
         std::size_t byte_offset;
         bool integer;
     };
-    // `tets`: at most so many are drawn at a time.
+    // `parts`: at most so many are drawn at a time.
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
-                std::size_t tets);
+                std::size_t parts);
 
-    // Waits between tets, for programs that read the target as a texture.
+    // Waits between parts, for programs that read the target as a texture.
     void set_barriers(bool barriers) { barriers_ = barriers; }
 
-    struct Programs {
-        const gl::Program& plain;
-        const gl::Program& careful;  // for tets that need it, and some around them
-    };
-    // Draws the tets in their order with the state that is bound; Ctrl-C ends it between batches.
-    // `batch_done` is called after each. Returns how many tets were drawn: those that cover the
+    using Programs =
+        std::array<const gl::Program*, fragment_kinds>;  // by FragmentKind; some the same
+    // Draws parts in their order with the state that is bound; Ctrl-C ends it between batches.
+    // `batch_done` is called after each. Returns how many were drawn: those that cover the
     // centre of a pixel.
-    std::int64_t draw(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+    std::int64_t draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                       const Programs& programs, const std::function<void()>& batch_done);
 
-    std::size_t batch_count(std::size_t tets) const;
+    std::size_t batch_count(std::size_t parts) const;
     double write_ms() const { return write_ms_; }  // of the last draw
 
   private:
@@ -51,25 +49,26 @@ class GlTetStream {
         gl::VertexArray vertex_array;
         gl::Fence drawn;
     };
-    // Tets that one task writes to a part of the buffers of its own.
+    // Parts that one task writes to a part of the buffers of its own.
     struct Chunk {
         int indices = 0;
-        std::int64_t tets = 0;
-        bool careful = false;
+        std::int64_t drawn = 0;
+        FragmentKind kind = FragmentKind::thin;  // the last that a part of it needs
     };
-    void write(const TetGeometry& geometry, std::span<const std::int32_t> tets, Batch& batch);
-    void write_chunk(const TetGeometry& geometry, std::span<const std::int32_t> tets,
+    void write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch);
+    void write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
                      std::size_t number, const Batch& batch);
+    static const gl::Program* program_of(const Chunk& chunk, const Programs& programs);
     void submit(std::size_t chunks, const Programs& programs);
-    void submit_with_barriers(std::size_t tets, const Programs& programs) const;
+    void submit_with_barriers(std::size_t parts, const Programs& programs) const;
 
     TetGeometry::Size size_;
     bool barriers_ = false;
-    std::size_t batch_tets_;
+    std::size_t batch_parts_;
     std::array<Batch, 3> batches_;
     std::vector<Chunk> chunks_;
-    std::vector<int> tet_indices_;  // of each tet of the batch, for barriers
-    std::vector<int> counts_;       // of indices, of the chunks of one draw
+    std::vector<int> part_indices_;  // of each part of the batch, for barriers
+    std::vector<int> counts_;        // of indices, of the chunks of one draw
     std::vector<const void*> offsets_;
     double write_ms_ = 0;
 };

@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t most_points = 6;
+constexpr std::size_t most_points = 8;
 
 // Corners farther out than this are cut off, so that rasterisers keep their sub-pixel digits.
 constexpr double guard = 2;  // pixels

@@ -17,7 +17,7 @@ struct ScreenPolygon {
     std::array<glm::vec2, most_corners> corners;
 };
 
-// A polygon around `points` (at most 6) that covers every pixel centre nearer to their convex hull
+// A polygon around `points` (at most 8) that covers every pixel centre nearer to their convex hull
 // than `margin`, in spite of the rounding of corners to the rasteriser's grid: margin is at least 2
 // steps of that. Of count 0 where no pixel centre of a picture of width x height pixels can be
 // covered. Each pixel centre lies in one triangle of a fan around a corner.

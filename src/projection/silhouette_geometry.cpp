@@ -10,14 +10,14 @@ TetGeometry::Size SilhouetteGeometry::largest_size() {
     return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true};
 }
 
-TetGeometry::Written SilhouetteGeometry::write(std::int32_t tet, const Place& place) const {
+TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
     ScreenPolygon polygon;
     TetRecord record;  // not written where it goes: that memory may be slow to read
-    const TetProjector::Result result = projector_.project(tet, record, polygon);
-    if (result == TetProjector::Result::hidden) return {};
+    const std::optional<FragmentKind> kind = projector_.project(part, record, polygon);
+    if (!kind) return {};
     std::memcpy(place.record, &record, sizeof(record));
     Written written;
-    written.careful = result == TetProjector::Result::careful;
+    written.kind = *kind;
     for (int i = 0; i < polygon.count; ++i) {
         const SilhouetteVertex vertex{polygon.corners[static_cast<std::size_t>(i)],
                                       place.record_number};

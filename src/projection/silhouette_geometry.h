@@ -17,7 +17,7 @@ class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
     static Size largest_size();
-    Written write(std::int32_t tet, const Place& place) const override;
+    Written write(const TetPart& part, const Place& place) const override;
 
   private:
     TetProjector projector_;

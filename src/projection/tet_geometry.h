@@ -4,23 +4,26 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "projection/fragment_kind.h"
+#include "projection/tet_part.h"
 #include "projection/tet_record.h"
 
 namespace lamina {
 
-// Turns the tets of one view into triangles for a rasteriser. Safe from many threads.
+// Turns the tets of one view, or parts of them, into triangles for a rasteriser. Safe from many
+// threads.
 class TetGeometry {
   public:
     virtual ~TetGeometry() = default;
 
-    // What one tet takes at most.
+    // What one part takes at most.
     struct Size {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
         bool has_record;
     };
 
-    // Where a tet goes.
+    // Where it goes.
     struct Place {
         std::byte* vertices;
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
@@ -28,13 +31,13 @@ class TetGeometry {
         TetRecord* record;           // null without records
         std::uint32_t record_number;
     };
-    // Vertices and indices written; none where no pixel centre is covered. Triangles of one tet do
-    // not overlap.
+    // Vertices and indices written; none where no pixel centre is covered. Triangles of one
+    // part do not overlap.
     struct Written {
         std::size_t vertices = 0, indices = 0;
-        bool careful = false;  // needs the more precise of two programs
+        FragmentKind kind = FragmentKind::thin;
     };
-    virtual Written write(std::int32_t tet, const Place& place) const = 0;
+    virtual Written write(const TetPart& part, const Place& place) const = 0;
 };
 
 }  // namespace lamina

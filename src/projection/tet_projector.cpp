@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "optics/front_weights.h"
+
 namespace lamina {
 namespace {
 
@@ -39,38 +41,37 @@ void set_pair(TetRecord::Pairs& pairs, std::size_t place, double value) {
     pairs.low[place] = static_cast<float>(value - static_cast<double>(pairs.high[place]));
 }
 
-// The part of a tet in front of the near plane has at most 6 corners.
-struct VisibleCorners {
-    std::size_t count = 0;
-    std::array<glm::dvec3, 6> seen;
-};
-VisibleCorners clip_near(const std::array<glm::dvec3, 4>& corners, double near) {
-    VisibleCorners visible;
-    const auto add = [&](const glm::dvec3& point) {
-        if (visible.count < visible.seen.size()) visible.seen[visible.count++] = point;
-    };
+// Deeper than everything, and finite also after a product with any window coordinate.
+constexpr double beyond_all = 1e30;
+
+float finite_float(double value) {
+    return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));
+}
+
+// No run through a part has more optical depth.
+double largest_depth(const std::array<glm::dvec3, 4>& corners, const TetRecord& record) {
+    double longest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec3& a = corners[i];
-        if (a.z >= near) add(a);
-        for (std::size_t j = i + 1; j < 4; ++j) {
-            const glm::dvec3& b = corners[j];
-            if ((a.z < near) == (b.z < near)) continue;
-            const double share = (near - a.z) / (b.z - a.z);
-            add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), near});
-        }
+        for (std::size_t j = i + 1; j < 4; ++j)
+            longest = std::max(longest, glm::distance(corners[i], corners[j]));
     }
-    return visible;
+    return longest * std::max(record.low[3], record.high[3]);
+}
+
+OpticalProperties optics_at(const LinearPiece& piece, double scalar) {
+    return interpolate({piece.from, piece.at_from}, {piece.to, piece.at_to}, scalar);
 }
 
 }  // namespace
 
 TetProjector::TetProjector(const TetMesh& mesh, std::span<const double> scalar,
-                           const ValueRange& range, const View& view, double near_depth,
-                           double margin)
+                           const ValueRange& range, const TetPieces& pieces, const View& view,
+                           double near_depth, double margin)
     : points_(mesh.points()),
       tets_(mesh.tets()),
       scalar_(scalar),
       range_(range),
+      pieces_(pieces),
       window_(view),
       signer_(mesh, eye_of(view)),
       near_depth_(near_depth),
@@ -102,18 +103,14 @@ TetProjector::DepthPlane TetProjector::depth_plane(const Tet& tet, std::size_t f
             normal.y * per_pixel, front};
 }
 
-TetProjector::Result TetProjector::set_depths(const Tet& tet, FaceSigns signs,
-                                              const std::array<Seen, 4>& corners,
-                                              const Extent& extent, TetRecord& record) const {
-    const double column = record.center[0] - window_.middle().x,
-                 row = record.center[1] - window_.middle().y;
+bool TetProjector::set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
+                              const Extent& extent, TetRecord& record) const {
     std::size_t first_back = 0, place_of_back = 3;
     double rounding = 0;
     for (std::size_t face = 0; face < 4; ++face) {
         const DepthPlane plane = depth_plane(tet, face, signs, corners);
         const std::size_t place = plane.front ? first_back++ : place_of_back--;
-        const double at_center = plane.at_middle + column * plane.per_column + row * plane.per_row -
-                                 static_cast<double>(record.center_depth);
+        const double at_center = depth_at_center(plane, record);
         set_pair(record.depth, place, at_center);
         set_pair(record.depth_per_column, place, plane.per_column);
         set_pair(record.depth_per_row, place, plane.per_row);
@@ -124,75 +121,179 @@ TetProjector::Result TetProjector::set_depths(const Tet& tet, FaceSigns signs,
     record.fronts = static_cast<std::uint32_t>(first_back);
     const bool steep =
         rounding * std::numeric_limits<float>::epsilon() > float_tolerance * extent.depth_range;
-    return steep || first_back == 0 || extent.cut ? Result::careful : Result::plain;
+    return !(steep || first_back == 0 || extent.cut);
 }
 
-void TetProjector::set_scalars(const Tet& tet, const std::array<Seen, 4>& corners,
+double TetProjector::depth_at_center(const DepthPlane& plane, const TetRecord& record) const {
+    const double column = record.center[0] - window_.middle().x,
+                 row = record.center[1] - window_.middle().y;
+    return plane.at_middle + column * plane.per_column + row * plane.per_row -
+           static_cast<double>(record.center_depth);
+}
+
+// Depth at the record's center, per column and per row. A level that passes through the eye is seen
+// edge-on: all three are huge, and what counts is on which side of the edge a pixel lies.
+std::array<float, 3> TetProjector::plane_at_center(const DepthPlane& plane,
+                                                   const TetRecord& record) const {
+    const glm::dvec3 exact(depth_at_center(plane, record), plane.per_column, plane.per_row);
+    const glm::dvec3 kept = exact * std::min(1.0, beyond_all / std::max(largest(exact), 1.0));
+    return {static_cast<float>(kept.x), static_cast<float>(kept.y), static_cast<float>(kept.z)};
+}
+
+// With the scalar e at the eye and its gradient g, the ray z (x, y, 1) meets a level at
+// 1/z = g.(x, y, 1) / (level - e). A front to what lies above it where the level lies above e.
+TetProjector::DepthPlane TetProjector::level_plane(const PartField& field, double level) const {
+    const glm::dvec3& gradient = field.gradient();
+    const double above_eye = level - field.at(glm::dvec3(0));
+    const double divisor = window_.perspective() ? above_eye : gradient.z;
+    const bool front = divisor >= 0;
+    const double kept = front ? std::max(divisor, 1e-200) : std::min(divisor, -1e-200);
+    const double per_pixel = -window_.view().pixel / kept;
+    return {(window_.perspective() ? -gradient.z : above_eye) / kept, gradient.x * per_pixel,
+            gradient.y * per_pixel, front};
+}
+
+// Where shaders reckon depths from; center_z is rounded, by much of a small tet far away.
+double TetProjector::exact_center_z(const TetRecord& record) const {
+    const auto depth = static_cast<double>(record.center_depth);
+    return window_.perspective() ? -1 / depth : depth;
+}
+
+// The scalar less `origin`, over `width`.
+void TetProjector::set_scalars(const PartField& field, double origin, double width,
                                TetRecord& record) const {
-    std::array<double, 4> values;
-    for (std::size_t i = 0; i < 4; ++i) {
-        values[i] =
-            (scalar_[static_cast<std::size_t>(tet[i])] - range_.lo) / (range_.hi - range_.lo);
-    }
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    record.least_scalar = static_cast<float>(*least);
-    record.largest_scalar = static_cast<float>(*most);
-    const glm::dvec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0],
-                     e3 = corners[3] - corners[0];
-    const glm::dvec3 n1 = glm::cross(e2, e3);
-    glm::dvec3 gradient =
-        ((values[1] - values[0]) * n1 + (values[2] - values[0]) * glm::cross(e3, e1) +
-         (values[3] - values[0]) * glm::cross(e1, e2)) /
-        glm::dot(e1, n1);
-    // A tet without volume shows nothing, whatever its scalar.
-    if (!(largest(gradient) < 1e30)) gradient = glm::dvec3(0);
+    const double scale = width > 0 ? 1 / width : 0;
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
-                 z = static_cast<double>(record.center_z);
+                 z = exact_center_z(record);
     const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
     const glm::dvec3 center = window_.perspective() ? z * direction : glm::dvec3(x, y, z);
-    record.scalar = static_cast<float>(values[0] + glm::dot(gradient, center - corners[0]));
-    record.scalar_per_z = static_cast<float>(glm::dot(gradient, direction));
-    record.scalar_per_column = static_cast<float>(gradient.x * window_.view().pixel);
-    record.scalar_per_row = static_cast<float>(gradient.y * window_.view().pixel);
+    const glm::dvec3 gradient = field.gradient() * scale;
+    record.scalar = finite_float((field.at(center) - origin) * scale);
+    record.scalar_per_z = finite_float(glm::dot(gradient, direction));
+    record.scalar_per_column = finite_float(gradient.x * window_.view().pixel);
+    record.scalar_per_row = finite_float(gradient.y * window_.view().pixel);
 }
 
-TetProjector::Result TetProjector::project(std::int32_t index, TetRecord& record,
-                                           ScreenPolygon& polygon) const {
-    const Tet& tet = tets_[static_cast<std::size_t>(index)];
+void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
+                            TetRecord& record) const {
+    set_scalars(field, field.least(), field.largest() - field.least(), record);
+    const DepthPlane before_all{-beyond_all, 0, 0, true};
+    const DepthPlane lower = field.cut_low() ? level_plane(field, field.least()) : before_all;
+    DepthPlane upper = before_all;
+    if (field.cut_high()) {  // what is drawn lies below
+        upper = level_plane(field, field.largest());
+        upper.front = !upper.front;
+    }
+    record.lower_cut = plane_at_center(lower, record);
+    const std::array<float, 3> upper_cut = plane_at_center(upper, record);
+    record.upper_cut = upper_cut[0];
+    record.limits = {upper_cut[1], upper_cut[2]};
+    if (lower.front) record.fronts |= lower_cut_is_front;
+    if (upper.front) record.fronts |= upper_cut_is_front;
+    const auto optics = [&](double scalar) -> std::array<float, 4> {
+        const OpticalProperties found = optics_at(piece, scalar);
+        return {static_cast<float>(found.color.r), static_cast<float>(found.color.g),
+                static_cast<float>(found.color.b), finite_float(found.extinction)};
+    };
+    record.low = optics(field.least());
+    record.high = optics(field.largest());
+}
+
+TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& corners) const {
+    VisibleCorners visible;
+    const auto add = [&](const glm::dvec3& point) {
+        if (visible.count < visible.seen.size()) visible.seen[visible.count++] = point;
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3& a = corners[i];
+        if (a.z >= near_depth_) add(a);
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const glm::dvec3& b = corners[j];
+            if ((a.z < near_depth_) == (b.z < near_depth_)) continue;
+            const double share = (near_depth_ - a.z) / (b.z - a.z);
+            add({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), near_depth_});
+        }
+    }
+    return visible;
+}
+
+std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord& record,
+                                                  ScreenPolygon& polygon) const {
+    const Tet& tet = tets_[static_cast<std::size_t>(part.tet)];
     std::array<Seen, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i)
+    PartField::Values values;
+    for (std::size_t i = 0; i < 4; ++i) {
         corners[i] = window_.see(points_[static_cast<std::size_t>(tet[i])]);
-    const VisibleCorners visible = clip_near(corners, near_depth_);
-    if (visible.count == 0) return Result::hidden;
-    std::array<glm::dvec2, 6> places;
+        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
+    }
+    const VisibleCorners visible = clip_near(corners);
+    if (visible.count == 0) return std::nullopt;
+    const LinearPiece* const piece = part.piece == TetPart::whole
+                                         ? nullptr
+                                         : &pieces_.pieces()[static_cast<std::size_t>(part.piece)];
+    const PartField field(corners, values, piece);
+    const Extent extent = place_center(visible, record);
+    polygon = surround_part(visible, field, extent.cut);
+    if (polygon.count == 0) return std::nullopt;
+    const bool plain =
+        set_depths(tet, signer_.signs(static_cast<std::size_t>(part.tet)), corners, extent, record);
+    if (piece != nullptr) {
+        set_part(field, *piece, record);
+    } else {
+        set_scalars(field, range_.lo, range_.hi - range_.lo, record);
+        const auto normalised = [&](double value) {
+            return static_cast<float>((value - range_.lo) / (range_.hi - range_.lo));
+        };
+        record.limits = {normalised(field.least()), normalised(field.largest())};
+    }
+    const auto parts = static_cast<std::uint32_t>(part.piece + 1);
+    record.number =
+        static_cast<std::uint32_t>(part.tet) + parts * static_cast<std::uint32_t>(tets_.size());
+    if (!plain) return FragmentKind::careful;
+    const bool thin = piece != nullptr && largest_depth(corners, record) <= thin_depth;
+    return thin ? FragmentKind::thin : FragmentKind::plain;
+}
+
+// The same for all parts of a tet, so that they find their common cuts at the same depth.
+TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
+                                                TetRecord& record) const {
+    glm::dvec2 lo(INFINITY), hi(-INFINITY);
     double z = 0, nearest = INFINITY, farthest = 0;
     for (std::size_t i = 0; i < visible.count; ++i) {
-        places[i] = window_.to_window(visible.seen[i]);
+        const glm::dvec2 place = window_.to_window(visible.seen[i]);
+        lo = glm::min(lo, place);
+        hi = glm::max(hi, place);
         z += visible.seen[i].z / static_cast<double>(visible.count);
         nearest = std::min(nearest, visible.seen[i].z);
         farthest = std::max(farthest, visible.seen[i].z);
     }
-    polygon = surround({places.data(), visible.count}, margin_, window_.view().width,
-                       window_.view().height);
-    if (polygon.count == 0) return Result::hidden;
-    glm::dvec2 lo(polygon.corners[0]), hi = lo;
-    for (int i = 1; i < polygon.count; ++i) {
-        const glm::dvec2 corner(polygon.corners[static_cast<std::size_t>(i)]);
-        lo = glm::min(lo, corner);
-        hi = glm::max(hi, corner);
-    }
+    const glm::dvec2 picture = 2.0 * window_.middle();
+    lo = glm::clamp(lo, glm::dvec2(0), picture);
+    hi = glm::clamp(hi, glm::dvec2(0), picture);
     const glm::dvec2 center = glm::floor(0.5 * (lo + hi)) + 0.5;
     const auto depth_of = [&](double at) { return window_.perspective() ? -1 / at : at; };
     record.center = {static_cast<float>(center.x), static_cast<float>(center.y)};
     record.center_depth = static_cast<float>(depth_of(z));
     record.center_z = window_.perspective() ? -1 / record.center_depth : record.center_depth;
-    record.tet = static_cast<std::uint32_t>(index);
     // A change of 1/z means most at the far end.
     const double range = (farthest - nearest) / (window_.perspective() ? farthest * farthest : 1);
-    const Extent extent{hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};
-    set_scalars(tet, corners, record);
-    return set_depths(tet, signer_.signs(static_cast<std::size_t>(index)), corners, extent, record);
+    return {hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};
+}
+
+ScreenPolygon TetProjector::surround_part(const VisibleCorners& visible, const PartField& field,
+                                          bool cut_by_near) const {
+    std::array<glm::dvec2, 8> places;
+    std::size_t count = 0;
+    const auto add = [&](const Seen& point) { places[count++] = window_.to_window(point); };
+    if (cut_by_near || !(field.cut_low() || field.cut_high())) {
+        std::for_each_n(visible.seen.begin(), visible.count, add);
+    } else {
+        const PartField::Outline outline = field.outline();
+        std::for_each_n(outline.corners.begin(), outline.count, add);
+        if (count == 0) return {};
+    }
+    return surround({places.data(), count}, margin_, window_.view().width, window_.view().height);
 }
 
 }  // namespace lamina

@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-// One tet of one view as shaders/projection/silhouette.vert reads it, 9 uvec4.
+// One tet of one view, or a part of it, as shaders/projection/silhouette.vert reads it, 12 uvec4.
 //
 // `Depth` is z in orthographic views and -1/z in perspective ones: it grows with eye-space depth z
 // and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
@@ -22,13 +22,25 @@ struct alignas(16) TetRecord {
     std::array<float, 2> center;  // a pixel centre near the tet, window coordinates
     float center_depth;           // somewhere in the tet
     float center_z;               // the same as z
-    // The scalar at that point, normalised; its change along the ray there per unit of z, and per
-    // pixel at z = 1 (perspective), or per pixel.
+    // The scalar at that point, of a range that becomes [0, 1]: the projector's, or the part's. Its
+    // change along the ray there per unit of z, and per pixel at z = 1 (perspective), or per pixel.
     float scalar, scalar_per_z, scalar_per_column, scalar_per_row;
-    float least_scalar, largest_scalar;  // of the corners
-    std::uint32_t fronts;                // 0 (the eye is inside) to 3
-    std::uint32_t tet;
+    // Of a whole tet the least and the largest scalar of its corners; of a part `upper_cut` per
+    // column and per row.
+    std::array<float, 2> limits;
+    // Front faces, 0 (the eye is inside) to 3; of a part also whether its lower cut (bit 3)
+    // and its upper one (bit 4) are fronts.
+    std::uint32_t fronts;
+    std::uint32_t number;  // of the tet or part, for dithering
+
+    // Of a part: on the planes on which the scalar is its least and its largest what `depth` has on
+    // faces. Where the tet itself goes no farther, a front in front of everything.
+    std::array<float, 3> lower_cut;  // depth, per column, per row
+    float upper_cut;                 // depth
+    std::array<float, 4> low, high;  // colour and extinction at these scalars
 };
-static_assert(sizeof(TetRecord) == 144);
+static_assert(sizeof(TetRecord) == 192);
+
+inline constexpr std::uint32_t lower_cut_is_front = 8, upper_cut_is_front = 16;  // of `fronts`
 
 }  // namespace lamina

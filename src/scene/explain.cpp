@@ -71,7 +71,7 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
 }
 
 std::string text_of_table(const ProjectPlan& project) {
-    if (project.has_aligned_table()) {
+    if (project.source == SegmentSource::cut_table) {
         return fmt::format(
             "nodes on the transfer function's points, some {0} x {0} scalars, {1} lengths",
             project.aligned.scalar_nodes, project.aligned.length_layers);
@@ -97,7 +97,7 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, cons
                              facts.shortest_edge, facts.longest_edge,
                              facts.longest_edge * facts.max_extinction));
     row("segments", name_of(project.source));
-    if (project.source == SegmentSource::table || project.has_aligned_table()) {
+    if (project.source == SegmentSource::table || project.source == SegmentSource::cut_table) {
         row("table", text_of_table(project));
         row("table error",
             fmt::format("{:.2g} / 255 {}", project.table_error, project.table_reason));

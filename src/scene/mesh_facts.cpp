@@ -18,15 +18,18 @@ void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
     facts.diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
 }
 
-void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,
+                               MeshFacts& facts) {
     const TransferFunction& transfer_function = scene.transfer_function;
     const double lo = facts.range.lo, hi = facts.range.hi;
     facts.constant = transfer_function.constant(lo, hi);
     facts.single_color = transfer_function.single_color(lo, hi);
     facts.max_extinction = transfer_function.max_extinction(lo, hi);
-    facts.transparent_tets = std::ranges::count_if(mesh.mesh.tets(), [&](const Tet& tet) {
-        return shows_nothing(transfer_function, mesh.scalar.values, tet);
-    });
+    for (const Tet& tet : mesh.mesh.tets()) {
+        const int parts = pieces.count(pieces.visible(mesh.scalar.values, tet));
+        facts.transparent_tets += parts == 0;
+        facts.parts += parts;
+    }
 }
 
 void measure_view(const Scene& scene, const TetMesh& mesh, MeshFacts& facts) {
@@ -38,18 +41,6 @@ void measure_view(const Scene& scene, const TetMesh& mesh, MeshFacts& facts) {
 }
 
 }  // namespace
-
-bool shows_nothing(const TransferFunction& transfer_function, std::span<const double> scalar,
-                   const Tet& tet) {
-    double lo = INFINITY, hi = -INFINITY;
-    for (const std::int32_t corner : tet) {
-        const double value = scalar[static_cast<std::size_t>(corner)];
-        if (!std::isfinite(value)) return true;
-        lo = std::min(lo, value);
-        hi = std::max(hi, value);
-    }
-    return transfer_function.transparent(lo, hi);
-}
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts;
@@ -72,9 +63,10 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     }
     facts.convexity = convexity(mesh.mesh);
     measure_edges(mesh.mesh, facts);
-    measure_transfer_function(scene, mesh, facts);
+    const TetPieces pieces(scene.transfer_function, facts.range);
+    measure_transfer_function(scene, mesh, pieces, facts);
     measure_view(scene, mesh.mesh, facts);
-    if (scene.method == Method::project) facts.trial_rays = find_trial_rays(scene, mesh);
+    if (scene.method == Method::project) facts.trial_rays = find_trial_rays(scene, mesh, pieces);
     return facts;
 }
 

@@ -8,6 +8,7 @@
 
 #include "mesh/mesh_shape.h"
 #include "scene/scene_mesh.h"
+#include "scene/tet_pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -31,6 +32,8 @@ struct MeshFacts {
     double max_extinction = 0;          // per world unit
     std::int64_t transparent_tets = 0;  // that show nothing; with them those with a value that is
                                         // no finite number
+    std::int64_t parts = 0;  // of the others, cut at the transfer function's points: what shows
+                             // something
 
     // The view.
     bool orthographic = false;
@@ -45,13 +48,9 @@ struct MeshFacts {
     std::vector<std::vector<Run>> trial_rays;
 };
 
-// No point of the tet is visible: the transfer function is transparent over its values, or one of
-// them is no finite number.
-bool shows_nothing(const TransferFunction& transfer_function, std::span<const double> scalar,
-                   const Tet& tet);
-
 // MeshFacts::trial_rays: rays of the view, and tets of the mesh one by one.
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh);
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
+                                                         const TetPieces& pieces);
 
 // Throws Error when the scalar has values that are no finite numbers and the scene does not say
 // what to do with them, or has none but such.

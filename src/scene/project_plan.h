@@ -14,13 +14,13 @@ namespace lamina {
 
 // How the fragments of a tet are integrated between its front and its back.
 enum class SegmentSource {
-    constant,       // the transfer function is constant over the mesh: no scalar is needed
-    table,          // one look-up in a table with equally spaced scalars
-    aligned_table,  // one look-up in a table whose nodes lie on the transfer function's points
-    pieces,     // opacity in closed form; colour, where it is not one, by one look-up in a table
-                // whose nodes lie on the transfer function's points
-    cut_table,  // up to three in such a table: runs are cut at those points
-    analytic,   // its pieces, each in closed form
+    constant,   // the transfer function is constant over the mesh: no scalar is needed
+    table,      // one look-up in a table with equally spaced scalars
+    parts,      // tets are cut where the scalar is at the transfer function's points: opacity
+                // in closed form, colour by one look-up in a table that knows no transfer
+                // function (optics/front_weights.h)
+    cut_table,  // up to three look-ups in a table whose nodes lie on those points
+    analytic,   // the pieces between those points, each in closed form
     mean,       // means of what front and back show: Coloring::attenuation
     vertices    // no integration: Coloring::vertex
 };
@@ -42,16 +42,12 @@ struct ProjectPlan : CompositingPlan {
     double near_depth = 0;          // of the near plane
     ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
     SegmentTableRequest table;      // for SegmentSource::table
-    TablePlan aligned;              // where has_aligned_table()
+    TablePlan aligned;              // for SegmentSource::cut_table
     double table_error = 0;         // measured on rays of the view, in 1/255
     std::string table_reason;
 
     // Opacity is rounded to codes in the program, not by the blending unit.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
-    bool has_aligned_table() const {
-        return source == SegmentSource::aligned_table || source == SegmentSource::cut_table ||
-               (source == SegmentSource::pieces && !single_color);
-    }
 };
 
 const char* name_of(SegmentSource source);

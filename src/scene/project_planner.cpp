@@ -9,7 +9,8 @@
 #include <glm/vec4.hpp>
 
 #include "base/parallel.h"
-#include "optics/extinction_pieces.h"
+#include "optics/front_weights.h"
+#include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
 
@@ -25,9 +26,9 @@ constexpr double most_table_error = 0.5;
 // What tables are tried on is a sample: the rest of the picture may be this much worse.
 constexpr double sampling_margin = 1.25;
 
-// Of a transfer function; with more of them, a search for the right ones costs less than a sum over
-// all (shaders/optics/mean_extinction.glsl).
-constexpr std::size_t most_pieces = 16;
+// Of a tet that shows something, on the average: where the transfer function's points cut tets into
+// more, tables that know the transfer function are faster.
+constexpr std::int64_t most_parts = 8;
 
 // Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
 // their faces are always found in double, which takes some third longer.
@@ -75,6 +76,9 @@ class ProjectPlanner {
     }
 
     void choose_geometry() {
+        // Of Shirley's and Tuchman's triangles colour and opacity themselves are interpolated,
+        // which belong to no depth.
+        if (settings_.coloring == Coloring::vertex) plan_.interpolation = Interpolation::linear;
         // What is interpolated between the vertices of a fan, a silhouette cannot carry.
         const bool fan = settings_.interpolation == Interpolation::linear ||
                          settings_.coloring == Coloring::vertex ||
@@ -213,75 +217,63 @@ class ProjectPlanner {
         });
     }
 
-    // A way of integrating that may be good enough, the cheaper ones first.
-    struct Candidate {
-        SegmentSource source;
-        int scalar_nodes, length_layers;
-    };
-
-    std::vector<Candidate> candidates(std::size_t pieces) const {
-        const double depth = facts_.max_extinction * facts_.longest_edge;
-        const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
-        std::vector<Candidate> list;
-        if (pieces <= most_pieces) {
-            list = {{SegmentSource::aligned_table, 128, 1},
-                    {SegmentSource::aligned_table, 128, std::min(layers, 4)},
-                    {SegmentSource::aligned_table, 256, layers},
-                    {SegmentSource::pieces, 128, std::min(layers, 4)},
-                    {SegmentSource::pieces, 256, layers}};
-        }
-        list.push_back({SegmentSource::cut_table, 256, layers});
-        return list;
-    }
-
-    // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
-    // has a value next to one would be off by several codes.
     void choose_table() {
-        const double enough = std::min(most_table_error, scene_.max_error / 2) / sampling_margin;
-        const ExtinctionPieces extinction(scene_.transfer_function, plan_.range.lo, plan_.range.hi);
-        const std::size_t pieces = extinction.pieces().size();
-        if (plan_.single_color &&
-            leave_out(pieces <= most_pieces, "table",
-                      fmt::format("one colour and {} pieces of extinction: opacity in closed form",
-                                  pieces))) {
-            plan_.source = SegmentSource::pieces;
+        const bool whole = plan_.geometry == ProjectGeometry::triangles;
+        if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
+            plan_.source = SegmentSource::parts;
+            plan_.table_error = plan_.single_color ? 0 : error_of_parts();
+            plan_.table_reason = trial();
             return;
         }
-        for (const Candidate& candidate : candidates(pieces)) {
-            plan_.source = candidate.source;
-            plan_.aligned = {candidate.scalar_nodes, candidate.length_layers, facts_.longest_edge,
-                             !plan_.single_color};
-            if (plan_.single_color) plan_.aligned.length_layers = 1;
-            plan_.table_error = error_of_aligned(extinction);
-            plan_.table_reason = fmt::format(
-                "at most on {} rays of this view and tets of this mesh", facts_.trial_rays.size());
-            if (plan_.table_error <= enough) return;
-        }
+        // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh
+        // that has a value next to one would be off by several codes.
+        const double depth = facts_.max_extinction * facts_.longest_edge;
+        const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
+        plan_.source = SegmentSource::cut_table;
+        plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge,
+                         !plan_.single_color};
+        plan_.table_error = error_of_aligned();
+        plan_.table_reason = trial();
+        const double enough = std::min(most_table_error, scene_.max_error / 2) / sampling_margin;
+        if (plan_.table_error <= enough) return;
         plan_.source = SegmentSource::analytic;  // slower, and right whatever the transfer function
     }
 
-    double error_of_aligned(const ExtinctionPieces& extinction) const {
+    std::string trial() const {
+        return fmt::format("at most on {} rays of this view and tets of this mesh",
+                           facts_.trial_rays.size());
+    }
+
+    double error_of_parts() const {
+        const FrontWeightTable& weights = FrontWeightTable::get();
+        return error_of([&](const MeshFacts::Run& run) {
+            SegmentIntegral segment;
+            for_each_linear_piece(
+                scene_.transfer_function.knots(), run.front, run.back,
+                [&](const LinearPiece& piece) {
+                    const double share = run.front == run.back
+                                             ? 1
+                                             : (piece.to - piece.from) / (run.back - run.front);
+                    const double p = share * run.length * piece.at_from.extinction,
+                                 q = share * run.length * piece.at_to.extinction;
+                    const double alpha = opacity_from_depth(p / 2 + q / 2);
+                    const double weight = p / 2 + q / 2 <= thin_depth ? thin_front_weight(p, q)
+                                                                      : weights.lookup(p, q);
+                    segment.color +=
+                        (1 - segment.alpha) * (alpha * piece.at_to.color +
+                                               weight * (piece.at_from.color - piece.at_to.color));
+                    segment.alpha += (1 - segment.alpha) * alpha;
+                });
+            return segment;
+        });
+    }
+
+    double error_of_aligned() const {
         const auto table =
             preintegration_table(scene_.transfer_function, request_of(plan_.aligned));
-        switch (plan_.source) {
-            case SegmentSource::aligned_table:
-                return error_of([&](const MeshFacts::Run& run) {
-                    return table->lookup_once(run.front, run.back, run.length);
-                });
-            case SegmentSource::pieces:
-                return error_of([&](const MeshFacts::Run& run) {
-                    SegmentIntegral segment;
-                    segment.optical_depth = extinction.mean(run.front, run.back) * run.length;
-                    segment.alpha = opacity_from_depth(segment.optical_depth);
-                    segment.color =
-                        segment.alpha * table->emission_ratio(run.front, run.back, run.length);
-                    return segment;
-                });
-            default:
-                return error_of([&](const MeshFacts::Run& run) {
-                    return table->lookup(run.front, run.back, run.length);
-                });
-        }
+        return error_of([&](const MeshFacts::Run& run) {
+            return table->lookup(run.front, run.back, run.length);
+        });
     }
 
     PreintegrationRequest request_of(const TablePlan& table) const {
@@ -306,10 +298,8 @@ const char* name_of(SegmentSource source) {
             return "constant";
         case SegmentSource::table:
             return "table";
-        case SegmentSource::aligned_table:
-            return "aligned_table";
-        case SegmentSource::pieces:
-            return "pieces";
+        case SegmentSource::parts:
+            return "parts";
         case SegmentSource::cut_table:
             return "cut_table";
         case SegmentSource::analytic:

@@ -35,13 +35,13 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
 // met. Each as a ray of its own along its edge of most change, there and back.
 constexpr std::size_t most_trial_tets = 20000;
 
-void append_tets(const Scene& scene, const SceneMesh& mesh,
+void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
                  std::vector<std::vector<MeshFacts::Run>>& rays) {
     const auto& values = mesh.scalar.values;
     const auto points = mesh.mesh.points();
     std::vector<const Tet*> seen;
     for (const Tet& tet : mesh.mesh.tets()) {
-        if (!shows_nothing(scene.transfer_function, values, tet)) seen.push_back(&tet);
+        if (!pieces.visible(values, tet).empty()) seen.push_back(&tet);
     }
     const std::size_t step = seen.size() / most_trial_tets + 1;
     for (std::size_t i = 0; i < seen.size(); i += step) {
@@ -58,8 +58,8 @@ void append_tets(const Scene& scene, const SceneMesh& mesh,
 
 }  // namespace
 
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene,
-                                                         const SceneMesh& mesh) {
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
+                                                         const TetPieces& pieces) {
     const View view(scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     const int columns = std::min(rays_along_side, view.width);
@@ -74,7 +74,7 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene,
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
-    append_tets(scene, mesh, rays);
+    append_tets(mesh, pieces, rays);
     return rays;
 }
 

@@ -64,7 +64,7 @@ void add_stages(Json& row, const GlProjectRenderer& renderer) {
     row["order_ms"] = renderer.order_ms();
     row["geometry_ms"] = renderer.geometry_ms();
     row["draw_ms"] = renderer.draw_ms();
-    row["tets_drawn"] = renderer.tets_drawn();
+    row["tets_drawn"] = renderer.parts_drawn();
 }
 
 double ratio(const Json& rows, std::size_t of, std::size_t to) {

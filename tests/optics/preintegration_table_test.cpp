@@ -214,5 +214,22 @@ TEST(PreintegrationTable, RefusesTooManyPointsAndTooManyBytes) {
     EXPECT_THROW(build_preintegration_table(f, {0, 4, 1.0, 20000, 2, true}), Error);
 }
 
+// Between points a rounding or two apart no inner node fits.
+TEST(PreintegrationTable, PointsOneRoundingApart) {
+    for (const double gap : {0.0, 1e-16, 1e-12}) {
+        const double below = std::nextafter(.7, 0) - gap;
+        const auto transfer_function = TransferFunction::linear(
+            {{.1, {{1, 0, 0}, 1}}, {below, {{0, 1, 0}, 2}}, {.7, {{0, 0, 1}, 3}}});
+        PreintegrationRequest request;
+        request.lo = .1;
+        request.hi = .7;
+        request.length_layers = 4;
+        const PreintegrationTable table = build_preintegration_table(transfer_function, request);
+        for (std::size_t i = 0; i + 1 < table.nodes.size(); ++i)
+            EXPECT_LT(table.nodes[i], table.nodes[i + 1]);
+        EXPECT_EQ(table.nodes.back(), .7);
+    }
+}
+
 }  // namespace
 }  // namespace lamina

@@ -38,14 +38,30 @@ TEST(ProjectPlan, UsesWhatTheTransferFunctionNeeds) {
     EXPECT_TRUE(leaves_out(constant, "order"));
     const Plan single =
         plan_for(TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(1, {1, 0, 0}, .9)}));
-    EXPECT_EQ(single.project.source, SegmentSource::pieces);
-    EXPECT_TRUE(leaves_out(single, "table"));
+    EXPECT_EQ(single.project.source, SegmentSource::parts);
+    EXPECT_EQ(single.project.table_error, 0);
+    EXPECT_TRUE(leaves_out(single, "color"));
     const Plan both = plan_for(colored);
-    EXPECT_EQ(both.project.source, SegmentSource::aligned_table);
+    EXPECT_EQ(both.project.source, SegmentSource::parts);
     EXPECT_EQ(both.project.visibility, OrderMethod::mpvo);  // a box is convex
-    EXPECT_LE(both.project.table_error, .4);                // .5 less what sampling may miss
+    EXPECT_GT(both.project.table_error, 0);
+    EXPECT_LE(both.project.table_error, .005);  // 2e-5 of the weights, times the change of colour
     const Plan hidden = plan_for(TransferFunction::linear({knot(0, {1, 1, 1}, 0)}));
     EXPECT_TRUE(hidden.project.nothing_visible);
+}
+
+TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i <= 200; ++i) {
+        const double place = i / 200.0;
+        knots.push_back(knot(place, {place, 1 - place, .5 + .5 * std::sin(60 * place)}, place));
+    }
+    const Plan many = plan_for(TransferFunction::linear(knots));
+    EXPECT_EQ(many.project.source, SegmentSource::cut_table);
+    EXPECT_LE(many.project.table_error, .4);  // .5 less what sampling may miss
+    const Plan triangles = plan_for(
+        colored, [](Scene& scene) { scene.project.geometry = ProjectGeometry::triangles; });
+    EXPECT_EQ(triangles.project.source, SegmentSource::cut_table);
 }
 
 TEST(ProjectPlan, GeometryFollowsInterpolation) {
@@ -60,6 +76,13 @@ TEST(ProjectPlan, GeometryFollowsInterpolation) {
                                })}) {
         EXPECT_EQ(plan_for(colored, change).project.geometry, ProjectGeometry::triangles);
     }
+}
+
+// Their opacity belongs to no depth that one could divide by.
+TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
+    const Plan plan =
+        plan_for(colored, [](Scene& scene) { scene.project.coloring = Coloring::vertex; });
+    EXPECT_EQ(plan.project.interpolation, Interpolation::linear);
 }
 
 TEST(ProjectPlan, DitherNeedsCodes) {

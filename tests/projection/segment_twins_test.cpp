@@ -12,6 +12,7 @@
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
 #include "image/image.h"
+#include "optics/front_weights.h"
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "optics/segment_table.h"
@@ -210,6 +211,46 @@ TEST_F(SegmentTwins, FrontWeightsArePieceWeights) {
         // the difference of two numbers up to 3.7 and 2.7 times as large.
         EXPECT_NEAR(front, expected.front, 1e-6 * expected.front) << p << " " << q;
         EXPECT_NEAR(back, expected.back, 3e-6 * expected.back) << p << " " << q;
+    }
+}
+
+TEST_F(SegmentTwins, LinearSegmentsLookUpFrontWeights) {
+    constexpr int nodes = FrontWeightTable::nodes;
+    gl::Texture weights = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
+    weights.upload({0, 0, 0, nodes, nodes, 1},
+                   std::span<const float>(FrontWeightTable::get().texels()));
+    for (const auto& [filtered, thin] : {std::pair(false, false), {true, false}, {true, true}}) {
+        weights.set_filter(filtered ? gl::TextureFilter::linear : gl::TextureFilter::nearest);
+        gl::Defines defines;
+        defines.set("TABLE_COLORED", "").set("FRONT_WEIGHT_NODES", nodes);
+        if (filtered) defines.set("TABLE_FILTERED", "");
+        if (thin) defines.set("THIN", "");
+        gl::Program program = gl::full_screen_program(
+            "#version 450 core\n"
+            "#include \"optics/linear_segment.glsl\"\n"
+            "out vec4 result;\n"
+            "float extinction_at(float place) { return exp2(place * 0.25 - 20.0); }\n"
+            "void main() {\n"
+            "    vec2 pixel = floor(gl_FragCoord.xy);\n"
+            "    float p = extinction_at(pixel.x), q = extinction_at(pixel.y);\n"
+            "    vec4 sum = integrate_linear(vec4(1, 0, 0, p), vec4(0, 1, 0, q), 2.0);\n"
+            "    result = vec4(p, q, sum.rg);\n"
+            "}\n",
+            defines);
+        weights.bind(0);
+        if (!thin) program.set("front_weights", 0);
+        const Image image = run(program);
+        for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+            const double p = 2 * image.rgba[i], q = 2 * image.rgba[i + 1];
+            if (thin && p / 2 + q / 2 > thin_depth) continue;
+            const double front =
+                thin ? thin_front_weight(p, q) : FrontWeightTable::get().lookup(p, q);
+            const double back = opacity_from_depth(p / 2 + q / 2) - front;
+            // Node coordinates near 255 are good to 3e-5 of a cell, over which the weight changes
+            // by less than .01; the rest is rounding.
+            EXPECT_NEAR(image.rgba[i + 2], front, 2e-6) << p << " " << q;
+            EXPECT_NEAR(image.rgba[i + 3], back, 2e-6) << p << " " << q;
+        }
     }
 }
 

@@ -58,7 +58,9 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
     const auto compile = [&](ProjectPlan plan, const SegmentSource source, bool single_color,
                              bool filtered, int lengths) {
         const bool values = source == SegmentSource::mean || source == SegmentSource::vertices;
-        if (values && plan.geometry == ProjectGeometry::silhouette) return;
+        const bool fan_of_parts =
+            source == SegmentSource::parts && plan.geometry == ProjectGeometry::triangles;
+        if (fan_of_parts || (values && plan.geometry == ProjectGeometry::silhouette)) return;
         plan.source = source;
         plan.range = {0, 1};
         plan.single_color = single_color;
@@ -68,10 +70,11 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.table.colored = !single_color;
         plan.aligned = {32, single_color ? 1 : lengths, 1.0, !single_color};
         const GlProjectTables tables(transfer_function, plan);
-        for (const TetPrecision precision : {TetPrecision::plain, TetPrecision::careful}) {
+        for (const FragmentKind kind :
+             {FragmentKind::thin, FragmentKind::plain, FragmentKind::careful}) {
             const bool fan = plan.geometry == ProjectGeometry::triangles;
-            if (fan && precision == TetPrecision::careful) continue;
-            gl::Defines defines = project_defines(plan, precision);
+            if (!has_program(plan, kind)) continue;
+            gl::Defines defines = project_defines(plan, kind);
             tables.set_defines(defines);
             const char* const vertex = fan ? "projection/fan.vert" : "projection/silhouette.vert";
             if (!seen.insert(gl::compose_shader(vertex, defines).text +
@@ -81,10 +84,10 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
             EXPECT_NO_THROW(gl::Program(vertex, "projection/tet.frag", defines));
         }
     };
-    const std::vector sources{SegmentSource::constant,      SegmentSource::table,
-                              SegmentSource::aligned_table, SegmentSource::pieces,
-                              SegmentSource::cut_table,     SegmentSource::analytic,
-                              SegmentSource::mean,          SegmentSource::vertices};
+    const std::vector sources{SegmentSource::constant, SegmentSource::table,
+                              SegmentSource::parts,    SegmentSource::cut_table,
+                              SegmentSource::analytic, SegmentSource::mean,
+                              SegmentSource::vertices};
     for (const SegmentSource source : sources) {
         for (const bool single_color : {false, true})
             for (const bool filtered : {false, true})

@@ -28,6 +28,16 @@ TransferFunction ramp(double extinction) {
     return TransferFunction::linear({knot(0, {1, .7, .3}, 0), knot(1, {1, .7, .3}, extinction)});
 }
 
+// Colours that change, a narrow peak, a gap and a step inside the scalars of most tets, so that
+// they are drawn in parts.
+TransferFunction crooked(double extinction) {
+    return TransferFunction::linear(
+        {knot(0, {0, .2, 1}, .2 * extinction), knot(.3, {0, 1, .3}, .5 * extinction),
+         knot(.4, {1, 1, 0}, 0), knot(.45, {1, 1, 0}, 0), knot(.5, {1, .2, 1}, extinction),
+         knot(.55, {1, 0, 0}, .1 * extinction), knot(.7, {.3, 0, 1}, .1 * extinction),
+         knot(.7, {1, .6, 0}, .8 * extinction)});
+}
+
 Scene scene_of(const glm::dvec3& eye, const glm::dvec3& center, const glm::dvec3& up,
                const TransferFunction& transfer_function, int pixels) {
     Scene scene = projection_scene(transfer_function, pixels, pixels);
@@ -61,7 +71,10 @@ TEST_F(SingleTet, RandomPosesFillingTheView) {
         const double distance = 0.6 * std::pow(1e4 / 0.6, uniform(random));
         const double extinction = 5 * uniform(random);
         Scene scene = scene_of(distance * direction(random), glm::dvec3(0), direction(random),
-                               pose % 2 == 0 ? constant(extinction) : ramp(extinction), 256);
+                               pose % 2 == 0   ? crooked(extinction)
+                               : pose % 4 == 1 ? ramp(extinction)
+                                               : constant(extinction),
+                               256);
         if (pose % 3 == 0) {
             scene.camera.projection = Projection::orthographic;
             scene.camera.height = 1;
@@ -108,6 +121,7 @@ TEST_F(SingleTet, DegeneratePoses) {
             for (const int pixels : {64, 65}) {
                 Scene scene = scene_of(pose.eye, pose.center, pose.up, ramp(3), pixels);
                 scene.camera.fov_y = 70;
+                if (pixels == 65) scene.transfer_function = crooked(4);
                 const std::string name = std::to_string(number) + ", " + std::to_string(pixels);
                 expect_exact(*mesh, scene, "perspective " + name);
                 scene.camera.projection = Projection::orthographic;

@@ -34,13 +34,14 @@ class Variants : public ProjectionTest {
     SceneMesh mesh_;
 };
 
-// The mesh is coarse: the table's error in each of its hundred tets a ray is below .3 / 255 in all.
+// The weights' error, .005 / 255, times what the colour changes along a ray, some twice the way
+// from blue to red; opacities are good to float32's rounding.
 TEST_F(Variants, DefaultIsExact) {
     Scene wanted = scene();
     const ErrorNorms error =
         image_error(project(mesh_, wanted, capabilities()), trace(mesh_, wanted)).all;
-    EXPECT_LE(error.linf, 0.5);
-    EXPECT_LE(error.l2, 0.1);
+    EXPECT_LE(error.linf, 0.05);
+    EXPECT_LE(error.l2, 0.01);
 }
 
 TEST_F(Variants, AnalyticIsExact) {
@@ -86,11 +87,12 @@ TEST_F(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
 }
 
 // Steps and narrow peaks; vertex and mean colouring are what they are: coarse.
-TEST_F(Variants, PeaksAreExactWhereTheTableIs) {
+TEST_F(Variants, PeaksAreExactInParts) {
     Scene peak = scene(TransferFunction::linear(
         {knot(.48, {1, 1, 1}, 0), knot(.5, {1, .8, .2}, 200), knot(.52, {1, .2, .1}, 0),
          knot(.7, {0, .2, 1}, 0), knot(.7, {0, .2, 1}, 4)}));
-    EXPECT_LE(image_error(project(mesh_, peak, capabilities()), trace(mesh_, peak)).all.linf, 2.0);
+    // Weights of opaque peaks are off by up to .13 / 255, the parts' cuts by float32's rounding.
+    EXPECT_LE(image_error(project(mesh_, peak, capabilities()), trace(mesh_, peak)).all.linf, 0.5);
     const double exact = l2(peak);
     for (const Coloring coloring : {Coloring::vertex, Coloring::attenuation}) {
         Scene coarse = peak;

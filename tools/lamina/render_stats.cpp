@@ -60,7 +60,7 @@ Json project_to_json(const ProjectPlan& project) {
                          {"format", name_of(table.format)},
                          {"colored", table.colored},
                          {"error", project.table_error}};
-    } else if (project.has_aligned_table()) {
+    } else if (project.source == SegmentSource::cut_table) {
         json["table"] = {{"scalars", project.aligned.scalar_nodes},
                          {"lengths", project.aligned.length_layers},
                          {"colored", project.aligned.colored},

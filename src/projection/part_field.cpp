@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/part_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamina {
+
+PartField::PartField(const Corners& corners, const Values& values, const LinearPiece* piece)
+    : corners_(corners), values_(values) {
+    const auto [least, largest] = std::ranges::minmax(values);
+    least_ = least;
+    largest_ = largest;
+    if (piece != nullptr) {
+        cut_low_ = piece->from > least;
+        cut_high_ = piece->to < largest;
+        least_ = std::clamp(least, piece->from, piece->to);
+        largest_ = std::clamp(largest, piece->from, piece->to);
+    }
+    const glm::dvec3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0],
+                     e3 = corners[3] - corners[0];
+    const glm::dvec3 n1 = glm::cross(e2, e3);
+    gradient_ = ((values[1] - values[0]) * n1 + (values[2] - values[0]) * glm::cross(e3, e1) +
+                 (values[3] - values[0]) * glm::cross(e1, e2)) /
+                glm::dot(e1, n1);
+    // A tet without volume shows nothing, whatever its scalar.
+    const double steepest =
+        std::max({std::abs(gradient_.x), std::abs(gradient_.y), std::abs(gradient_.z)});
+    if (!(steepest < 1e30 * (largest - least))) gradient_ = glm::dvec3(0);
+}
+
+PartField::Outline PartField::outline() const {
+    Outline outline;
+    const auto add = [&](const glm::dvec3& point) {
+        if (outline.count < outline.corners.size()) outline.corners[outline.count++] = point;
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (values_[i] >= least_ && values_[i] <= largest_) add(corners_[i]);
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const auto crosses = [&](double level) {
+                return (values_[i] < level && values_[j] > level) ||
+                       (values_[i] > level && values_[j] < level);
+            };
+            for (const double level : {least_, largest_}) {
+                if (!crosses(level)) continue;
+                const double share = (level - values_[i]) / (values_[j] - values_[i]);
+                add(corners_[i] + share * (corners_[j] - corners_[i]));
+            }
+        }
+    }
+    return outline;
+}
+
+}  // namespace lamina

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/visible_parts.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "base/parallel.h"
+
+namespace lamina {
+
+VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
+                           const TetPieces& pieces, bool cut, bool draw_transparent)
+    : mesh_(mesh), scalar_(scalar), pieces_(pieces), cut_(cut) {
+    const auto tets = mesh.tets();
+    count_ = static_cast<std::int64_t>(tets.size());
+    if (cut || !draw_transparent) {
+        spans_.resize(tets.size());
+        parallel_for(count_, 4096, [&](std::int64_t index) {
+            const auto tet = static_cast<std::size_t>(index);
+            spans_[tet] = pieces_.visible(scalar_, tets[tet]);
+        });
+        count_ = std::transform_reduce(spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
+                                       [&](const TetPieces::Span& span) -> std::int64_t {
+                                           return cut ? pieces_.count(span) : !span.empty();
+                                       });
+    }
+    parts_.reserve(static_cast<std::size_t>(count_));
+}
+
+std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
+    parts_.clear();
+    for (const std::int32_t tet : order) {
+        if (spans_.empty()) {
+            parts_.push_back({tet});
+            continue;
+        }
+        const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
+        if (span.empty()) continue;
+        if (!cut_) {
+            parts_.push_back({tet});
+        } else if (span.first == span.last) {
+            parts_.push_back({tet, span.first});
+        } else {
+            append_parts(tet, span, eye);
+        }
+    }
+    return parts_;
+}
+
+// Along every ray the scalar goes one way, away from what it would be at the eye: the part nearest
+// to that hides all others, those above it hide those farther above, those below it those farther
+// below, and no ray meets both.
+void VisibleParts::append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye) {
+    const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
+    const auto append = [&](std::int32_t piece) {
+        if (!pieces_.transparent(piece)) parts_.push_back({tet, piece});
+    };
+    const auto end = [&](std::int32_t piece) {
+        return pieces_.pieces()[static_cast<std::size_t>(piece)].to;
+    };
+    std::int32_t nearest = span.first;
+    while (nearest < span.last && end(nearest) < at_eye) ++nearest;
+    for (std::int32_t piece = span.last; piece > nearest; --piece) append(piece);
+    for (std::int32_t piece = span.first; piece < nearest; ++piece) append(piece);
+    append(nearest);
+}
+
+// Of an eye at infinity: below or above all.
+double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
+    const auto point = [&](std::size_t corner) -> const glm::dvec3& {
+        return mesh_.points()[static_cast<std::size_t>(tet[corner])];
+    };
+    const auto value = [&](std::size_t corner) {
+        return scalar_[static_cast<std::size_t>(tet[corner])];
+    };
+    const glm::dvec3 e1 = point(1) - point(0), e2 = point(2) - point(0), e3 = point(3) - point(0);
+    const glm::dvec3 n1 = glm::cross(e2, e3);
+    const glm::dvec3 slope = (value(1) - value(0)) * n1 +
+                             (value(2) - value(0)) * glm::cross(e3, e1) +
+                             (value(3) - value(0)) * glm::cross(e1, e2);
+    const double volume = glm::dot(e1, n1);
+    if (eye.at_infinity) {
+        const double along = glm::dot(slope, eye.position) * (volume < 0 ? -1 : 1);
+        return along > 0 ? -INFINITY : INFINITY;
+    }
+    return value(0) + glm::dot(slope, eye.position - point(0)) / volume;
+}
+
+}  // namespace lamina

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/eye.h"
+#include "mesh/tet_mesh.h"
+#include "projection/tet_part.h"
+#include "scene/tet_pieces.h"
+
+namespace lamina {
+
+// What of a mesh is drawn, farthest first.
+class VisibleParts {
+  public:
+    // `cut`: into the transfer function's pieces; else whole tets. `draw_transparent`: also tets
+    // that show nothing, whole. All must outlive it.
+    VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
+                 bool cut, bool draw_transparent);
+
+    // Of tets in visibility order. Valid until the next call, which takes no memory.
+    std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
+    std::int64_t count() const { return count_; }  // of every list
+
+  private:
+    void append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye);
+    double scalar_at_eye(const Tet& tet, const Eye& eye) const;
+
+    const TetMesh& mesh_;
+    std::span<const double> scalar_;
+    const TetPieces& pieces_;
+    bool cut_;
+    std::vector<TetPieces::Span> spans_;  // of tets; empty where all are drawn whole
+    std::int64_t count_ = 0;
+    std::vector<TetPart> parts_;
+};
+
+}  // namespace lamina

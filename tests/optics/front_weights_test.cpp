@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/front_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "optics/opacity.h"
+#include "optics/segment_integral.h"
+
+namespace lamina {
+namespace {
+
+// Worst difference from piece_weights() over p and q from 0 to `most`, evenly in the table's own
+// coordinates.
+double worst(double most) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    double worst = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const double x = uniform(random) * (1 - 1 / (1 + most));
+        const double y = uniform(random) * (1 - 1 / std::sqrt(1 + most));
+        const double p = x / (1 - x), q = 1 / ((1 - y) * (1 - y)) - 1;
+        const double error = FrontWeightTable::get().lookup(p, q) - piece_weights(p, q).front;
+        worst = std::max(worst, std::abs(error));
+    }
+    return worst;
+}
+
+// The header's promise for the polynomial, its largest error at the triangle's corners and sides.
+TEST(ThinFrontWeight, IsAsGoodAsPromised) {
+    double worst = 0;
+    for (int i = 0; i <= 300; ++i) {
+        for (int j = 0; j <= 300 - i; ++j) {
+            const double p = 2 * thin_depth * i / 300, q = 2 * thin_depth * j / 300;
+            worst = std::max(worst, std::abs(thin_front_weight(p, q) - piece_weights(p, q).front));
+        }
+    }
+    EXPECT_LE(worst, 3e-5);
+    EXPECT_EQ(thin_front_weight(0, 0), 0);
+}
+
+// What the header promises, measured: bilinear interpolation is off by up to h^2 / 8 times the
+// second derivatives, of order 1 where p and q are small (h = 1 / 255: 2e-6 times their sum), and
+// by less than a cell's worth of the fall to 1 anywhere else.
+TEST(FrontWeightTable, IsAsGoodAsPromised) {
+    EXPECT_LE(worst(20), 2e-5);
+    EXPECT_LE(worst(1e12), 5e-4);
+}
+
+TEST(FrontWeightTable, HoldsOutAtTheEnds) {
+    const FrontWeightTable& table = FrontWeightTable::get();
+    EXPECT_EQ(table.lookup(0, 0), 0);
+    EXPECT_NEAR(table.lookup(1e30, 0), 1, 1e-6);
+    EXPECT_NEAR(table.lookup(0, 1e30), 1, 1e-6);
+    EXPECT_NEAR(table.lookup(1e30, 1e30), 1, 1e-6);
+    for (const double depth : {1e-12, 1e-6, 1e-3, 1.0, 100.0}) {
+        EXPECT_LE(table.lookup(depth, 0), opacity_from_depth(depth / 2));
+        EXPECT_LE(table.lookup(0, depth), opacity_from_depth(depth / 2));
+    }
+}
+
+}  // namespace
+}  // namespace lamina
