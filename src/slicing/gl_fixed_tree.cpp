@@ -34,24 +34,23 @@ gl::Texture make_swizzle(int bits, double share) {
 
 }  // namespace
 
-gl::Defines swizzle_defines(const SlicePlan& plan) {
+gl::Defines swizzle_defines(const CompositingPlan& plan) {
     gl::Defines defines;
     set_compositing(defines, plan);
     if (!plan.emulation) defines.set("ALPHA_ROUNDING", static_cast<int>(AlphaRounding::nearest));
     return defines;
 }
 
-gl::Defines colorize_defines(const SlicePlan& plan) {
+gl::Defines colorize_defines(const CompositingPlan& plan) {
     gl::Defines defines;
     if (plan.emulation) set_compositing(defines, plan);
     return defines;
 }
 
-GlFixedTree::GlFixedTree(const GlSlabSource& source, const SlicePlan& plan, int width, int height)
-    : source_(source),
-      plan_(plan),
-      shape_(plan.tree->factors, plan.slabs),
-      leaves_(source, plan, height),
+GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
+                         const glm::vec3& single_color, int width, int height)
+    : plan_(plan),
+      shape_(shape),
       swizzle_("gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan)),
       colorize_("gl/full_screen.vert", "slicing/colorize.frag", colorize_defines(plan)) {
     for (int level = 0; level < shape_.levels(); ++level) {
@@ -66,7 +65,7 @@ GlFixedTree::GlFixedTree(const GlSlabSource& source, const SlicePlan& plan, int 
         swizzle_.set("seed", static_cast<int>(plan_.emulation->seed));
     }
     colorize_.set("root", child_unit);
-    colorize_.set("single_color", source.single_color());
+    colorize_.set("single_color", single_color);
 }
 
 // Nodes of a level have one of few sizes: each once.
@@ -86,20 +85,21 @@ void GlFixedTree::make_swizzles(int level, const SampleSpan& node) {
     }
 }
 
-void GlFixedTree::draw(gl::Framebuffer& target, Progress* progress) {
+void GlFixedTree::draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress) {
     swizzled_ = 0;
-    evaluate(0, shape_.root(), progress);
+    evaluate(0, shape_.root(), leaves, progress);
     target.bind();
     buffers_[0].color().bind(child_unit);
     gl::draw_full_screen(colorize_, no_attributes_);
 }
 
-void GlFixedTree::evaluate(int level, const SampleSpan& node, Progress* progress) {
+void GlFixedTree::evaluate(int level, const SampleSpan& node, TreeLeaves& leaves,
+                           Progress* progress) {
     gl::Framebuffer& buffer = buffers_[static_cast<std::size_t>(level)];
     buffer.clear(glm::vec4(0));
     if (shape_.is_leaf(level, node)) {
         buffer.bind();
-        leaves_.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
+        leaves.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
         if (progress != nullptr) {
             glFinish();
             progress->advance();
@@ -112,7 +112,7 @@ void GlFixedTree::evaluate(int level, const SampleSpan& node, Progress* progress
         const bool back_to_front = plan_.order == Order::back_to_front;
         const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
         if (child.count == 0) continue;
-        evaluate(level + 1, child, progress);
+        evaluate(level + 1, child, leaves, progress);
         put_into_parent(level, child, node);
     }
 }

@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "compositing/tree_shape.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
+#include "slicing/tree_leaves.h"
 
 namespace lamina {
 
@@ -18,7 +18,7 @@ gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments);
 
 // Composites slab after slab onto a target: a whole picture, or a leaf of a tree of fixed-point
 // nodes (then opacity alone, in one channel).
-class GlSlabPass {
+class GlSlabPass : public TreeLeaves {
   public:
     // `source` and `plan` must outlive it.
     GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height);
@@ -26,7 +26,7 @@ class GlSlabPass {
     void set_view(const View& view, const Slabs& slabs);
     // Onto the target, in the plan's order. `depth_scale`: of a leaf, samples of the ray over its
     // own.
-    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale = 1);
+    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
 
   private:
     void draw_brick(std::size_t place, const SampleSpan& span);

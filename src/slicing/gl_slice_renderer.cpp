@@ -20,10 +20,12 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     source_.emplace(volume, transfer_function, facts, plan_);
     if (plan_.has_tree(NodeArithmetic::shader)) {
         shader_tree_.emplace(*source_, plan_, capabilities, width, height);
-    } else if (plan_.has_tree(NodeArithmetic::fixed)) {
-        fixed_tree_.emplace(*source_, plan_, width, height);
-    } else {
-        slabs_.emplace(*source_, plan_, height);
+        return;
+    }
+    slabs_.emplace(*source_, plan_, height);
+    if (plan_.has_tree(NodeArithmetic::fixed)) {
+        fixed_tree_.emplace(plan_, TreeShape(plan_.tree->factors, plan_.slabs),
+                            source_->single_color(), width, height);
     }
 }
 
@@ -43,13 +45,15 @@ void GlSliceRenderer::draw(const View& view, Progress* progress) {
     if (depth.far <= depth.near) return;
     const Slabs slabs{depth.near, depth.far, plan_.slabs};
     if (shader_tree_) shader_tree_->set_view(view, slabs);
-    if (fixed_tree_) fixed_tree_->set_view(view, slabs);
     if (slabs_) slabs_->set_view(view, slabs);
     geometry_ms_ = geometry_watch.milliseconds();
     const Stopwatch draw_watch;
     if (shader_tree_) shader_tree_->draw(target_, progress);
-    if (fixed_tree_) fixed_tree_->draw(target_, progress);
-    if (slabs_) draw_straight(progress);
+    if (fixed_tree_) {
+        fixed_tree_->draw(*slabs_, target_, progress);
+    } else if (slabs_) {
+        draw_straight(progress);
+    }
     glFinish();
     draw_ms_ = draw_watch.milliseconds();
     gl::check("drawing the slabs");
@@ -62,7 +66,7 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
         const bool front_to_back = plan_.order == Order::front_to_back;
         const SampleSpan part =
             child_span(all, front_to_back ? batch : plan_.batches - 1 - batch, plan_.batches);
-        if (part.count > 0) slabs_->draw(part, target_);
+        if (part.count > 0) slabs_->draw(part, target_, 1);
         glFinish();
         check_interrupt();
         if (progress != nullptr) progress->advance();

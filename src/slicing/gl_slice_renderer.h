@@ -41,7 +41,8 @@ class GlSliceRenderer {
     SlicePlan plan_;
     Grid grid_;
     gl::Framebuffer target_;
-    // None where nothing is visible; one of the three ways of compositing else.
+    // None where nothing is visible; else slabs, blended straight or as leaves of a tree of
+    // fixed-point nodes, or a tree that marches them.
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
