@@ -14,18 +14,26 @@ uint random_of_fragment() {
 #ifdef EMULATED
 #include "compositing/programmable_blending.glsl"
 
+uint alpha_code(float opacity) {
+    double scaled = double(LARGEST_CODE) * double(opacity);
+#if ALPHA_ROUNDING == ROUND_STOCHASTIC
+    return round_alpha(split_scaled(scaled), random_of_fragment());
+#else
+    return round_alpha(split_scaled(scaled), 0u);
+#endif
+}
+
+#ifdef OPACITY_ONLY
+void write_fragment(vec4 color) { composite_opacity(alpha_code(color.a)); }
+#else
 void write_fragment(vec4 color) {
-    double scaled = double(LARGEST_CODE) * double(color.a);
     vec3 separate = color.a > 0.0 ? clamp(color.rgb / color.a, 0.0, 1.0) : vec3(0.0);
     uvec3 codes;
     for (int channel = 0; channel < 3; ++channel)
         codes[channel] = code_nearest(double(LARGEST_CODE) * double(separate[channel]));
-#if ALPHA_ROUNDING == ROUND_STOCHASTIC
-    composite(codes, round_alpha(split_scaled(scaled), random_of_fragment()));
-#else
-    composite(codes, round_alpha(split_scaled(scaled), 0u));
-#endif
+    composite(codes, alpha_code(color.a));
 }
+#endif
 #elif defined(AFTER_BLEND)
 #include "compositing/programmable_blending.glsl"
 #include "compositing/stochastic_over.glsl"

@@ -21,6 +21,11 @@ flat in OPTICS low_optics, high_optics;
 uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
+#ifdef OPACITY_ONLY
+// All parts over those of the tree's leaf (NUMERICS section 3). Of the length: optical depth is mean extinction times it.
+uniform float depth_scale;
+#endif
+
 uint part_number() { return floatBitsToUint(limits.w); }
 
 uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
@@ -106,6 +111,9 @@ TetRun find_run() {
     run.world_length = inside ? world_length : 0.0;
     vec2 from_center = depths * z * center.w;
     vec2 reach = z;
+#endif
+#ifdef OPACITY_ONLY
+    run.world_length *= depth_scale;
 #endif
 #ifdef SCALARS
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);

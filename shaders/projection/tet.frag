@@ -4,6 +4,7 @@
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
 // One tet of the projected-tetrahedra renderer: what the fragment's ray gathers inside it, put over what is there.
+// OPACITY_ONLY: for a fixed-point node of a tree.
 #define SOURCE_CONSTANT 0
 #define SOURCE_TABLE 1
 #define SOURCE_PARTS 2
@@ -22,4 +23,8 @@ uniform vec4 constant_optics;  // colour, extinction
 #include "projection/tet_color.glsl"
 #include "projection/output.glsl"
 
+#ifdef OPACITY_ONLY
+void main() { write_fragment(vec4(tet_color().a)); }
+#else
 void main() { write_fragment(tet_color()); }
+#endif

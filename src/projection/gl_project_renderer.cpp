@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
@@ -65,6 +66,7 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (is_fan(plan)) defines.set("FAN", 1);
     if (kind == FragmentKind::thin) defines.set("THIN", 1);
     if (kind == FragmentKind::careful) defines.set("CAREFUL", 1);
+    if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.thickness == Thickness::dz) defines.set("THICKNESS_DZ", 1);
@@ -107,6 +109,16 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
         stream_.emplace(SilhouetteGeometry::largest_size(), silhouette_attributes, parts);
     }
     stream_->set_barriers(plan_.blending == Blending::barrier);
+    if (!plan_.tree.empty()) make_tree();
+}
+
+// Samples are the parts: as many in every view.
+void GlProjectRenderer::make_tree() {
+    if (parts_->count() == 0) return;
+    CompositingPlan nodes = plan_;
+    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
+    const TreeShape shape(plan_.tree, static_cast<int>(parts_->count()));
+    tree_.emplace(nodes, shape, tables_->single_color(), target_.width(), target_.height());
 }
 
 gl::Program GlProjectRenderer::make_program(FragmentKind kind) const {
@@ -117,6 +129,7 @@ gl::Program GlProjectRenderer::make_program(FragmentKind kind) const {
 }
 
 int GlProjectRenderer::step_count() const {
+    if (tree_) return tree_->step_count();
     return stream_
                ? static_cast<int>(stream_->batch_count(static_cast<std::size_t>(parts_->count())))
                : 0;
@@ -129,8 +142,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     parts_drawn_ = 0;
     if (!stream_) return;
     const Stopwatch order_watch;
-    const Eye eye = eye_of(view);
-    const auto parts = parts_->list(order_.sort(eye), eye);
+    const auto parts = list_parts(view);
     order_ms_ = order_watch.milliseconds();
     const Stopwatch draw_watch;
     for (auto& program : programs_) {
@@ -139,6 +151,16 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     draw_parts(parts, view, progress);
     glFinish();
     draw_ms_ = draw_watch.milliseconds();
+}
+
+std::span<const TetPart> GlProjectRenderer::list_parts(const View& view) {
+    if (!scattered_.empty()) return scattered_;
+    const Eye eye = eye_of(view);
+    const auto parts = parts_->list(order_.sort(eye), eye);
+    if (!plan_.scattered) return parts;
+    scattered_.assign(parts.begin(), parts.end());
+    scatter(scattered_);
+    return scattered_;
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
@@ -170,14 +192,21 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
             TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view,
                          plan_.near_depth, margin_));
     }
-    const CompositingState state(plan_, false, target_);
     // The next kind that has a program; fans are all plain.
     GlTetStream::Programs programs{};
-    const gl::Program* last = nullptr;
+    gl::Program* last = nullptr;
     for (std::size_t i = fragment_kinds; i-- > 0;) {
         if (programs_[i]) last = &*programs_[i];
         programs[i] = last;
     }
+    stream_->start_frame();
+    if (tree_) {
+        GlTetLeaves leaves(plan_, *stream_, *geometry, parts, programs);
+        tree_->draw(leaves, target_, progress);
+        parts_drawn_ = leaves.drawn();
+        return;
+    }
+    const CompositingState state(plan_, false, target_);
     parts_drawn_ = stream_->draw(*geometry, parts, programs, [&] {
         if (progress != nullptr) progress->advance();
     });

@@ -13,11 +13,13 @@
 #include "image/image.h"
 #include "mesh/visibility_order.h"
 #include "projection/gl_project_tables.h"
+#include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
 #include "projection/visible_parts.h"
 #include "scene/capabilities.h"
 #include "scene/plan.h"
 #include "scene/scene_mesh.h"
+#include "slicing/gl_fixed_tree.h"
 
 namespace lamina {
 
@@ -53,6 +55,8 @@ class GlProjectRenderer {
 
   private:
     gl::Program make_program(FragmentKind kind) const;
+    void make_tree();
+    std::span<const TetPart> list_parts(const View& view);
     void set_view(gl::Program& program, const View& view) const;
     void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
 
@@ -68,6 +72,8 @@ class GlProjectRenderer {
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::optional<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;
+    std::optional<GlFixedTree> tree_;  // where the plan has one
+    std::vector<TetPart> scattered_;   // of every frame, where the plan says so
     std::int64_t parts_drawn_ = 0;
     double order_ms_ = 0, draw_ms_ = 0;
 };

@@ -22,6 +22,7 @@ class GlProjectTables {
 
     void set_defines(gl::Defines& defines) const;
     void bind(gl::Program& program) const;  // textures and uniforms
+    const glm::vec3& single_color() const { return single_color_; }
     double build_ms() const { return build_ms_; }
     std::int64_t table_bytes() const { return texture_ ? texture_->byte_count() : 0; }
 

@@ -63,10 +63,9 @@ std::size_t GlTetStream::batch_count(std::size_t parts) const {
 std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                                const Programs& programs, const std::function<void()>& batch_done) {
     std::int64_t drawn = 0;
-    write_ms_ = 0;
-    for (std::size_t number = 0, first = 0; first < parts.size(); ++number, first += batch_parts_) {
+    for (std::size_t first = 0; first < parts.size(); first += batch_parts_) {
         const auto batch_parts = parts.subspan(first, std::min(batch_parts_, parts.size() - first));
-        Batch& batch = batches_[number % batches_.size()];
+        Batch& batch = batches_[next_batch_++ % batches_.size()];
         batch.drawn.wait();
         const Stopwatch watch;
         write(geometry, batch_parts, batch);

@@ -32,8 +32,7 @@ class GlTetStream {
     // Waits between parts, for programs that read the target as a texture.
     void set_barriers(bool barriers) { barriers_ = barriers; }
 
-    using Programs =
-        std::array<const gl::Program*, fragment_kinds>;  // by FragmentKind; some the same
+    using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; some the same
     // Draws parts in their order with the state that is bound; Ctrl-C ends it between batches.
     // `batch_done` is called after each. Returns how many were drawn: those that cover the
     // centre of a pixel.
@@ -41,7 +40,8 @@ class GlTetStream {
                       const Programs& programs, const std::function<void()>& batch_done);
 
     std::size_t batch_count(std::size_t parts) const;
-    double write_ms() const { return write_ms_; }  // of the last draw
+    void start_frame() { write_ms_ = 0; }
+    double write_ms() const { return write_ms_; }  // of the frame's draws
 
   private:
     struct Batch {
@@ -66,6 +66,7 @@ class GlTetStream {
     bool barriers_ = false;
     std::size_t batch_parts_;
     std::array<Batch, 3> batches_;
+    std::size_t next_batch_ = 0;  // not always the first: a draw of few tets need not wait
     std::vector<Chunk> chunks_;
     std::vector<int> part_indices_;  // of each part of the batch, for barriers
     std::vector<int> counts_;        // of indices, of the chunks of one draw

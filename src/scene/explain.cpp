@@ -97,13 +97,25 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, cons
                              facts.shortest_edge, facts.longest_edge,
                              facts.longest_edge * facts.max_extinction));
     row("segments", name_of(project.source));
+    if (project.source == SegmentSource::parts) {
+        row("parts", fmt::format("{} of {} visible tets, cut at the transfer function's points",
+                                 facts.parts, facts.tets - facts.transparent_tets));
+        if (!project.single_color) {
+            row("weight error",
+                fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
+        }
+    }
     if (project.source == SegmentSource::table || project.source == SegmentSource::cut_table) {
         row("table", text_of_table(project));
         row("table error",
-            fmt::format("{:.2g} / 255 {}", project.table_error, project.table_reason));
+            fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
     }
     if (project.emulation) row("codes", text_of_codes(project));
     if (project.dither != ProjectDither::none) row("dither", name_of(project.dither));
+    if (!project.tree.empty()) {
+        row("tree", fmt::format("{}, nodes fixed, leaves {}", to_text(project.tree),
+                                project.scattered ? "scattered" : "in order"));
+    }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/project_planner.h"
+#include "scene/tree_check.h"
 
 namespace lamina {
 namespace {
@@ -109,30 +110,6 @@ void check_limits(const Scene& scene, const Capabilities& capabilities) {
 }
 
 namespace {
-
-// A tree that the scene spells out.
-void check_tree(const Scene& scene, const Facts& facts) {
-    const std::string file = scene.file.string();
-    if (scene.slice.tree->nodes == NodeArithmetic::shader) {
-        if (scene.target != Target::emulated) return;
-        fail(
-            "{}: render.slice.tree.nodes: found \"shader\" with target \"emulated\", expected "
-            "\"fixed\": nodes computed in a shader write fixed8, fixed16, float16 or float32",
-            file);
-    }
-    if (!is_fixed_point(scene.target)) {
-        fail(
-            "{}: render.slice.tree.nodes: found \"fixed\" with target \"{}\", expected target "
-            "fixed8, fixed16 or emulated",
-            file, name_of(scene.target));
-    }
-    if (!facts.single_color) {
-        fail(
-            "{}: render.slice.tree.nodes: found \"fixed\" with a transfer function of several "
-            "colours, expected one colour (LaMar 2004, section 6), or \"nodes\": \"shader\"",
-            file);
-    }
-}
 
 class SlicePlanner {
   public:
@@ -285,7 +262,7 @@ class SlicePlanner {
         if (!settings.automatic) {
             slice.tree =
                 TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
-            check_tree(scene_, facts_);
+            check_slice_tree(scene_, facts_.single_color);
             return;
         }
         try {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "mesh/visibility_order.h"
 #include "optics/segment_table.h"
@@ -33,6 +34,8 @@ struct ProjectPlan : CompositingPlan {
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
     std::uint32_t seed = 1;         // of dithering and stochastic rounding
+    std::vector<int> tree;          // bifurcation factors of fixed-point nodes; empty: none
+    bool scattered = false;         // a leaf's tets are anywhere in the mesh
     bool orthographic = false;      // rays are parallel: no division per fragment
     bool single_color = false;      // colour is a constant of the program
     bool plain = true;              // tets whose faces can be found in float32 are
@@ -43,8 +46,8 @@ struct ProjectPlan : CompositingPlan {
     ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
     SegmentTableRequest table;      // for SegmentSource::table
     TablePlan aligned;              // for SegmentSource::cut_table
-    double table_error = 0;         // measured on rays of the view, in 1/255
-    std::string table_reason;
+    double segment_error = 0;       // measured on rays of the view, in 1/255
+    std::string segment_reason;
 
     // Opacity is rounded to codes in the program, not by the blending unit.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }

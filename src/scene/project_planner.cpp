@@ -13,6 +13,7 @@
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
+#include "scene/tree_check.h"
 
 namespace lamina {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 constexpr double near_share = 1e-6;
 
 // What the table may add to the picture's error, in 1/255.
-constexpr double most_table_error = 0.5;
+constexpr double most_segment_error = 0.5;
 
 // What tables are tried on is a sample: the rest of the picture may be this much worse.
 constexpr double sampling_margin = 1.25;
@@ -58,6 +59,7 @@ class ProjectPlanner {
         choose_precision();
         choose_visibility();
         choose_compositing();
+        if (settings_.tree) choose_tree();
         choose_source();
         return std::move(plan_);
     }
@@ -149,6 +151,17 @@ class ProjectPlanner {
         }
     }
 
+    void choose_tree() {
+        check_project_tree(scene_, facts_.single_color);
+        plan_.tree = settings_.tree->factors;
+        plan_.scattered =
+            settings_.order == ProjectOrder::automatic &&
+            leave_out(true, "order",
+                      "one colour: leaves take tets from all over the mesh, so that every ray "
+                      "meets some of each leaf");
+        if (plan_.scattered) plan_.visibility = OrderMethod::none;
+    }
+
     void choose_source() {
         plan_.single_color =
             leave_out(facts_.single_color, "color",
@@ -165,8 +178,8 @@ class ProjectPlanner {
             plan_.source = SegmentSource::analytic;
         } else if (settings_.table) {
             plan_.table = request_of(*settings_.table);
-            plan_.table_error = error_of(plan_.table);
-            plan_.table_reason = "as the scene asks";
+            plan_.segment_error = error_of(plan_.table);
+            plan_.segment_reason = "as the scene asks";
         } else if (!plan_.nothing_visible) {
             choose_table();
         }
@@ -221,8 +234,8 @@ class ProjectPlanner {
         const bool whole = plan_.geometry == ProjectGeometry::triangles;
         if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
             plan_.source = SegmentSource::parts;
-            plan_.table_error = plan_.single_color ? 0 : error_of_parts();
-            plan_.table_reason = trial();
+            plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
+            plan_.segment_reason = trial();
             return;
         }
         // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh
@@ -232,10 +245,10 @@ class ProjectPlanner {
         plan_.source = SegmentSource::cut_table;
         plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge,
                          !plan_.single_color};
-        plan_.table_error = error_of_aligned();
-        plan_.table_reason = trial();
-        const double enough = std::min(most_table_error, scene_.max_error / 2) / sampling_margin;
-        if (plan_.table_error <= enough) return;
+        plan_.segment_error = error_of_aligned();
+        plan_.segment_reason = trial();
+        const double enough = std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
+        if (plan_.segment_error <= enough) return;
         plan_.source = SegmentSource::analytic;  // slower, and right whatever the transfer function
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/project_reader.h"
 
+#include "scene/tree_reader.h"
+
 namespace lamina {
 namespace {
 
@@ -69,6 +71,7 @@ ProjectSettings read_project(JsonReader reader) {
         project.table = read_table(reader.object("table"));
     }
     check_geometry(reader, project);
+    project.tree = read_tree(reader);
     reader.close();
     return project;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "optics/segment_table.h"
+#include "scene/tree_settings.h"
 
 namespace lamina {
 
@@ -49,6 +50,7 @@ struct ProjectSettings {
     ProjectGeometry geometry = ProjectGeometry::automatic;
     ProjectDither dither = ProjectDither::none;
     std::optional<TableSettings> table;  // none: "auto"
+    std::optional<TreeSettings> tree;
 };
 
 const char* name_of(Coloring coloring);

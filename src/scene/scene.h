@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "compositing/emulation.h"
-#include "compositing/node_code.h"
 #include "compositing/order.h"
 #include "mesh/mesh_settings.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
 #include "scene/project_settings.h"
+#include "scene/tree_settings.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -26,22 +26,11 @@ enum class Filter { exact, hardware };
 // What the method "trace" looks at.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
-// Who composites in a node of a tree: a program, in float, or a fixed-point buffer (the paper's).
-enum class NodeArithmetic { shader, fixed };
-
 struct DitherSettings {
     std::optional<int> period = 16;  // slabs; none: "auto"
     std::uint32_t seed = 1;
     bool color = false;
     int increment = 1;
-};
-
-struct TreeSettings {
-    bool automatic = false;    // "tree": "auto": the plan chooses factors and code
-    std::vector<int> factors;  // from the root to the leaves
-    NodeArithmetic nodes = NodeArithmetic::shader;
-    NodeCode code = NodeCode::minimax;
-    int alpha_bits = 8;
 };
 
 struct SliceSettings {

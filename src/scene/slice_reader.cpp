@@ -2,7 +2,7 @@
 #include "scene/slice_reader.h"
 
 #include "compositing/dither.h"
-#include "compositing/tree_shape.h"
+#include "scene/tree_reader.h"
 
 namespace lamina {
 namespace {
@@ -33,50 +33,6 @@ DitherSettings read_dither(JsonReader reader) {
     return dither;
 }
 
-// A list [root, ..., leaf], or as text for the command line: 32x32, 4^5, 1024.
-std::vector<int> read_factors(JsonReader& reader) {
-    const std::string expected = fmt::format(
-        "1 to {} bifurcation factors from 1 to {}, root first, as in [32, 32] or \"32x32\"",
-        max_tree_levels, max_tree_factor);
-    if (!reader.has("factors")) reader.reject("factors", expected);
-    const nlohmann::json& value = reader.value("factors");
-    const auto is_factor = [](const nlohmann::json& factor) {
-        return factor.is_number_integer() && factor.get<double>() >= 1 &&
-               factor.get<double>() <= max_tree_factor;
-    };
-    if (value.is_string()) {
-        try {
-            return parse_factors(value.get<std::string>());
-        } catch (const Error&) {
-            reader.reject("factors", expected);
-        }
-    }
-    if (is_factor(value)) return {value.get<int>()};
-    if (!value.is_array() || value.empty() || value.size() > max_tree_levels ||
-        !std::all_of(value.begin(), value.end(), is_factor)) {
-        reader.reject("factors", expected);
-    }
-    return value.get<std::vector<int>>();
-}
-
-TreeSettings read_tree(JsonReader reader) {
-    TreeSettings tree;
-    tree.factors = read_factors(reader);
-    tree.nodes = reader.choice<NodeArithmetic>(
-        "nodes", {{"shader", NodeArithmetic::shader}, {"fixed", NodeArithmetic::fixed}});
-    tree.code = reader.choice<NodeCode>(
-        "code",
-        {{"minimax", NodeCode::minimax}, {"phi", NodeCode::phi}, {"alpha", NodeCode::alpha}});
-    if (reader.has("alpha_bits")) {
-        if (reader.value("alpha_bits") != 8 && reader.value("alpha_bits") != 16) {
-            reader.reject("alpha_bits", "8 or 16");
-        }
-        tree.alpha_bits = reader.value("alpha_bits").get<int>();
-    }
-    reader.close();
-    return tree;
-}
-
 }  // namespace
 
 SliceSettings read_slice(JsonReader reader) {
@@ -96,15 +52,7 @@ SliceSettings read_slice(JsonReader reader) {
     slice.filter =
         reader.choice<Filter>("filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
     if (reader.has("dither")) slice.dither = read_dither(reader.object("dither"));
-    if (reader.has("tree")) {
-        if (reader.value("tree") == "auto") {
-            slice.tree = TreeSettings{.automatic = true, .factors = {}};
-        } else if (reader.value("tree").is_object()) {
-            slice.tree = read_tree(reader.object("tree"));
-        } else {
-            reader.reject("tree", "an object {\"factors\": ...}, or \"auto\"");
-        }
-    }
+    slice.tree = read_tree(reader);
     reader.close();
     return slice;
 }

@@ -97,7 +97,11 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
     }
     for (const ProjectPlan& plan : output_plans())
         compile(plan, SegmentSource::table, false, true, 4);
-    EXPECT_GT(seen.size(), 60u);
+    for (ProjectPlan plan : output_plans()) {  // of leaves, for every source of one colour
+        plan.tree = {4};
+        for (const SegmentSource source : sources) compile(plan, source, true, true, 1);
+    }
+    EXPECT_GT(seen.size(), 200u);
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
         {"/render/slice/samples", 1.5, {"found 1.5", "whole number"}},
         {"/render/method", "project", {"render.method: found \"project\"", "without a mesh"}},
         {"/render/project/table", 256, {"render.project.table", "\"auto\""}},
+        {"/render/project/tree", "oak", {"render.project.tree: found \"oak\"", "\"auto\""}},
+        {"/render/project/tree", {{"factors", 0}}, {"render.project.tree.factors: found 0"}},
         {"/render/project/table", {{"scalar", 1}}, {"render.project.table.scalar: found 1"}},
         {"/render/project",
          {{"geometry", "silhouette"}, {"interpolation", "linear"}},

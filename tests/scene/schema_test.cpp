@@ -7,8 +7,17 @@
 namespace lamina {
 namespace {
 
+const nlohmann::json& root() {
+    static const nlohmann::json schema = load_json(LAMINA_SOURCE_DIR "/docs/scene.schema.json");
+    return schema;
+}
+
 // Paths of all properties below `schema`; list elements have no number of their own.
 void collect(const nlohmann::json& schema, const std::string& path, std::set<std::string>& keys) {
+    if (schema.contains("$ref")) {
+        const std::string pointer = schema["$ref"].get<std::string>().substr(1);
+        collect(root().at(nlohmann::json::json_pointer(pointer)), path, keys);
+    }
     if (schema.contains("oneOf")) {
         for (const nlohmann::json& variant : schema["oneOf"]) collect(variant, path, keys);
     }
@@ -34,9 +43,8 @@ std::set<std::string> asked_for(const nlohmann::json& document) {
 }
 
 TEST(Schema, NamesTheKeysOfTheReader) {
-    const nlohmann::json schema = load_json(LAMINA_SOURCE_DIR "/docs/scene.schema.json");
     std::set<std::string> in_schema;
-    collect(schema, "", in_schema);
+    collect(root(), "", in_schema);
     std::set<std::string> in_reader = asked_for(minimal_scene());
     // Keys that are asked for only beside others.
     in_reader.merge(asked_for(with("/transfer_function/colormap_range", {0, 1})));
@@ -44,6 +52,7 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.merge(asked_for(with("/render/slice/dither", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/slice/tree", {{"factors", {4, 4}}})));
     in_reader.merge(asked_for(with("/render/project/table", nlohmann::json::object())));
+    in_reader.merge(asked_for(with("/render/project/tree", {{"factors", {4, 4}}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);

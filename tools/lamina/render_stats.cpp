@@ -51,6 +51,12 @@ Json project_to_json(const ProjectPlan& project) {
               {"geometry", name_of(project.geometry)},
               {"dither", name_of(project.dither)}};
     add_emulation(project, json);
+    if (!project.tree.empty()) {
+        json["tree"] = {{"factors", project.tree},
+                        {"nodes", name_of(NodeArithmetic::fixed)},
+                        {"scattered", project.scattered}};
+    }
+    if (project.source == SegmentSource::parts) json["weight_error"] = project.segment_error;
     if (project.source == SegmentSource::table) {
         const SegmentTableRequest& table = project.table;
         json["table"] = {{"scalars", table.scalar_nodes},
@@ -59,12 +65,12 @@ Json project_to_json(const ProjectPlan& project) {
                          {"store", name_of(table.store)},
                          {"format", name_of(table.format)},
                          {"colored", table.colored},
-                         {"error", project.table_error}};
+                         {"error", project.segment_error}};
     } else if (project.source == SegmentSource::cut_table) {
         json["table"] = {{"scalars", project.aligned.scalar_nodes},
                          {"lengths", project.aligned.length_layers},
                          {"colored", project.aligned.colored},
-                         {"error", project.table_error}};
+                         {"error", project.segment_error}};
     }
     return json;
 }

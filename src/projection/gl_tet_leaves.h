@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gl/program.h"
+#include "projection/gl_tet_stream.h"
+#include "scene/compositing_plan.h"
+#include "slicing/tree_leaves.h"
+
+namespace lamina {
+
+// A random order, always the same: parts of one region come to lie in different leaves.
+void scatter(std::span<TetPart> parts);
+
+// The tets of one frame, or their parts, as leaves of a tree: each is a sample.
+class GlTetLeaves : public TreeLeaves {
+  public:
+    // `parts`: back to front. The programs draw opacity alone (OPACITY_ONLY). All must outlive it.
+    GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream, const TetGeometry& geometry,
+                std::span<const TetPart> parts, const GlTetStream::Programs& programs);
+
+    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
+    std::int64_t drawn() const { return drawn_; }
+
+  private:
+    const CompositingPlan& plan_;
+    GlTetStream& stream_;
+    const TetGeometry& geometry_;
+    std::span<const TetPart> parts_;
+    const GlTetStream::Programs& programs_;
+    std::int64_t drawn_ = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/tree_check.h"
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+// `otherwise`: what the scene may ask for instead of one colour.
+void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
+                       const char* otherwise) {
+    if (!is_fixed_point(scene.target)) {
+        fail(
+            "{}: {}.nodes: found \"fixed\" with target \"{}\", expected target fixed8, fixed16 or "
+            "emulated",
+            scene.file.string(), tree, name_of(scene.target));
+    }
+    if (!single_color) {
+        fail(
+            "{}: {}.nodes: found \"fixed\" with a transfer function of several colours, expected "
+            "one colour (LaMar 2004, section 6){}",
+            scene.file.string(), tree, otherwise);
+    }
+}
+
+}  // namespace
+
+void check_slice_tree(const Scene& scene, bool single_color) {
+    if (scene.slice.tree->nodes == NodeArithmetic::fixed) {
+        check_fixed_nodes(scene, single_color, "render.slice.tree", ", or \"nodes\": \"shader\"");
+    } else if (scene.target == Target::emulated) {
+        fail(
+            "{}: render.slice.tree.nodes: found \"shader\" with target \"emulated\", expected "
+            "\"fixed\": nodes computed in a shader write fixed8, fixed16, float16 or float32",
+            scene.file.string());
+    }
+}
+
+void check_project_tree(const Scene& scene, bool single_color) {
+    const TreeSettings& tree = *scene.project.tree;
+    const ProjectSettings& project = scene.project;
+    const std::string file = scene.file.string();
+    if (tree.automatic || tree.nodes == NodeArithmetic::shader) {
+        fail(
+            "{}: render.project.{}, expected an object with \"factors\" and \"nodes\": \"fixed\": "
+            "nodes computed in a shader march slabs, and tets are drawn one by one",
+            file, tree.automatic ? "tree: found \"auto\"" : "tree.nodes: found \"shader\"");
+    }
+    check_fixed_nodes(scene, single_color, "render.project.tree", "");
+    if (project.geometry == ProjectGeometry::triangles ||
+        project.interpolation == Interpolation::linear ||
+        project.coloring == Coloring::attenuation || project.coloring == Coloring::vertex) {
+        fail(
+            "{}: render.project.tree: found geometry \"{}\", interpolation \"{}\" and coloring "
+            "\"{}\", expected silhouettes, perspective and preintegrated or analytic",
+            file, name_of(project.geometry), name_of(project.interpolation),
+            name_of(project.coloring));
+    }
+    if (project.table && project.table->store == TableStore::opacity) {
+        fail(
+            "{}: render.project.table.store: found \"opacity\" with render.project.tree, expected "
+            "\"mean_extinction\": leaves multiply optical depth",
+            file);
+    }
+}
+
+}  // namespace lamina
