@@ -98,8 +98,8 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, cons
                              facts.longest_edge * facts.max_extinction));
     row("segments", name_of(project.source));
     if (project.source == SegmentSource::parts) {
-        row("parts", fmt::format("{} of {} visible tets, cut at the transfer function's points",
-                                 facts.parts, facts.tets - facts.transparent_tets));
+        row("parts", fmt::format("{} visible tets cut at the transfer function's points into {}",
+                                 facts.tets - facts.transparent_tets, facts.parts));
         if (!project.single_color) {
             row("weight error",
                 fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
