@@ -80,8 +80,8 @@ vec2 find_depths(vec2 place) {
 vec2 cut_depths(vec2 depths, vec2 place) {
     uint fronts = floatBitsToUint(limits.z);
     bool lower_front = (fronts & 8u) != 0u, upper_front = (fronts & 16u) != 0u;
-    float lower = cuts.x + cuts.y * place.x + cuts.z * place.y;
-    float upper = cuts.w + limits.x * place.x + limits.y * place.y;
+    precise float lower = cuts.x + cuts.y * place.x + cuts.z * place.y;
+    precise float upper = cuts.w + limits.x * place.x + limits.y * place.y;
     float enter = max(depths.x, lower_front ? lower : depths.x);
     float leave = min(depths.y, lower_front ? depths.y : lower);
     return vec2(max(enter, upper_front ? upper : enter), min(leave, upper_front ? leave : upper));
@@ -94,21 +94,20 @@ TetRun find_run() {
 #ifdef CUT
     depths = cut_depths(depths, place);
 #endif
-    bool inside = depths.y > depths.x;
+    depths = depths.y > depths.x ? depths : vec2(0.0);  // missed: finite numbers, and no length
     TetRun run;
 #ifdef ORTHOGRAPHIC
-    run.world_length = inside ? depths.y - depths.x : 0.0;
+    run.world_length = depths.y - depths.x;
     vec2 from_center = depths;
     vec2 reach = vec2(1.0);
 #else
     // z = -1 / depth; differences of z from differences of depth, so that far eyes cost no digits (NUMERICS section 6).
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
-    float world_length = (depths.y - depths.x) * z.x * z.y;
+    run.world_length = (depths.y - depths.x) * z.x * z.y;
 #ifndef THICKNESS_DZ
     vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
-    world_length *= sqrt(1.0 + dot(from_middle, from_middle));
+    run.world_length *= sqrt(1.0 + dot(from_middle, from_middle));
 #endif
-    run.world_length = inside ? world_length : 0.0;
     vec2 from_center = depths * z * center.w;
     vec2 reach = z;
 #endif

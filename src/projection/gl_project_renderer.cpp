@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
-#include <memory>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -102,6 +101,7 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
     }
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
+    if (parts_->count() == 0) return;
     const auto parts = static_cast<std::size_t>(parts_->count());
     if (is_fan(plan_)) {
         stream_.emplace(FanGeometry::largest_size(), fan_attributes, parts);
@@ -114,7 +114,6 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
 
 // Samples are the parts: as many in every view.
 void GlProjectRenderer::make_tree() {
-    if (parts_->count() == 0) return;
     CompositingPlan nodes = plan_;
     if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
     const TreeShape shape(plan_.tree, static_cast<int>(parts_->count()));
@@ -139,7 +138,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));
     order_ms_ = draw_ms_ = 0;
-    parts_drawn_ = 0;
+    tets_drawn_ = 0;
     if (!stream_) return;
     const Stopwatch order_watch;
     const auto parts = list_parts(view);
@@ -184,14 +183,15 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
 
 void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,
                                    Progress* progress) {
-    std::unique_ptr<TetGeometry> geometry;
+    std::optional<FanGeometry> fans;
+    std::optional<SilhouetteGeometry> silhouettes;
     if (is_fan(plan_)) {
-        geometry = std::make_unique<FanGeometry>(mesh_, transfer_function_, plan_, view);
+        fans.emplace(mesh_, transfer_function_, plan_, view);
     } else {
-        geometry = std::make_unique<SilhouetteGeometry>(
-            TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view,
-                         plan_.near_depth, margin_));
+        silhouettes.emplace(TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
+                                         view, plan_.near_depth, margin_));
     }
+    const TetGeometry& geometry = fans ? static_cast<const TetGeometry&>(*fans) : *silhouettes;
     // The next kind that has a program; fans are all plain.
     GlTetStream::Programs programs{};
     gl::Program* last = nullptr;
@@ -201,13 +201,13 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
     }
     stream_->start_frame();
     if (tree_) {
-        GlTetLeaves leaves(plan_, *stream_, *geometry, parts, programs);
+        GlTetLeaves leaves(plan_, *stream_, geometry, parts, programs);
         tree_->draw(leaves, target_, progress);
-        parts_drawn_ = leaves.drawn();
+        tets_drawn_ = leaves.drawn();
         return;
     }
     const CompositingState state(plan_, false, target_);
-    parts_drawn_ = stream_->draw(*geometry, parts, programs, [&] {
+    tets_drawn_ = stream_->draw(geometry, parts, programs, [&] {
         if (progress != nullptr) progress->advance();
     });
 }

@@ -45,8 +45,7 @@ class GlProjectRenderer {
     Image read() const;
 
     const OrderReport& order_report() const { return order_.report(); }
-    // Tets, or parts of them, of the last frame, like these:
-    std::int64_t parts_drawn() const { return parts_drawn_; }
+    std::int64_t tets_drawn() const { return tets_drawn_; }  // of the last frame, like these:
     double order_ms() const { return order_ms_; }
     double geometry_ms() const { return stream_ ? stream_->write_ms() : 0; }
     double draw_ms() const { return draw_ms_; }  // with the geometry, which runs beside it
@@ -74,7 +73,7 @@ class GlProjectRenderer {
     std::optional<VisibleParts> parts_;
     std::optional<GlFixedTree> tree_;  // where the plan has one
     std::vector<TetPart> scattered_;   // of every frame, where the plan says so
-    std::int64_t parts_drawn_ = 0;
+    std::int64_t tets_drawn_ = 0;
     double order_ms_ = 0, draw_ms_ = 0;
 };
 

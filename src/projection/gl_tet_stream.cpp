@@ -56,6 +56,11 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
     }
 }
 
+void GlTetStream::set_barriers(bool barriers) {
+    barriers_ = barriers;
+    if (barriers) part_indices_.reserve(batch_parts_);
+}
+
 std::size_t GlTetStream::batch_count(std::size_t parts) const {
     return (parts + batch_parts_ - 1) / batch_parts_;
 }
@@ -63,6 +68,7 @@ std::size_t GlTetStream::batch_count(std::size_t parts) const {
 std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                                const Programs& programs, const std::function<void()>& batch_done) {
     std::int64_t drawn = 0;
+    std::int32_t last_tet = none;
     for (std::size_t first = 0; first < parts.size(); first += batch_parts_) {
         const auto batch_parts = parts.subspan(first, std::min(batch_parts_, parts.size() - first));
         Batch& batch = batches_[next_batch_++ % batches_.size()];
@@ -70,8 +76,12 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
         const Stopwatch watch;
         write(geometry, batch_parts, batch);
         write_ms_ += watch.milliseconds();
-        for (std::size_t chunk = 0; chunk < chunks_of(batch_parts.size()); ++chunk)
-            drawn += chunks_[chunk].drawn;
+        for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
+            const Chunk& chunk = chunks_[i];
+            if (chunk.tets == 0) continue;
+            drawn += chunk.tets - (chunk.first_tet == last_tet);  // parts on both sides are one tet
+            last_tet = chunk.last_tet;
+        }
         batch.vertex_array.bind();
         if (size_.has_record) batch.records.bind_storage(0);
         if (barriers_) {
@@ -110,7 +120,11 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
                        size_.has_record ? records + i : nullptr, static_cast<std::uint32_t>(i)});
         vertex += written.vertices;
         index += written.indices;
-        chunk.drawn += written.indices > 0;
+        if (written.indices > 0 && parts[i].tet != chunk.last_tet) {
+            ++chunk.tets;
+            chunk.last_tet = parts[i].tet;
+            if (chunk.first_tet == none) chunk.first_tet = parts[i].tet;
+        }
         chunk.kind = std::max(chunk.kind, written.kind);
         if (barriers_) part_indices_[i] = static_cast<int>(written.indices);
     }

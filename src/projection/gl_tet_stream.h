@@ -30,12 +30,12 @@ class GlTetStream {
                 std::size_t parts);
 
     // Waits between parts, for programs that read the target as a texture.
-    void set_barriers(bool barriers) { barriers_ = barriers; }
+    void set_barriers(bool barriers);
 
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; some the same
     // Draws parts in their order with the state that is bound; Ctrl-C ends it between batches.
-    // `batch_done` is called after each. Returns how many were drawn: those that cover the
-    // centre of a pixel.
+    // `batch_done` is called after each. Returns how many tets were drawn: those that cover
+    // the centre of a pixel.
     std::int64_t draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                       const Programs& programs, const std::function<void()>& batch_done);
 
@@ -49,11 +49,13 @@ class GlTetStream {
         gl::VertexArray vertex_array;
         gl::Fence drawn;
     };
-    // Parts that one task writes to a part of the buffers of its own.
+    static constexpr std::int32_t none = -1;
+    // Parts that one task writes to a region of the buffers of its own.
     struct Chunk {
         int indices = 0;
-        std::int64_t drawn = 0;
-        FragmentKind kind = FragmentKind::thin;  // the last that a part of it needs
+        std::int64_t tets = 0;  // drawn; parts of one that follow each other are one
+        std::int32_t first_tet = none, last_tet = none;  // of these
+        FragmentKind kind = FragmentKind::thin;          // the last that a part of it needs
     };
     void write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch);
     void write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,

@@ -193,8 +193,8 @@ void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
     if (upper.front) record.fronts |= upper_cut_is_front;
     const auto optics = [&](double scalar) -> std::array<float, 4> {
         const OpticalProperties found = optics_at(piece, scalar);
-        return {static_cast<float>(found.color.r), static_cast<float>(found.color.g),
-                static_cast<float>(found.color.b), finite_float(found.extinction)};
+        return {finite_float(found.color.r), finite_float(found.color.g),
+                finite_float(found.color.b), finite_float(found.extinction)};
     };
     record.low = optics(field.least());
     record.high = optics(field.largest());

@@ -2,10 +2,13 @@
 #include "projection/visible_parts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <numeric>
 
 #include "base/parallel.h"
+#include "projection/part_field.h"
 
 namespace lamina {
 
@@ -68,23 +71,15 @@ void VisibleParts::append_parts(std::int32_t tet, const TetPieces::Span& span, c
 
 // Of an eye at infinity: below or above all.
 double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
-    const auto point = [&](std::size_t corner) -> const glm::dvec3& {
-        return mesh_.points()[static_cast<std::size_t>(tet[corner])];
-    };
-    const auto value = [&](std::size_t corner) {
-        return scalar_[static_cast<std::size_t>(tet[corner])];
-    };
-    const glm::dvec3 e1 = point(1) - point(0), e2 = point(2) - point(0), e3 = point(3) - point(0);
-    const glm::dvec3 n1 = glm::cross(e2, e3);
-    const glm::dvec3 slope = (value(1) - value(0)) * n1 +
-                             (value(2) - value(0)) * glm::cross(e3, e1) +
-                             (value(3) - value(0)) * glm::cross(e1, e2);
-    const double volume = glm::dot(e1, n1);
-    if (eye.at_infinity) {
-        const double along = glm::dot(slope, eye.position) * (volume < 0 ? -1 : 1);
-        return along > 0 ? -INFINITY : INFINITY;
+    PartField::Corners corners;
+    PartField::Values values;
+    for (std::size_t i = 0; i < 4; ++i) {
+        corners[i] = mesh_.points()[static_cast<std::size_t>(tet[i])];
+        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
     }
-    return value(0) + glm::dot(slope, eye.position - point(0)) / volume;
+    const PartField field(corners, values, nullptr);
+    if (!eye.at_infinity) return field.at(eye.position);
+    return glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY : INFINITY;
 }
 
 }  // namespace lamina

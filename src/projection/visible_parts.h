@@ -15,8 +15,8 @@ namespace lamina {
 // What of a mesh is drawn, farthest first.
 class VisibleParts {
   public:
-    // `cut`: into the transfer function's pieces; else whole tets. `draw_transparent`: also tets
-    // that show nothing, whole. All must outlive it.
+    // `cut`: into the transfer function's pieces, those that show something; else whole tets, with
+    // `draw_transparent` also those that show nothing. All must outlive it.
     VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
                  bool cut, bool draw_transparent);
 

@@ -26,9 +26,9 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
     facts.single_color = transfer_function.single_color(lo, hi);
     facts.max_extinction = transfer_function.max_extinction(lo, hi);
     for (const Tet& tet : mesh.mesh.tets()) {
-        const int parts = pieces.count(pieces.visible(mesh.scalar.values, tet));
-        facts.transparent_tets += parts == 0;
-        facts.parts += parts;
+        const TetPieces::Span span = pieces.visible(mesh.scalar.values, tet);
+        facts.transparent_tets += span.empty();
+        facts.parts += pieces.count(span);
     }
 }
 
@@ -63,10 +63,13 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     }
     facts.convexity = convexity(mesh.mesh);
     measure_edges(mesh.mesh, facts);
-    const TetPieces pieces(scene.transfer_function, facts.range);
+    const TetPieces pieces(scene.transfer_function,
+                           drawn_range(scene.transfer_function, facts.range));
     measure_transfer_function(scene, mesh, pieces, facts);
     measure_view(scene, mesh.mesh, facts);
-    if (scene.method == Method::project) facts.trial_rays = find_trial_rays(scene, mesh, pieces);
+    const bool integrated = scene.method == Method::project && facts.parts > 0 &&
+                            scene.project.coloring == Coloring::preintegrated && !facts.constant;
+    if (integrated) facts.trial_rays = find_trial_rays(scene, mesh, pieces);
     return facts;
 }
 

@@ -40,7 +40,8 @@ struct MeshFacts {
     bool in_front = true;  // some point lies in front of the eye's plane
 
     // Rays through pixels all over the picture, as runs through tets, nearest first, and single
-    // tets that show something: what tables of segments are tried on.
+    // tets that show something: what ways to integrate segments are tried on. None where the
+    // scene leaves no choice.
     struct Run {
         double front, back;  // scalars
         double length;       // world units

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/vec4.hpp>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
@@ -21,15 +22,18 @@ namespace {
 // DESIGN section 4: there is no near key; the eye's plane plus 1e-6 of the box's diagonal.
 constexpr double near_share = 1e-6;
 
-// What the table may add to the picture's error, in 1/255.
+// What a table may add to the picture's error, in 1/255.
 constexpr double most_segment_error = 0.5;
 
-// What tables are tried on is a sample: the rest of the picture may be this much worse.
+// What a table is tried on is a sample: the rest of the picture may be this much worse.
 constexpr double sampling_margin = 1.25;
 
 // Of a tet that shows something, on the average: where the transfer function's points cut tets into
-// more, tables that know the transfer function are faster.
+// more, a table that knows the transfer function is faster.
 constexpr std::int64_t most_parts = 8;
+
+// Of a transfer function: with more, a table takes longer to build than it saves.
+constexpr std::size_t most_table_points = 200;
 
 // Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
 // their faces are always found in double, which takes some third longer.
@@ -53,8 +57,8 @@ class ProjectPlanner {
         plan_.thickness = settings_.thickness;
         plan_.table_filtered = capabilities_.exact_float_filter;
         plan_.near_depth = near_share * facts_.diagonal;
-        plan_.range = facts_.range;
-        if (plan_.range.lo == plan_.range.hi) plan_.range.hi = next_scalar(plan_.range.lo);
+        plan_.range = drawn_range(scene_.transfer_function, facts_.range);
+        check_size();
         choose_geometry();
         choose_precision();
         choose_visibility();
@@ -72,9 +76,12 @@ class ProjectPlanner {
         return true;
     }
 
-    // A little more, so that shaders have a range to divide by.
-    static double next_scalar(double value) {
-        return value + std::max(std::abs(value) * 1e-6, 1e-30);
+    // Shaders have float32.
+    void check_size() const {
+        constexpr double least = 1e-20, most = 1e20;
+        if (facts_.diagonal == 0 || (facts_.diagonal >= least && facts_.diagonal <= most)) return;
+        fail("{}: the diagonal of the mesh is {}, expected {} to {} for method project",
+             scene_.mesh_file.string(), facts_.diagonal, least, most);
     }
 
     void choose_geometry() {
@@ -96,10 +103,12 @@ class ProjectPlanner {
             leave_out(transparent || !facts_.in_front, "drawing",
                       transparent ? "the transfer function shows no value that the mesh has"
                                   : "the mesh lies behind the eye");
-        plan_.draw_transparent =
-            !leave_out(facts_.transparent_tets > 0, "transparent_tets",
-                       fmt::format("{} of {} tets show nothing: they are ordered and not projected",
-                                   facts_.transparent_tets, facts_.tets));
+        const bool left_out =
+            leave_out(facts_.transparent_tets > 0, "transparent_tets",
+                      fmt::format("{} of {} tets show nothing: they are ordered and not projected",
+                                  facts_.transparent_tets, facts_.tets));
+        // Where a value is no finite number, there is nothing that could be drawn.
+        plan_.draw_transparent = !left_out && facts_.non_finite == 0;
     }
 
     void choose_precision() {
@@ -176,11 +185,13 @@ class ProjectPlanner {
             plan_.source = SegmentSource::constant;
         } else if (settings_.coloring == Coloring::analytic) {
             plan_.source = SegmentSource::analytic;
+        } else if (plan_.nothing_visible) {
+            return;
         } else if (settings_.table) {
             plan_.table = request_of(*settings_.table);
             plan_.segment_error = error_of(plan_.table);
             plan_.segment_reason = "as the scene asks";
-        } else if (!plan_.nothing_visible) {
+        } else {
             choose_table();
         }
     }
@@ -232,29 +243,29 @@ class ProjectPlanner {
 
     void choose_table() {
         const bool whole = plan_.geometry == ProjectGeometry::triangles;
+        plan_.segment_reason = fmt::format("at most on {} rays of this view and tets of this mesh",
+                                           facts_.trial_rays.size());
         if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
             plan_.source = SegmentSource::parts;
             plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
-            plan_.segment_reason = trial();
-            return;
+        } else if (plan_.plain && try_cut_table()) {
+            plan_.source = SegmentSource::cut_table;
+        } else {
+            plan_.source = SegmentSource::analytic;  // slower, and right whatever the scene
         }
-        // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh
-        // that has a value next to one would be off by several codes.
+    }
+
+    // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
+    // has a value next to one would be off by several codes.
+    bool try_cut_table() {
+        if (scene_.transfer_function.knots().size() > most_table_points) return false;
         const double depth = facts_.max_extinction * facts_.longest_edge;
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
-        plan_.source = SegmentSource::cut_table;
         plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge,
                          !plan_.single_color};
         plan_.segment_error = error_of_aligned();
-        plan_.segment_reason = trial();
-        const double enough = std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
-        if (plan_.segment_error <= enough) return;
-        plan_.source = SegmentSource::analytic;  // slower, and right whatever the transfer function
-    }
-
-    std::string trial() const {
-        return fmt::format("at most on {} rays of this view and tets of this mesh",
-                           facts_.trial_rays.size());
+        return plan_.segment_error <=
+               std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
     }
 
     double error_of_parts() const {
@@ -270,8 +281,8 @@ class ProjectPlanner {
                     const double p = share * run.length * piece.at_from.extinction,
                                  q = share * run.length * piece.at_to.extinction;
                     const double alpha = opacity_from_depth(p / 2 + q / 2);
-                    const double weight = p / 2 + q / 2 <= thin_depth ? thin_front_weight(p, q)
-                                                                      : weights.lookup(p, q);
+                    const bool thin = plan_.plain && p / 2 + q / 2 <= thin_depth;
+                    const double weight = thin ? thin_front_weight(p, q) : weights.lookup(p, q);
                     segment.color +=
                         (1 - segment.alpha) * (alpha * piece.at_to.color +
                                                weight * (piece.at_from.color - piece.at_to.color));

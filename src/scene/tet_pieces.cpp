@@ -5,14 +5,32 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 
 namespace lamina {
+
+ValueRange drawn_range(const TransferFunction& transfer_function, ValueRange range) {
+    const auto knots = transfer_function.knots();
+    const bool step = std::ranges::count(knots, range.hi, &TransferKnot::value) > 1;
+    if (range.lo == range.hi || step) {
+        range.hi += std::max({1e-6 * (range.hi - range.lo),
+                              range.lo == range.hi ? 1e-6 * std::abs(range.hi) : 0, 1e-30,
+                              4 * std::numeric_limits<double>::epsilon() * std::abs(range.hi)});
+    }
+    return range;
+}
 
 TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange& range) {
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
+            const bool transparent = piece.at_from.extinction == 0 && piece.at_to.extinction == 0;
+            if (transparent && !pieces_.empty() && this->transparent(last())) {  // one gap
+                pieces_.back().to = piece.to;
+                pieces_.back().at_to = piece.at_to;
+                return;
+            }
             pieces_.push_back(piece);
-            transparent_.push_back(piece.at_from.extinction == 0 && piece.at_to.extinction == 0);
+            visible_before_.push_back(visible_before_.back() + (transparent ? 0 : 1));
         });
 }
 
@@ -31,19 +49,18 @@ TetPieces::Span TetPieces::visible(std::span<const double> scalar, const Tet& te
     span.first =
         static_cast<std::int32_t>(std::max<std::ptrdiff_t>(above - pieces_.begin() - 1, 0));
     const auto end = std::ranges::lower_bound(pieces_, hi, {}, &LinearPiece::to);
-    const auto last = static_cast<std::int32_t>(
-        std::min<std::ptrdiff_t>(end - pieces_.begin(), std::ssize(pieces_) - 1));
-    span.last = lo < hi ? last : span.first;
+    const auto last_of_range =
+        static_cast<std::int32_t>(std::min<std::ptrdiff_t>(end - pieces_.begin(), last()));
+    span.last = lo < hi ? last_of_range : span.first;
     while (!span.empty() && transparent(span.first)) ++span.first;
     while (!span.empty() && transparent(span.last)) --span.last;
     return span;
 }
 
 int TetPieces::count(const Span& span) const {
-    int visible = 0;
-    for (std::int32_t piece = span.first; piece <= span.last; ++piece)
-        visible += !transparent(piece);
-    return visible;
+    if (span.empty()) return 0;
+    return visible_before_[static_cast<std::size_t>(span.last) + 1] -
+           visible_before_[static_cast<std::size_t>(span.first)];
 }
 
 }  // namespace lamina

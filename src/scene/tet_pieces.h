@@ -11,15 +11,22 @@
 
 namespace lamina {
 
-// The linear pieces of a transfer function over a range, and which of them a tet's scalar runs
-// through.
+// The range of a mesh's scalar as it is drawn, lo < hi: a little more than it is where it is one
+// value, or where the transfer function has a step at its end, whose later side counts.
+ValueRange drawn_range(const TransferFunction& transfer_function, ValueRange range);
+
+// The linear pieces of a transfer function over a range, neighbours that show nothing as one, and
+// which of them a tet's scalar runs through.
 class TetPieces {
   public:
-    // range: finite, lo <= hi.
+    // range: finite, lo < hi.
     TetPieces(const TransferFunction& transfer_function, const ValueRange& range);
 
     const std::vector<LinearPiece>& pieces() const { return pieces_; }  // ascending
-    bool transparent(int piece) const { return transparent_[static_cast<std::size_t>(piece)] != 0; }
+    bool transparent(std::int32_t piece) const {
+        const auto place = static_cast<std::size_t>(piece);
+        return visible_before_[place] == visible_before_[place + 1];
+    }
 
     // Of the pieces that some point of the tet lies in and that show something the first and the
     // last: last < first where there is none, or a corner has a value that is no finite number.
@@ -33,8 +40,10 @@ class TetPieces {
     int count(const Span& span) const;
 
   private:
+    std::int32_t last() const { return static_cast<std::int32_t>(pieces_.size()) - 1; }
+
     std::vector<LinearPiece> pieces_;
-    std::vector<char> transparent_;
+    std::vector<int> visible_before_{0};  // of pieces that show something, before each and in all
 };
 
 }  // namespace lamina

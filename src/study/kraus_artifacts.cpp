@@ -39,7 +39,16 @@ std::vector<Variant> ladder(const Scene& scene) {
              with_target(scene, Target::fixed8, ProjectDither::after_blend)},
             {"fixed16 buffer", with_target(scene, Target::fixed16)},
             {"float16 buffer", with_target(scene, Target::float16)},
-            {"automatic table", with_automatic_table(scene)}};
+            {"default", with_default_integration(scene)}};
+}
+
+// Buffers again, for `faint` tets.
+std::vector<Variant> buffers(const Scene& scene) {
+    return {{all_remedies, scene},
+            {"fixed8 buffer", with_target(scene, Target::fixed8)},
+            {"fixed8 buffer, alpha", with_target(scene, Target::fixed8, ProjectDither::alpha)},
+            {"fixed8 buffer, after_blend",
+             with_target(scene, Target::fixed8, ProjectDither::after_blend)}};
 }
 
 const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::string& name) {
@@ -92,15 +101,25 @@ void judge(Findings& findings, const KrausSubject& subject,
                  std::abs(bias) <= 0.3, fmt::format("L1 {:.3f}", bias));
 }
 
+void judge_faint(Findings& findings, const KrausSubject& subject,
+                 const std::vector<VariantErrors>& errors) {
+    const std::string on = subject.name + ", total opacity .1: ";
+    judge_chain(findings, on + "8 bits are worse than dithered by the paper, and these than float",
+                errors, {"fixed8 buffer", "fixed8 buffer, alpha", all_remedies});
+    judge_chain(findings,
+                on + "8 bits are worse than dithered after the blend, and these than float", errors,
+                {"fixed8 buffer", "fixed8 buffer, after_blend", all_remedies});
+}
+
 }  // namespace
 
 Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage) {
     Findings findings;
     Json rows = Json::array();
     for (KrausSubject* subject : stage.subjects()) {
-        const auto add = [&](const char* transfer_function, const Scene& scene) {
-            const auto errors = variant_errors("artifacts: " + subject->name, *subject,
-                                               ladder(scene), stage.capabilities());
+        const auto add = [&](const char* transfer_function, const std::vector<Variant>& variants) {
+            const auto errors = variant_errors("artifacts: " + subject->name, *subject, variants,
+                                               stage.capabilities());
             for (const VariantErrors& e : errors) {
                 Json row = error_row(*subject, e);
                 row["transfer_function"] = transfer_function;
@@ -108,17 +127,19 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
             }
             return errors;
         };
-        judge(findings, *subject, add("smooth", subject->smooth));
-        add("isosurface", subject->isosurface);
+        judge(findings, *subject, add("smooth", ladder(subject->smooth)));
+        judge_faint(findings, *subject, add("faint", buffers(subject->faint)));
+        add("isosurface", ladder(subject->isosurface));
     }
     write_text(folder / "artifacts.csv", csv_of_rows(rows));
     return with_data_note(
-        findings.result({{"files", {"artifacts.csv"}},
-                         {"pixels", {stage.sizes().width, stage.sizes().height}},
-                         {"rows", rows}},
-                        nullptr,
-                        "Judged with the smooth transfer functions, of total opacity up to .5; "
-                        "tables hold opacity, 256 x 256 x 16."),
+        findings.result(
+            {{"files", {"artifacts.csv"}},
+             {"pixels", {stage.sizes().width, stage.sizes().height}},
+             {"rows", rows}},
+            nullptr,
+            "Judged with the smooth transfer functions, of total opacity up to .5 (.1 where "
+            "said); tables hold opacity, 256 x 256 x 16."),
         stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 

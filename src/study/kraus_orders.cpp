@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What tables and float32 may add where an order is right, in 1/255.
+// What integration and float32 may add where an order is right, in 1/255.
 constexpr double right_linf = 1;
 
 }  // namespace
@@ -25,7 +25,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
     int right = 0, meshes = 0;
     std::string williams;
     for (KrausSubject* subject : stage.subjects()) {
-        const Scene scene = with_automatic_table(subject->dense);
+        const Scene scene = with_default_integration(subject->dense);
         const auto made =
             write_compared_pictures(folder, "orders_" + subject->name, *subject,
                                     {{"none", with_order(scene, ProjectOrder::none)},
@@ -60,7 +60,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
         findings.result({{"files", files},
                          {"pixels", {stage.sizes().width, stage.sizes().height}},
                          {"rows", rows}},
-                        nullptr, "Total opacity up to .95, automatic tables, float32."),
+                        nullptr, "Total opacity up to .95, default integration, float32."),
         stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 

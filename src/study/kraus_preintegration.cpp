@@ -31,8 +31,8 @@ std::vector<Variant> ways(const Scene& scene) {
         made.project.table->construction = construction;
         return made;
     };
-    Scene automatic_table = scene, closed_form = scene;
-    automatic_table.project.table.reset();
+    Scene default_integration = scene, closed_form = scene;
+    default_integration.project.table.reset();
     closed_form.project.coloring = Coloring::analytic;
     using enum TableStore;
     return {
@@ -40,7 +40,7 @@ std::vector<Variant> ways(const Scene& scene) {
         {"opacity, exact", table(opacity, TableConstruction::exact)},
         {"mean extinction, incremental", table(mean_extinction, TableConstruction::incremental)},
         {"mean extinction, exact", table(mean_extinction, TableConstruction::exact)},
-        {"automatic table", automatic_table},
+        {"default", default_integration},
         {"analytic", closed_form}};
 }
 

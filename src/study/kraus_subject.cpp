@@ -10,6 +10,7 @@
 namespace lamina {
 namespace {
 
+constexpr double faint_opacity = 0.1;
 constexpr double smooth_opacity = 0.48;  // found on a coarse picture: a finer one has a little more
 constexpr double dense_opacity = 0.95;
 constexpr int coarse = 4;  // pixels
@@ -106,7 +107,7 @@ KrausView kraus_view(const std::string& name) {
 
 KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height) {
-    KrausSubject subject{view.name, measured_data, DrawnMesh(std::move(mesh)), {}, {}, {}};
+    KrausSubject subject{view.name, measured_data, DrawnMesh(std::move(mesh)), {}, {}, {}, {}};
     Scene scene;
     scene.method = Method::project;
     scene.camera = view.camera;
@@ -123,6 +124,7 @@ KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool meas
     };
     const double depth = largest_depth(subject.mesh, scene, view.smooth, thin);
     subject.smooth = with(view.smooth, depth, smooth_opacity);
+    subject.faint = with(view.smooth, depth, faint_opacity);
     subject.dense = with(view.smooth, depth, dense_opacity);
     scene.camera = view.isosurface_camera;
     subject.isosurface =

@@ -14,6 +14,7 @@ struct KrausSubject {
     bool measured_data;  // read from a file, not generated
     DrawnMesh mesh;
     Scene smooth;      // total opacity up to .5
+    Scene faint;       // the same, up to .1
     Scene dense;       // the same up to .95
     Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
 };

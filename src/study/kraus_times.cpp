@@ -46,11 +46,11 @@ std::vector<Technique> techniques(const Scene& best) {
                       with_target(scene, Target::fixed8, ProjectDither::after_blend)});
     ladder.push_back({"log2, float16 buffer", with_target(scene, Target::float16)});
     ladder.push_back({"log2, float32 buffer", with_target(scene, Target::float32), 1.781});
-    ladder.push_back({"ours, triangles", with_automatic_table(fans)});
+    ladder.push_back({"ours, triangles", with_default_integration(fans)});
     ladder.push_back({"ours, silhouettes",
-                      with_automatic_table(with_geometry(best, ProjectGeometry::silhouette))});
+                      with_default_integration(with_geometry(best, ProjectGeometry::silhouette))});
     ladder.push_back({"ours, the default",
-                      with_automatic_table(with_geometry(best, ProjectGeometry::automatic))});
+                      with_default_integration(with_geometry(best, ProjectGeometry::automatic))});
     return ladder;
 }
 
@@ -64,7 +64,7 @@ void add_stages(Json& row, const GlProjectRenderer& renderer) {
     row["order_ms"] = renderer.order_ms();
     row["geometry_ms"] = renderer.geometry_ms();
     row["draw_ms"] = renderer.draw_ms();
-    row["tets_drawn"] = renderer.parts_drawn();
+    row["tets_drawn"] = renderer.tets_drawn();
 }
 
 double ratio(const Json& rows, std::size_t of, std::size_t to) {

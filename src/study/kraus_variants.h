@@ -15,7 +15,7 @@ inline Scene with_mapping(Scene scene, LengthMapping mapping) {
     scene.project.table->mapping = mapping;
     return scene;
 }
-inline Scene with_automatic_table(Scene scene) {
+inline Scene with_default_integration(Scene scene) {
     scene.project.table.reset();
     return scene;
 }

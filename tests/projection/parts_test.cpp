@@ -82,6 +82,24 @@ TEST_F(Parts, EyeOnASurfaceOfThePoints) {
     }
 }
 
+// Labels: what has the last one is constant there, and the later side of the step counts.
+TEST_F(Parts, StepAtTheLargestValue) {
+    MeshData data =
+        test::kuhn_box({4, 4, 4}, [](const glm::dvec3& p) { return p.x < 2 ? 0. : 1.; });
+    const SceneMesh mesh = scene_mesh(std::move(data));
+    Scene wanted = scene(TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(1, {1, .5, 0}, .2),
+                                                   knot(1, {0, 0, 1}, .8)}),
+                         {7, 6, 9});
+    wanted.camera.center = {2, 2, 2};
+    for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
+        wanted.project.coloring = coloring;
+        const Image drawn = project(mesh, wanted, capabilities());
+        // The step lies 1e-6 of the range beyond the end: 1e-6 of the edge of a tet that reaches
+        // it.
+        EXPECT_LE(image_error(drawn, trace(mesh, wanted)).all.linf, 0.05);
+    }
+}
+
 TEST_F(Parts, WhatShowsNothingIsNotListed) {
     const TransferFunction peak = TransferFunction::linear(
         {knot(.6, {1, 1, 1}, 0), knot(.65, {1, 1, 1}, 1), knot(.7, {1, 1, 1}, 0)});

@@ -53,11 +53,20 @@ TEST(ProjectPlan, UsesWhatTheTransferFunctionNeeds) {
 
 TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
     std::vector<TransferKnot> knots;
-    for (int i = 0; i <= 200; ++i) {
-        const double place = i / 200.0;
+    for (int i = 0; i < 200; ++i) {
+        const double place = i / 199.0;
         knots.push_back(knot(place, {place, 1 - place, .5 + .5 * std::sin(60 * place)}, place));
     }
-    const Plan many = plan_for(TransferFunction::linear(knots));
+    // Of few tets each may fill the picture: exact, whatever it takes.
+    EXPECT_EQ(plan_for(TransferFunction::linear(knots)).project.source, SegmentSource::analytic);
+    const SceneMesh large = scene_mesh(test::kuhn_box(
+        {12, 12, 12}, [](const glm::dvec3& p) { return std::fmod(.3 * p.x + .7 * p.y, 1.0); }));
+    Scene wanted = projection_scene(TransferFunction::linear(knots), 32, 32);
+    wanted.camera.eye = {20, 20, 20};
+    wanted.camera.center = {6, 6, 6};
+    Capabilities capabilities;
+    capabilities.max_texture_size = 1024;
+    const Plan many = plan_of(large, wanted, capabilities);
     EXPECT_EQ(many.project.source, SegmentSource::cut_table);
     EXPECT_LE(many.project.segment_error, .4);  // .5 less what sampling may miss
     const Plan triangles = plan_for(

@@ -112,8 +112,8 @@ TEST_F(Variants, AfterBlendIsUnbiased) {
     EXPECT_LE(std::abs(error.l1), 0.3);
 }
 
-// Nothing that is left out changes the picture by more than float32's rounding of a hundred OVERs
-// and the tables' error.
+// Nothing that is left out changes the picture by more than float32's rounding of some hundred
+// OVERs and lengths: 100 * 1.2e-7 * 255 = .003.
 TEST_F(Variants, OmissionsKeepThePicture) {
     OmissionSwitch nothing;
     nothing.none = true;
@@ -123,12 +123,13 @@ TEST_F(Variants, OmissionsKeepThePicture) {
         const Scene wanted = scene(transfer_function);
         const Image less = project(mesh_, wanted, capabilities());
         const Image all = project(mesh_, wanted, capabilities(), nothing);
-        EXPECT_LE(image_error(less, all).all.linf, 0.5);
+        EXPECT_LE(image_error(less, all).all.linf, 0.01);
     }
 }
 
-TEST_F(Variants, EmulatedAgreesWithFixed8) {
-    // Native blending rounds alpha to nearest and fuses (NUMERICS section 2, llvmpipe).
+// Native blending rounds alpha to nearest and fuses (NUMERICS section 2, llvmpipe), but it is given
+// associated colours, rounded once more: by less than a code of 65535 at each of some hundred tets.
+TEST_F(Variants, EmulatedAgreesWithFixed16) {
     Scene native = scene();
     native.target = Target::fixed16;
     Scene emulated = scene();

@@ -46,7 +46,7 @@ class ProjectJob : public RenderJob {
         image_.emplace(draw_first_frame(*renderer_, "projecting", request_, view, stats));
         record_stages(stats);
         report_order(stats);
-        stats.tets_drawn = renderer_->parts_drawn();
+        stats.tets_drawn = renderer_->tets_drawn();
     }
 
     void draw_frame(const View& view) override { renderer_->draw(view); }
