@@ -92,16 +92,29 @@ Bounds bounds_of(std::span<const glm::dvec2> points, double margin) {
     return {bounds.min - margin, bounds.max + margin};
 }
 
-ScreenPolygon rectangle(const Bounds& bounds) {
-    const glm::vec2 lo(bounds.min), hi(bounds.max);
+ScreenPolygon rectangle(const Bounds& bounds, double step) {
+    const glm::vec2 lo(glm::floor(bounds.min / step) * step);
+    const glm::vec2 hi(glm::ceil(bounds.max / step) * step);
     return {4, {lo, glm::vec2(hi.x, lo.y), hi, glm::vec2(lo.x, hi.y)}};
 }
 
-// The hull's edges moved outwards by `margin`.
+bool is_convex(const Hull& hull) {
+    for (std::size_t i = 0; i < hull.count; ++i) {
+        const glm::dvec2& a = hull.corners[i];
+        const glm::dvec2& b = hull.corners[(i + 1) % hull.count];
+        const glm::dvec2& c = hull.corners[(i + 2) % hull.count];
+        if (cross(b - a, c - b) <= 0) return false;
+    }
+    return true;
+}
+
+// The hull's edges moved outwards by `margin`, its corners on a grid of half of that: coordinates
+// and cross products are exact there.
 ScreenPolygon enlarged(const Hull& hull, double margin) {
-    ScreenPolygon polygon;
+    const double step = margin / 2;
+    Hull larger;
     const auto add = [&](const glm::dvec2& corner) {
-        polygon.corners[static_cast<std::size_t>(polygon.count++)] = glm::vec2(corner);
+        larger.corners[larger.count++] = glm::round(corner / step) * step;
     };
     glm::dvec2 in = glm::normalize(hull.corners[0] - hull.corners[hull.count - 1]);
     for (std::size_t i = 0; i < hull.count; ++i) {
@@ -117,6 +130,10 @@ ScreenPolygon enlarged(const Hull& hull, double margin) {
         }
         in = out;
     }
+    if (!is_convex(larger)) larger = convex_hull({larger.corners.data(), larger.count});
+    ScreenPolygon polygon;
+    for (std::size_t i = 0; i < larger.count; ++i)
+        polygon.corners[static_cast<std::size_t>(polygon.count++)] = glm::vec2(larger.corners[i]);
     return polygon;
 }
 
@@ -139,7 +156,7 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
     if (hull.count == 0) return {};
     // What a rectangle covers beside the tet is found there to have no thickness.
     if (hull.count == 1 || hull.count > 6)
-        return rectangle(bounds_of({hull.corners.data(), hull.count}, margin));
+        return rectangle(bounds_of({hull.corners.data(), hull.count}, margin), margin / 2);
     return enlarged(hull, margin);
 }
 

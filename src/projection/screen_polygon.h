@@ -18,9 +18,10 @@ struct ScreenPolygon {
 };
 
 // A polygon around `points` (at most 8) that covers every pixel centre nearer to their convex hull
-// than `margin`, in spite of the rounding of corners to the rasteriser's grid: margin is at least 2
-// steps of that. Of count 0 where no pixel centre of a picture of width x height pixels can be
-// covered. Each pixel centre lies in one triangle of a fan around a corner.
+// than half of `margin`, which is 2 steps of the rasteriser's grid. Its corners lie on that grid:
+// rounded by the rasteriser, needles would fold. Of count 0 where no pixel centre of a picture of
+// width x height pixels can be covered. Each pixel centre lies in one triangle of a fan around a
+// corner.
 ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 }  // namespace lamina

@@ -95,9 +95,12 @@ class ProjectPlanner {
         plan_.geometry = settings_.geometry;
         if (plan_.geometry == ProjectGeometry::automatic)
             plan_.geometry = fan ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
-        plan_.orthographic = leave_out(facts_.orthographic, "perspective",
-                                       "parallel rays: depth is linear in the picture, nothing is "
-                                       "divided per fragment");
+        plan_.orthographic = facts_.orthographic;  // the other way is for no such view
+        if (plan_.orthographic) {
+            omitted_.push_back({"perspective",
+                                "parallel rays: depth is linear in the picture, nothing is divided "
+                                "per fragment"});
+        }
         const bool transparent = facts_.transparent_tets == facts_.tets;
         plan_.nothing_visible =
             leave_out(transparent || !facts_.in_front, "drawing",

@@ -120,10 +120,13 @@ TEST_F(Variants, OmissionsKeepThePicture) {
     for (const auto& transfer_function :
          {smooth(), TransferFunction::linear({knot(0, {1, .5, 0}, 1)}),
           TransferFunction::linear({knot(.6, {1, .5, 0}, 0), knot(.8, {1, .5, 0}, 3)})}) {
-        const Scene wanted = scene(transfer_function);
-        const Image less = project(mesh_, wanted, capabilities());
-        const Image all = project(mesh_, wanted, capabilities(), nothing);
-        EXPECT_LE(image_error(less, all).all.linf, 0.01);
+        for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+            Scene wanted = scene(transfer_function);
+            wanted.camera.projection = projection;
+            const Image less = project(mesh_, wanted, capabilities());
+            const Image all = project(mesh_, wanted, capabilities(), nothing);
+            EXPECT_LE(image_error(less, all).all.linf, 0.01);
+        }
     }
 }
 
