@@ -153,10 +153,9 @@ TetProjector::DepthPlane TetProjector::level_plane(const PartField& field, doubl
             gradient.y * per_pixel, front};
 }
 
-// Where shaders reckon depths from; center_z is rounded, by much of a small tet far away.
-double TetProjector::exact_center_z(const TetRecord& record) const {
-    const auto depth = static_cast<double>(record.center_depth);
-    return window_.perspective() ? -1 / depth : depth;
+// `Depth` of a z, and z of a depth.
+double TetProjector::inverted(double value) const {
+    return window_.perspective() ? -1 / value : value;
 }
 
 // The scalar less `origin`, over `width`.
@@ -165,7 +164,9 @@ void TetProjector::set_scalars(const PartField& field, double origin, double wid
     const double scale = width > 0 ? 1 / width : 0;
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
-                 z = exact_center_z(record);
+                 // Where shaders reckon depths from; center_z is rounded, by much of a small tet
+                 // far away.
+        z = inverted(static_cast<double>(record.center_depth));
     const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
     const glm::dvec3 center = window_.perspective() ? z * direction : glm::dvec3(x, y, z);
     const glm::dvec3 gradient = field.gradient() * scale;
@@ -272,10 +273,9 @@ TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
     lo = glm::clamp(lo, glm::dvec2(0), picture);
     hi = glm::clamp(hi, glm::dvec2(0), picture);
     const glm::dvec2 center = glm::floor(0.5 * (lo + hi)) + 0.5;
-    const auto depth_of = [&](double at) { return window_.perspective() ? -1 / at : at; };
     record.center = {static_cast<float>(center.x), static_cast<float>(center.y)};
-    record.center_depth = static_cast<float>(depth_of(z));
-    record.center_z = window_.perspective() ? -1 / record.center_depth : record.center_depth;
+    record.center_depth = static_cast<float>(inverted(z));
+    record.center_z = static_cast<float>(inverted(static_cast<double>(record.center_depth)));
     // A change of 1/z means most at the far end.
     const double range = (farthest - nearest) / (window_.perspective() ? farthest * farthest : 1);
     return {hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};

@@ -67,7 +67,7 @@ class TetProjector {
     // True where float32 is good enough.
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
                     const Extent& extent, TetRecord& record) const;
-    double exact_center_z(const TetRecord& record) const;
+    double inverted(double value) const;
     void set_scalars(const PartField& field, double origin, double width, TetRecord& record) const;
     void set_part(const PartField& field, const LinearPiece& piece, TetRecord& record) const;
     std::array<float, 3> plane_at_center(const DepthPlane& plane, const TetRecord& record) const;

@@ -10,22 +10,13 @@
 
 #include "base/error.h"
 #include "optics/opacity.h"
+#include "support/transfer_functions.h"
 
 namespace lamina {
 namespace {
 
-TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
-    return {value, {color, extinction}};
-}
-
-TransferFunction smooth() {
-    std::vector<TransferKnot> knots;
-    for (int i = 0; i <= 16; ++i) {
-        const double x = i / 16.0;
-        knots.push_back(knot(x, glm::dvec3(x, 1 - x, 0.5 + 0.5 * std::sin(5 * x)), 4 * x * x));
-    }
-    return TransferFunction::linear(knots);
-}
+using test::knot;
+using test::smooth;
 
 TransferFunction narrow_peak() {
     return TransferFunction::linear({knot(0, glm::dvec3(0), 0), knot(0.5, glm::dvec3(1, 0.5, 0), 0),

@@ -13,22 +13,13 @@
 
 #include "base/error.h"
 #include "optics/opacity.h"
+#include "support/transfer_functions.h"
 
 namespace lamina {
 namespace {
 
-TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
-    return {value, {color, extinction}};
-}
-
-TransferFunction smooth() {
-    std::vector<TransferKnot> knots;
-    for (int i = 0; i <= 16; ++i) {
-        const double x = i / 16.0;
-        knots.push_back(knot(x, glm::dvec3(x, 1 - x, 0.5 + 0.5 * std::sin(5 * x)), 4 * x * x));
-    }
-    return TransferFunction::linear(knots);
-}
+using test::knot;
+using test::smooth;
 
 // Knots at nodes of a table of 33 over [0, 1], one of them a step.
 TransferFunction stepped() {

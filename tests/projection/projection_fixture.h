@@ -11,6 +11,7 @@
 #include "projection/gl_project_renderer.h"
 #include "reference/mesh_tracer.h"
 #include "scene/plan.h"
+#include "support/transfer_functions.h"
 
 namespace lamina {
 
@@ -22,9 +23,7 @@ inline SceneMesh scene_mesh(MeshData data) {
     return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}};
 }
 
-inline TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
-    return {value, {color, extinction}};
-}
+using test::knot;
 
 inline Scene projection_scene(const TransferFunction& transfer_function, int width, int height) {
     Scene scene;

@@ -17,6 +17,7 @@
 #include "optics/segment_integral.h"
 #include "optics/segment_table.h"
 #include "slicing/shader_intervals.h"
+#include "support/transfer_functions.h"
 
 namespace lamina {
 namespace {
@@ -25,9 +26,7 @@ constexpr int edge = 128;
 
 using SegmentTwins = gl::GlTest;
 
-TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
-    return {value, {color, extinction}};
-}
+using test::knot;
 
 Image run(gl::Program& program) {
     gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge));

@@ -12,6 +12,7 @@
 #include "reference/volume_tracer.h"
 #include "scene/plan.h"
 #include "slicing/gl_slice_renderer.h"
+#include "support/transfer_functions.h"
 
 namespace lamina {
 
@@ -43,9 +44,7 @@ inline Volume gaussians(std::int64_t edge) {
     return generate({"gaussians", std::array{edge, edge, edge}, SampleType::float32});
 }
 
-inline TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
-    return {value, {color, extinction}};
-}
+using test::knot;
 
 inline TransferFunction smooth_transfer_function() {
     return TransferFunction::linear({knot(0, {.1, .2, .6}, 0), knot(.25, {.2, .7, .5}, .8),
