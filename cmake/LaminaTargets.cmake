@@ -33,3 +33,13 @@ function(lamina_test name)
     gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
         PROPERTIES TIMEOUT 300)
 endfunction()
+
+# Sources of this room are compiled once for each instruction set (src/tiles/instruction_set.h). The least of them is
+# taken for granted, so that there is no version without vectors.
+function(lamina_vector_room name)
+    target_link_libraries(lamina_${name} PUBLIC hwy::hwy)
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+        target_compile_options(lamina_${name} PUBLIC -msse4.2)
+        target_compile_definitions(lamina_${name} PUBLIC HWY_DISABLE_PCLMUL_AES)
+    endif()
+endfunction()

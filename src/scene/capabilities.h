@@ -6,10 +6,12 @@
 
 namespace lamina {
 
-// What the context that will draw can do: data for the plan, filled by gl::Context.
+// What will draw can do: data for the plan, filled by gl::Context, or by tile_capabilities() for
+// the native engine.
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
     bool software = true;  // no GPU behind it
+    bool tiles = false;    // the native engine: no OpenGL
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS

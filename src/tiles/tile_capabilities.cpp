@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tiles/tile_capabilities.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "tiles/instruction_set.h"
+
+namespace lamina {
+
+Capabilities tile_capabilities() {
+    constexpr int largest_edge = 32768;  // pixel coordinates and their products stay exact in float
+    Capabilities capabilities;
+    const int threads = tbb::this_task_arena::max_concurrency();
+    capabilities.renderer =
+        fmt::format("cpu: {}, {} thread{}", instruction_set(), threads, threads == 1 ? "" : "s");
+    capabilities.tiles = true;
+    capabilities.max_texture_size = largest_edge;
+    capabilities.max_3d_texture_size = std::numeric_limits<int>::max();
+    // Vectors of 32-bit numbers address what is gathered.
+    capabilities.max_texture_bytes = std::uint64_t{std::numeric_limits<std::int32_t>::max()};
+    capabilities.max_array_layers = std::numeric_limits<int>::max();
+    capabilities.framebuffer_fetch = true;  // a fragment may read its pixel
+    return capabilities;
+}
+
+}  // namespace lamina

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/capabilities.h"
+
+namespace lamina {
+
+// Of the native engine on this machine; the renderer is "cpu: AVX3, 2 threads".
+Capabilities tile_capabilities();
+
+}  // namespace lamina

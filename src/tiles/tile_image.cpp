@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tiles/tile_image.h"
+
+namespace lamina {
+
+TileImage::TileImage(int width, int height)
+    : grid_(width, height), tiles_(static_cast<std::size_t>(grid_.count())) {}
+
+Image TileImage::to_image(float largest_code) const {
+    Image image(grid_.width(), grid_.height());
+    for (int number = 0; number < grid_.count(); ++number) {
+        const TileGrid::Tile area = grid_.tile(number);
+        const TilePixels& pixels = tile(number);
+        for (int row = 0; row < area.height; ++row) {
+            for (int column = 0; column < area.width; ++column) {
+                const auto place = static_cast<std::size_t>(TileGrid::place(column, row));
+                float* const rgba = image.pixel(area.column + column, area.row + row);
+                rgba[0] = pixels.red[place] / largest_code;
+                rgba[1] = pixels.green[place] / largest_code;
+                rgba[2] = pixels.blue[place] / largest_code;
+                rgba[3] = pixels.alpha[place] / largest_code;
+            }
+        }
+    }
+    return image;
+}
+
+}  // namespace lamina

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "image/image.h"
+#include "tiles/tile_grid.h"
+
+namespace lamina {
+
+// The pixels of one tile, at TileGrid::place(): associated colour and opacity; of fixed-point
+// targets codes, which floats hold exactly.
+struct alignas(64) TilePixels {
+    using Plane = std::array<float, TileGrid::pixels>;
+    Plane red, green, blue, alpha;
+};
+
+// A picture in tiles. Takes its memory once.
+class TileImage {
+  public:
+    TileImage(int width, int height);
+
+    const TileGrid& grid() const { return grid_; }
+    TilePixels& tile(int number) { return tiles_[static_cast<std::size_t>(number)]; }
+    const TilePixels& tile(int number) const { return tiles_[static_cast<std::size_t>(number)]; }
+    // `largest_code`: what stands for 1; 1 where the tiles hold values.
+    Image to_image(float largest_code) const;
+    std::int64_t byte_count() const {
+        return static_cast<std::int64_t>(tiles_.size() * sizeof(TilePixels));
+    }
+
+  private:
+    TileGrid grid_;
+    std::vector<TilePixels> tiles_;
+};
+
+}  // namespace lamina
