@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "mesh/scalar_range.h"
+#include "scene/drawn_range.h"
 
 namespace lamina {
 namespace {

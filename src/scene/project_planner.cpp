@@ -14,6 +14,7 @@
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
+#include "scene/drawn_range.h"
 #include "scene/tree_check.h"
 
 namespace lamina {

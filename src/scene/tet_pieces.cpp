@@ -9,17 +9,6 @@
 
 namespace lamina {
 
-ValueRange drawn_range(const TransferFunction& transfer_function, ValueRange range) {
-    const auto knots = transfer_function.knots();
-    const bool step = std::ranges::count(knots, range.hi, &TransferKnot::value) > 1;
-    if (range.lo == range.hi || step) {
-        range.hi += std::max({1e-6 * (range.hi - range.lo),
-                              range.lo == range.hi ? 1e-6 * std::abs(range.hi) : 0, 1e-30,
-                              4 * std::numeric_limits<double>::epsilon() * std::abs(range.hi)});
-    }
-    return range;
-}
-
 TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange& range) {
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {

@@ -11,10 +11,6 @@
 
 namespace lamina {
 
-// The range of a mesh's scalar as it is drawn, lo < hi: a little more than it is where it is one
-// value, or where the transfer function has a step at its end, whose later side counts.
-ValueRange drawn_range(const TransferFunction& transfer_function, ValueRange range);
-
 // The linear pieces of a transfer function over a range, neighbours that show nothing as one, and
 // which of them a tet's scalar runs through.
 class TetPieces {

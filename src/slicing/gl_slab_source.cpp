@@ -10,6 +10,7 @@
 #include "base/stopwatch.h"
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
+#include "scene/drawn_range.h"
 #include "slicing/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
@@ -25,13 +26,6 @@ int sampling_define(VolumeSampling sampling) {
         default:
             return 2;
     }
-}
-
-// Shaders see scalars with this range as [0, 1]; that of a constant volume is widened, so that it
-// has a width.
-ValueRange shader_range(const ValueRange& range) {
-    return range.hi > range.lo ? range
-                               : ValueRange{range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
 }
 
 }  // namespace
@@ -59,13 +53,13 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
                            const Facts& facts, const SlicePlan& plan)
     : facts_(facts),
       plan_(plan),
-      range_(shader_range(facts.range)),
+      range_(drawn_range(transfer_function, facts.range)),
       single_color_(first_color(transfer_function, range_.lo, range_.hi)),
       constant_(transfer_function.at(range_.lo)) {
     const Stopwatch table_watch;
     if (plan_.sampling != VolumeSampling::none) {
         tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,
-                        plan_.table_filtered);
+                        plan_.table_filtered, sampled_step_advance);
     }
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;

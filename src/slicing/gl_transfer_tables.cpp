@@ -54,7 +54,8 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
                 static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
         }
     }
-    const ShaderIntervals intervals = make_intervals(transfer_function, range, anchors_);
+    const ShaderIntervals intervals =
+        make_intervals(transfer_function, range, anchors_, step_advance);
     interval_count_ = intervals.count;
     intervals_ =
         gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, ShaderIntervals::rows);

@@ -19,9 +19,10 @@ class GlTransferTables {
     static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
 
     // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: of the pre-integration, or
-    // null. `filtered`: it goes through the texture unit's filter.
+    // null. `filtered`: it goes through the texture unit's filter. `step_advance`: see
+    // make_intervals().
     GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
-                     const TablePlan* table, bool filtered);
+                     const TablePlan* table, bool filtered, double step_advance);
 
     int intervals() const { return interval_count_; }
     int nodes() const { return node_count_; }  // along an axis of the table; 0 without

@@ -10,6 +10,10 @@ namespace {
 
 constexpr double max_inverse_width = 1e30;
 
+bool is_step(const OpticalProperties& before, const OpticalProperties& after) {
+    return before.extinction != after.extinction || before.color != after.color;
+}
+
 void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     for (int channel = 0; channel < 3; ++channel)
         row.push_back(static_cast<float>(optics.color[channel]));
@@ -25,7 +29,8 @@ float low_part(const OpticalProperties& optics) {
 }  // namespace
 
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors) {
+                               const std::vector<PreintegrationTable::Anchor>& anchors,
+                               double step_advance) {
     ShaderIntervals intervals;
     const double width = range.hi - range.lo;
     const auto normalised = [&](double value) {
@@ -33,10 +38,14 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
     };
     std::vector<float> places, left, right, low;
     std::size_t anchor = 0;
+    OpticalProperties before = transfer_function.at(range.lo);
     for_each_linear_piece(
         transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
             const double piece_width = normalised(piece.to) - normalised(piece.from);
-            places.push_back(static_cast<float>(normalised(piece.from)));
+            const double advance =
+                !places.empty() && is_step(before, piece.at_from) ? step_advance : 0;
+            before = piece.at_to;
+            places.push_back(static_cast<float>(normalised(piece.from) - advance));
             places.push_back(piece_width > 0
                                  ? static_cast<float>(std::min(1 / piece_width, max_inverse_width))
                                  : 0.0f);

@@ -28,8 +28,14 @@ struct ShaderIntervals {
         starts{};  // the interval in which each 1024th of [0, 1] begins: where to search from
 };
 
-// `anchors`: of the pre-integration table that goes with it, or empty.
+// At a step's very value the later side counts, and volumes of labels have whole regions there.
+// What is sampled of them carries roundings of float32: its steps lie this much earlier.
+inline constexpr double sampled_step_advance = 0x1p-22;
+
+// `anchors`: of the pre-integration table that goes with it, or empty. `step_advance`: of scalars
+// normalised to [0, 1].
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
-                               const std::vector<PreintegrationTable::Anchor>& anchors);
+                               const std::vector<PreintegrationTable::Anchor>& anchors,
+                               double step_advance);
 
 }  // namespace lamina
