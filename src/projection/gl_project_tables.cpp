@@ -58,10 +58,11 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             if (!plan.single_color) upload_front_weights();
             break;
         case SegmentSource::cut_table:
-            intervals_.emplace(transfer_function, plan.range, &plan_.aligned, plan.table_filtered);
+            intervals_.emplace(transfer_function, plan.range, &plan_.aligned, plan.table_filtered,
+                               0);
             break;
         case SegmentSource::analytic:
-            intervals_.emplace(transfer_function, plan.range, nullptr, false);
+            intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
             break;
         default:
             break;

@@ -38,8 +38,8 @@ gl::Texture upload_table(const PreintegrationTable& table) {
 }  // namespace
 
 GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
-                                   const ValueRange& range, const TablePlan* wanted,
-                                   bool filtered) {
+                                   const ValueRange& range, const TablePlan* wanted, bool filtered,
+                                   double step_advance) {
     if (wanted != nullptr) {
         const auto known = preintegration_table(
             transfer_function, {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,

@@ -274,7 +274,7 @@ IntervalTextures upload(const ShaderIntervals& from) {
 
 // Largest difference from integrate_segment of any pixel and channel, or infinity for a NaN.
 double worst_analytic(const TransferFunction& transfer_function, bool colored, float length) {
-    const IntervalTextures textures = upload(make_intervals(transfer_function, {0, 1}, {}));
+    const IntervalTextures textures = upload(make_intervals(transfer_function, {0, 1}, {}, 0));
     gl::Defines defines;
     defines.set("INTERVALS", textures.count);
     if (colored) defines.set("TABLE_COLORED", "");
