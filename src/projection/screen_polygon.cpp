@@ -139,14 +139,20 @@ ScreenPolygon enlarged(const Hull& hull, double margin) {
 
 }  // namespace
 
-ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height) {
-    assert(!points.empty() && points.size() <= most_points);
+PixelBounds pixel_bounds(std::span<const glm::dvec2> points, double margin, int width, int height) {
     const Bounds bounds = bounds_of(points, margin);
-    // The first and the last pixel centre inside the bounds.
     const glm::dvec2 first = glm::max(glm::ceil(bounds.min - 0.5), glm::dvec2(0));
     const glm::dvec2 last =
         glm::min(glm::floor(bounds.max - 0.5), glm::dvec2(width - 1, height - 1));
     if (!(first.x <= last.x && first.y <= last.y)) return {};
+    return {static_cast<int>(first.x), static_cast<int>(last.x), static_cast<int>(first.y),
+            static_cast<int>(last.y)};
+}
+
+ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height) {
+    assert(!points.empty() && points.size() <= most_points);
+    const Bounds bounds = bounds_of(points, margin);
+    if (pixel_bounds(points, margin, width, height).empty()) return {};
     Hull hull = convex_hull(points);
     const glm::dvec2 lo(-guard), hi(width + guard, height + guard);
     for (const int axis : {0, 1}) {

@@ -11,10 +11,13 @@ TetGeometry::Size SilhouetteGeometry::largest_size() {
 }
 
 TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
-    ScreenPolygon polygon;
+    ScreenOutline outline;
     TetRecord record;  // not written where it goes: that memory may be slow to read
-    const std::optional<FragmentKind> kind = projector_.project(part, record, polygon);
+    const std::optional<FragmentKind> kind = projector_.project(part, record, outline);
     if (!kind) return {};
+    const ScreenPolygon polygon = surround(outline.points(), projector_.margin(),
+                                           projector_.view().width, projector_.view().height);
+    if (polygon.count == 0) return {};
     std::memcpy(place.record, &record, sizeof(record));
     Written written;
     written.kind = *kind;

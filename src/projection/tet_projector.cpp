@@ -220,7 +220,7 @@ TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& 
 }
 
 std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord& record,
-                                                  ScreenPolygon& polygon) const {
+                                                  ScreenOutline& outline) const {
     const Tet& tet = tets_[static_cast<std::size_t>(part.tet)];
     std::array<Seen, 4> corners;
     PartField::Values values;
@@ -235,8 +235,10 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
                                          : &pieces_.pieces()[static_cast<std::size_t>(part.piece)];
     const PartField field(corners, values, piece);
     const Extent extent = place_center(visible, record);
-    polygon = surround_part(visible, field, extent.cut);
-    if (polygon.count == 0) return std::nullopt;
+    outline = outline_of(visible, field, extent.cut);
+    if (outline.count == 0 ||
+        pixel_bounds(outline.points(), margin_, view().width, view().height).empty())
+        return std::nullopt;
     const bool plain =
         set_depths(tet, signer_.signs(static_cast<std::size_t>(part.tet)), corners, extent, record);
     if (piece != nullptr) {
@@ -281,19 +283,19 @@ TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
     return {hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};
 }
 
-ScreenPolygon TetProjector::surround_part(const VisibleCorners& visible, const PartField& field,
-                                          bool cut_by_near) const {
-    std::array<glm::dvec2, 8> places;
-    std::size_t count = 0;
-    const auto add = [&](const Seen& point) { places[count++] = window_.to_window(point); };
+ScreenOutline TetProjector::outline_of(const VisibleCorners& visible, const PartField& field,
+                                       bool cut_by_near) const {
+    ScreenOutline outline;
+    const auto add = [&](const Seen& point) {
+        outline.corners[outline.count++] = window_.to_window(point);
+    };
     if (cut_by_near || !(field.cut_low() || field.cut_high())) {
         std::for_each_n(visible.seen.begin(), visible.count, add);
     } else {
-        const PartField::Outline outline = field.outline();
-        std::for_each_n(outline.corners.begin(), outline.count, add);
-        if (count == 0) return {};
+        const PartField::Outline corners = field.outline();
+        std::for_each_n(corners.corners.begin(), corners.count, add);
     }
-    return surround({places.data(), count}, margin_, window_.view().width, window_.view().height);
+    return outline;
 }
 
 }  // namespace lamina

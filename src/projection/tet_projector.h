@@ -27,14 +27,16 @@ namespace lamina {
 class TetProjector {
   public:
     // `scalar`: one value a point; `range`: of scalars that becomes [0, 1] in whole tets; `pieces`:
-    // that parts are of. `margin`: see surround(). All must outlive it.
+    // that parts are of. `margin`: see pixel_bounds(). All must outlive it.
     TetProjector(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
                  const TetPieces& pieces, const View& view, double near_depth, double margin);
 
     // What its fragments need; none where it covers the centre of no pixel: the outputs are
-    // undefined.
+    // undefined. The outline covers the part and may cover more of its tet.
     std::optional<FragmentKind> project(const TetPart& part, TetRecord& record,
-                                        ScreenPolygon& polygon) const;
+                                        ScreenOutline& outline) const;
+    double margin() const { return margin_; }
+    const View& view() const { return window_.view(); }
 
   private:
     // A point relative to the eye: along right, up and forward.
@@ -62,8 +64,8 @@ class TetProjector {
         bool cut;              // by the near plane
     };
     Extent place_center(const VisibleCorners& visible, TetRecord& record) const;
-    ScreenPolygon surround_part(const VisibleCorners& visible, const PartField& field,
-                                bool cut_by_near) const;
+    ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
+                             bool cut_by_near) const;
     // True where float32 is good enough.
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
                     const Extent& extent, TetRecord& record) const;

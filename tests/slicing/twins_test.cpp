@@ -54,7 +54,7 @@ void compare_runs(bool colored, int layers, bool filtered) {
     plan.single_color = !colored;
     plan.table_filtered = filtered;
     plan.table = {256, layers, 1.0, colored};
-    const GlTransferTables tables(transfer_function, {0, 1}, &plan.table, filtered);
+    const GlTransferTables tables(transfer_function, {0, 1}, &plan.table, filtered, 0);
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
         "#include \"optics/preintegration.glsl\"\n"
