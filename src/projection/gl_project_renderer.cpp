@@ -13,6 +13,7 @@
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
+#include "projection/tie_shift.h"
 #include "slicing/gl_compositing.h"
 
 namespace lamina {
@@ -20,10 +21,6 @@ namespace {
 
 // Corners of silhouettes lie this many steps of the rasteriser's grid outside (screen_polygon.h).
 constexpr double margin_steps = 2;
-
-// Rays that run along faces are moved by so many pixels: far below what pictures resolve, far above
-// the rounding of doubles.
-constexpr double tie_pixels = 1e-7;
 
 constexpr std::array silhouette_attributes{
     GlTetStream::Attribute{2, offsetof(SilhouetteVertex, position), false},
@@ -36,15 +33,6 @@ constexpr std::array fan_attributes{GlTetStream::Attribute{2, offsetof(FanVertex
 
 bool is_fan(const ProjectPlan& plan) {
     return plan.geometry == ProjectGeometry::triangles;
-}
-
-// The direction into which the tracer moves rays that meet edges and corners (mesh/ray_walk.cpp):
-// along the world's x, y and z, the later ones much less. Its parts along right, up and forward.
-glm::dvec3 tie_shift(const View& view) {
-    const glm::dvec3 direction(1, 3e-3, 1e-5);
-    const bool perspective = view.projection == Projection::perspective;
-    return tie_pixels * glm::dvec3(glm::dot(view.right, direction), glm::dot(view.up, direction),
-                                   perspective ? glm::dot(view.forward, direction) : 0);
 }
 
 }  // namespace

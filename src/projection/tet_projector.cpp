@@ -42,7 +42,7 @@ void set_pair(TetRecord::Pairs& pairs, std::size_t place, double value) {
 }
 
 // Deeper than everything, and finite also after a product with any window coordinate.
-constexpr double beyond_all = 1e30;
+constexpr double beyond_all = -double{TetRecord::in_front_of_all};
 
 float finite_float(double value) {
     return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));
@@ -190,8 +190,8 @@ void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
     const std::array<float, 3> upper_cut = plane_at_center(upper, record);
     record.upper_cut = upper_cut[0];
     record.limits = {upper_cut[1], upper_cut[2]};
-    if (lower.front) record.fronts |= lower_cut_is_front;
-    if (upper.front) record.fronts |= upper_cut_is_front;
+    if (lower.front) record.fronts |= TetRecord::lower_cut_is_front;
+    if (upper.front) record.fronts |= TetRecord::upper_cut_is_front;
     const auto optics = [&](double scalar) -> std::array<float, 4> {
         const OpticalProperties found = optics_at(piece, scalar);
         return {finite_float(found.color.r), finite_float(found.color.g),

@@ -38,9 +38,20 @@ struct alignas(16) TetRecord {
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
     std::array<float, 4> low, high;  // colour and extinction at these scalars
+
+    bool has_lower_cut() const { return cuts(lower_cut_is_front, lower_cut); }
+    bool has_upper_cut() const {
+        return cuts(upper_cut_is_front, {upper_cut, limits[0], limits[1]});
+    }
+
+    static constexpr std::uint32_t lower_cut_is_front = 8, upper_cut_is_front = 16;  // of `fronts`
+    static constexpr float in_front_of_all = -1e30f;
+
+  private:
+    bool cuts(std::uint32_t front, const std::array<float, 3>& plane) const {
+        return (fronts & front) == 0 || plane != std::array{in_front_of_all, 0.0f, 0.0f};
+    }
 };
 static_assert(sizeof(TetRecord) == 192);
-
-inline constexpr std::uint32_t lower_cut_is_front = 8, upper_cut_is_front = 16;  // of `fronts`
 
 }  // namespace lamina

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the rays of some pixels are inside a part of a tet: the vector form of
+// shaders/projection/silhouette.glsl, where the reasons are.
+#if defined(LAMINA_PROJECTION_TET_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_PROJECTION_TET_RUN_INL_H_
+#undef LAMINA_PROJECTION_TET_RUN_INL_H_
+#else
+#define LAMINA_PROJECTION_TET_RUN_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "projection/tile_fragments.h"
+#include "tiles/arithmetic-inl.h"
+#include "tiles/doubles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct DepthSpan {
+    V enter, leave;
+};
+
+// Scalars normalised as the record says; of rays that miss the part, 0, with length 0.
+template <class V>
+struct TetRun {
+    V front, back, world_length;
+};
+
+// A linear function of the pixel: its value at a column from the record's center, then its change
+// from row to row. The same roundings as the shader's.
+template <class D>
+HWY_INLINE hn::Vec<D> at_column(D d, float at_center, float per_column, hn::Vec<D> column) {
+    return hn::Add(hn::Set(d, at_center), hn::Mul(hn::Set(d, per_column), column));
+}
+template <class D>
+HWY_INLINE hn::Vec<D> at_row(D d, hn::Vec<D> value, float per_row, hn::Vec<D> row) {
+    return hn::Add(value, hn::Mul(hn::Set(d, per_row), row));
+}
+
+// The entry is the largest of the depths on front faces, which come first, the exit the least of
+// the others.
+template <class V>
+HWY_INLINE DepthSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
+    switch (fronts) {
+        case 1:
+            return {d0, hn::Min(hn::Min(d1, d2), d3)};
+        case 2:
+            return {hn::Max(d0, d1), hn::Min(d2, d3)};
+        default:
+            return {hn::Max(hn::Max(d0, d1), d2), d3};
+    }
+}
+
+template <class V>
+HWY_INLINE DepthSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2, V d3) {
+    if (fronts == 0) return {nearest, hn::Min(hn::Min(d0, d1), hn::Min(d2, d3))};
+    const DepthSpan<V> span = order_depths(fronts, d0, d1, d2, d3);
+    return {hn::Max(nearest, span.enter), span.leave};
+}
+
+// Faces in float32, for a column of blocks.
+template <class D>
+class PlainDepths {
+  public:
+    using V = hn::Vec<D>;
+    HWY_INLINE PlainDepths(D d, const TetFragments&, const TetRecord& record, V column)
+        : record_(record) {
+        const auto start = [&](std::size_t face) HWY_ATTR {
+            return at_column(d, record.depth.high[face], record.depth_per_column.high[face],
+                             column);
+        };
+        d0_ = start(0);
+        d1_ = start(1);
+        d2_ = start(2);
+        d3_ = start(3);
+    }
+    HWY_INLINE DepthSpan<V> at(D d, V row) const {
+        const auto& per_row = record_.depth_per_row.high;
+        return order_depths(record_.fronts & 7u, at_row(d, d0_, per_row[0], row),
+                            at_row(d, d1_, per_row[1], row), at_row(d, d2_, per_row[2], row),
+                            at_row(d, d3_, per_row[3], row));
+    }
+
+  private:
+    const TetRecord& record_;
+    V d0_, d1_, d2_, d3_;
+};
+
+// The same in double, for faces that are nearly edge-on, the near plane, and the eye inside.
+template <class D>
+class CarefulDepths {
+  public:
+    using V = hn::Vec<D>;
+    HWY_INLINE CarefulDepths(D d, const TetFragments& fragments, const TetRecord& record, V column)
+        : fragments_(fragments), record_(record) {
+        const typename Doubles<D>::Tag dd;
+        const auto moved = [&](auto place) HWY_ATTR {
+            // The ray is moved in space; what that moves along the ray itself does not count.
+            return move(dd, place, record.center[0], fragments.image_middle.x,
+                        fragments.tie_shift.x);
+        };
+        column_ = each_half(moved, to_doubles(d, column));
+    }
+    HWY_INLINE DepthSpan<V> at(D d, V row) const {
+        const typename Doubles<D>::Tag dd;
+        const auto moved = [&](auto place) HWY_ATTR {
+            return move(dd, place, record_.center[1], fragments_.image_middle.y,
+                        fragments_.tie_shift.y);
+        };
+        const Doubles<D> rows = each_half(moved, to_doubles(d, row));
+        const auto depth = [&](std::size_t face) HWY_ATTR {
+            const auto plane = [&](auto x, auto y) HWY_ATTR {
+                const auto sum = [&](const TetRecord::Pairs& pairs) {
+                    return hn::Set(dd, static_cast<double>(pairs.high[face]) +
+                                           static_cast<double>(pairs.low[face]));
+                };
+                return hn::Add(
+                    hn::Add(sum(record_.depth), hn::Mul(sum(record_.depth_per_column), x)),
+                    hn::Mul(sum(record_.depth_per_row), y));
+            };
+            return to_floats(
+                d, Doubles<D>{plane(column_.low, rows.low), plane(column_.high, rows.high)});
+        };
+        const auto nearest = hn::Set(d, fragments_.near_depth - record_.center_depth);
+        return order_depths_from(record_.fronts & 7u, nearest, depth(0), depth(1), depth(2),
+                                 depth(3));
+    }
+
+  private:
+    template <class DD, class VD>
+    HWY_INLINE VD move(DD dd, VD place, float center, float middle, double shift) const {
+        const auto from_middle =
+            hn::Add(place, hn::Set(dd, static_cast<double>(center) - static_cast<double>(middle)));
+        const double per_pixel =
+            fragments_.tie_shift.z * static_cast<double>(fragments_.pixel_size);
+        return hn::Sub(hn::Add(place, hn::Set(dd, shift)),
+                       hn::Mul(from_middle, hn::Set(dd, per_pixel)));
+    }
+
+    const TetFragments& fragments_;
+    const TetRecord& record_;
+    Doubles<D> column_;
+};
+
+// The part of a ray's run on which the scalar is between the part's least and largest.
+template <class D>
+HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
+                                            const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
+                                            hn::Vec<D> row) {
+    const auto plane = [&](float at_center, float per_column, float per_row) HWY_ATTR {
+        return at_row(d, at_column(d, at_center, per_column, column), per_row, row);
+    };
+    DepthSpan<hn::Vec<D>> inside = span;
+    const auto cut = [&](bool front, hn::Vec<D> depth) HWY_ATTR {
+        if (front) {
+            inside.enter = hn::Max(inside.enter, depth);
+        } else {
+            inside.leave = hn::Min(inside.leave, depth);
+        }
+    };
+    if (record.has_lower_cut()) {
+        cut((record.fronts & TetRecord::lower_cut_is_front) != 0,
+            plane(record.lower_cut[0], record.lower_cut[1], record.lower_cut[2]));
+    }
+    if (record.has_upper_cut())
+        cut((record.fronts & TetRecord::upper_cut_is_front) != 0,
+            plane(record.upper_cut, record.limits[0], record.limits[1]));
+    return inside;
+}
+
+// `slant`: world length per unit of z. `covered`: rays that meet the part; the others' span is 0.
+template <class D>
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const TetRecord& record,
+                                       const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
+                                       hn::Vec<D> row, hn::Vec<D> slant) {
+    using V = hn::Vec<D>;
+    const bool has_scalars = fragments.source != SegmentSource::constant;
+    TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
+    V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
+    if (fragments.perspective) {
+        // Differences of z from differences of depth, so that far eyes cost no digits.
+        const V center = hn::Set(d, record.center_depth), minus_one = hn::Set(d, -1.0f),
+                most = hn::Set(d, -1e-30f);
+        z_front = hn::Div(minus_one, hn::Min(hn::Add(center, span.enter), most));
+        z_back = hn::Div(minus_one, hn::Min(hn::Add(center, span.leave), most));
+        run.world_length = hn::Mul(hn::Mul(hn::Mul(run.world_length, z_front), z_back), slant);
+        const V z_center = hn::Set(d, record.center_z);
+        front = hn::Mul(hn::Mul(front, z_front), z_center);
+        back = hn::Mul(hn::Mul(back, z_back), z_center);
+    }
+    if (!has_scalars) return run;
+    const V aside = hn::Add(hn::Mul(column, hn::Set(d, record.scalar_per_column)),
+                            hn::Mul(row, hn::Set(d, record.scalar_per_row)));
+    const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);
+    const bool cut = fragments.source == SegmentSource::parts;
+    const V least = hn::Set(d, cut ? 0.0f : record.limits[0]),
+            largest = hn::Set(d, cut ? 1.0f : record.limits[1]);
+    const auto scalar = [&](V from_center, V z) HWY_ATTR {
+        const V sum = hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));
+        return hn::Min(hn::Max(sum, least), largest);
+    };
+    run.front = scalar(front, z_front);
+    run.back = scalar(back, z_back);
+    return run;
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "projection/fragment_kind.h"
+#include "projection/tet_record.h"
+
+namespace lamina {
+
+// Where a part may cover pixels: columns from the left, rows from the top of the picture.
+struct PartArea {
+    std::int32_t first_column, last_column, first_row, last_row;
+    FragmentKind kind;
+};
+
+// Some parts that follow each other in visibility order, projected, and which of them each tile of
+// the picture is to draw. Of a size that does not depend on the view.
+class TileChunk {
+  public:
+    static constexpr std::size_t most_parts = 512;
+    using Parts = std::array<std::uint64_t, most_parts / 64>;  // a set of parts, by their bits
+
+    explicit TileChunk(int tiles) : parts_of_tile_(static_cast<std::size_t>(tiles)) {}
+
+    void clear() {
+        count_ = 0;
+        tets_ = 0;
+        first_tet_ = last_tet_ = -1;
+        std::fill(parts_of_tile_.begin(), parts_of_tile_.end(), Parts{});
+    }
+    // Where the next part goes; it stays there once add() is called.
+    TetRecord& next() { return records_[count_]; }
+    void add(const PartArea& area, std::int32_t tet) {
+        areas_[count_++] = area;
+        if (tet != last_tet_) ++tets_;
+        if (count_ == 1) first_tet_ = tet;
+        last_tet_ = tet;
+    }
+    void touch(std::size_t tile, std::size_t part) {
+        parts_of_tile_[tile][part / 64] |= std::uint64_t{1} << part % 64;
+    }
+
+    std::size_t count() const { return count_; }
+    std::int64_t tets() const { return tets_; }  // that these are parts of
+    std::int32_t first_tet() const { return first_tet_; }
+    std::int32_t last_tet() const { return last_tet_; }
+    const TetRecord& record(std::size_t part) const { return records_[part]; }
+    const PartArea& area(std::size_t part) const { return areas_[part]; }
+    const Parts& parts(std::size_t tile) const { return parts_of_tile_[tile]; }
+    std::int64_t byte_count() const {
+        return static_cast<std::int64_t>(sizeof(*this) + parts_of_tile_.size() * sizeof(Parts));
+    }
+
+  private:
+    std::size_t count_ = 0;
+    std::int64_t tets_ = 0;
+    std::int32_t first_tet_ = -1, last_tet_ = -1;
+    std::array<TetRecord, most_parts> records_;
+    std::array<PartArea, most_parts> areas_;
+    std::vector<Parts> parts_of_tile_;
+};
+
+// Calls visit(part) for the members of a set, in order.
+template <typename Visit>
+void for_each_part(const TileChunk::Parts& parts, const Visit& visit) {
+    for (std::size_t word = 0; word < parts.size(); ++word) {
+        for (std::uint64_t left = parts[word]; left != 0; left &= left - 1)
+            visit(64 * word + static_cast<std::size_t>(std::countr_zero(left)));
+    }
+}
+
+}  // namespace lamina

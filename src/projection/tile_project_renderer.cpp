@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/tile_project_renderer.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "optics/front_weights.h"
+#include "optics/linear_pieces.h"
+#include "projection/tie_shift.h"
+
+namespace lamina {
+namespace {
+
+// Pixel centres this near to the corners' outline are looked at: more than its rounding.
+constexpr double margin = 1e-3;
+
+// Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches,
+// and for two batches to take less memory than a fourth of the mesh's parts.
+std::size_t chunks_of_batch(std::size_t parts) {
+    return std::clamp<std::size_t>(parts / (8 * TileChunk::most_parts), 1, 32);
+}
+
+}  // namespace
+
+TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
+                                         const TransferFunction& transfer_function,
+                                         const ProjectPlan& plan, int width, int height)
+    : mesh_(mesh),
+      plan_(plan),
+      pieces_(transfer_function, plan.range),
+      order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility),
+      image_(width, height),
+      fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
+    if (plan_.nothing_visible) return;
+    const Stopwatch table_watch;
+    fragments_.source = plan_.source;
+    fragments_.perspective = !plan_.orthographic;
+    fragments_.colored = !plan_.single_color;
+    fragments_.dither = plan_.dither;
+    fragments_.in_codes = plan_.in_codes();
+    fragments_.seed = plan_.seed;
+    fragments_.blend = target_blend(plan_);
+    fragments_.single_color = first_color(transfer_function, plan_.range.lo, plan_.range.hi);
+    if (plan_.source == SegmentSource::constant) {
+        const OpticalProperties constant = transfer_function.at(plan_.range.lo);
+        fragments_.constant_optics =
+            glm::vec4(glm::vec3(constant.color), std::min(constant.extinction, 1e30));
+    }
+    if (plan_.source == SegmentSource::parts && fragments_.colored)
+        fragments_.front_weights = FrontWeightTable::get().texels().data();
+    table_ms_ = table_watch.milliseconds();
+    parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
+                   plan_.draw_transparent);
+    const std::size_t chunks = chunks_of_batch(static_cast<std::size_t>(parts_->count()));
+    for (Chunks& batch : batches_) {
+        for (std::size_t i = 0; i < chunks; ++i)
+            batch.push_back(std::make_unique<TileChunk>(image_.grid().count()));
+    }
+}
+
+std::size_t TileProjectRenderer::batch_count() const {
+    if (!parts_) return 0;
+    const std::size_t parts_a_batch = batches_[0].size() * TileChunk::most_parts;
+    return (static_cast<std::size_t>(parts_->count()) + parts_a_batch - 1) / parts_a_batch;
+}
+
+std::int64_t TileProjectRenderer::fragments() const {
+    return std::accumulate(fragment_counts_.begin(), fragment_counts_.end(), std::int64_t{0});
+}
+
+std::int64_t TileProjectRenderer::byte_count() const {
+    std::int64_t bytes =
+        image_.byte_count() + static_cast<std::int64_t>(slants_.size() * sizeof(TilePixels::Plane));
+    for (const Chunks& batch : batches_) {
+        for (const auto& chunk : batch) bytes += chunk->byte_count();
+    }
+    return bytes;
+}
+
+void TileProjectRenderer::draw(const View& view, Progress* progress) {
+    order_ms_ = draw_ms_ = 0;
+    tets_drawn_ = 0;
+    clear();
+    if (!parts_) return;
+    const Stopwatch order_watch;
+    const auto parts = list_parts(view);
+    order_ms_ = order_watch.milliseconds();
+    const Stopwatch draw_watch;
+    set_view(view);
+    const TetProjector projector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view,
+                                 plan_.near_depth, margin);
+    const std::size_t parts_a_batch = batches_[0].size() * TileChunk::most_parts;
+    const auto project_batch = [&](std::size_t batch) {
+        const std::size_t first = batch * parts_a_batch;
+        if (first < parts.size())
+            project(projector, parts.subspan(first, std::min(parts_a_batch, parts.size() - first)),
+                    batches_[batch % 2]);
+    };
+    last_tet_ = -1;
+    project_batch(0);
+    for (std::size_t batch = 0; batch < batch_count(); ++batch) {
+        count_tets(batches_[batch % 2]);
+        tbb::parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(batches_[batch % 2]); });
+        if (progress != nullptr) progress->advance();
+    }
+    draw_ms_ = draw_watch.milliseconds();
+}
+
+std::span<const TetPart> TileProjectRenderer::list_parts(const View& view) {
+    const Eye eye = eye_of(view);
+    return parts_->list(order_.sort(eye), eye);
+}
+
+void TileProjectRenderer::set_view(const View& view) {
+    fragments_.image_middle = 0.5f * glm::vec2(view.width, view.height);
+    fragments_.image_rows = view.height;
+    fragments_.pixel_size = static_cast<float>(view.pixel);
+    fragments_.near_depth =
+        static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
+    fragments_.tie_shift = tie_shift(view);
+    if (!fragments_.perspective || plan_.thickness == Thickness::dz || slant_pixel_ == view.pixel)
+        return;
+    slant_pixel_ = view.pixel;
+    slants_.resize(fragment_counts_.size());
+    parallel_for(image_.grid().count(), 1, [&](std::int64_t number) {
+        const TileGrid::Tile area = image_.grid().tile(static_cast<int>(number));
+        for (int row = 0; row < TileGrid::edge; ++row) {
+            for (int column = 0; column < TileGrid::edge; ++column) {
+                const glm::vec2 pixel(static_cast<float>(area.column + column) + 0.5f,
+                                      static_cast<float>(view.height - area.row - row) - 0.5f);
+                const glm::vec2 from_middle =
+                    (pixel - fragments_.image_middle) * fragments_.pixel_size;
+                slants_[static_cast<std::size_t>(number)]
+                       [static_cast<std::size_t>(TileGrid::place(column, row))] = std::sqrt(
+                           1.0f + (from_middle.x * from_middle.x + from_middle.y * from_middle.y));
+            }
+        }
+    });
+}
+
+void TileProjectRenderer::clear() {
+    parallel_for(image_.grid().count(), 8,
+                 [&](std::int64_t tile) { image_.tile(static_cast<int>(tile)) = {}; });
+    std::ranges::fill(fragment_counts_, 0);
+}
+
+void TileProjectRenderer::project(const TetProjector& projector, std::span<const TetPart> parts,
+                                  Chunks& chunks) const {
+    parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t number) {
+        const std::size_t first =
+            std::min(static_cast<std::size_t>(number) * TileChunk::most_parts, parts.size());
+        project_chunk(projector,
+                      parts.subspan(first, std::min(TileChunk::most_parts, parts.size() - first)),
+                      *chunks[static_cast<std::size_t>(number)]);
+    });
+}
+
+void TileProjectRenderer::project_chunk(const TetProjector& projector,
+                                        std::span<const TetPart> parts, TileChunk& chunk) const {
+    const TileGrid& grid = image_.grid();
+    chunk.clear();
+    for (const TetPart& part : parts) {
+        ScreenOutline outline;
+        const auto kind = projector.project(part, chunk.next(), outline);
+        if (!kind) continue;
+        const PixelBounds bounds =
+            pixel_bounds(outline.points(), margin, grid.width(), grid.height());
+        const PartArea area{bounds.first_column, bounds.last_column,
+                            grid.height() - 1 - bounds.last_row,
+                            grid.height() - 1 - bounds.first_row, *kind};
+        const std::size_t number = chunk.count();
+        chunk.add(area, part.tet);
+        for (int row = area.first_row / TileGrid::edge; row <= area.last_row / TileGrid::edge;
+             ++row) {
+            for (int column = area.first_column / TileGrid::edge;
+                 column <= area.last_column / TileGrid::edge; ++column)
+                chunk.touch(static_cast<std::size_t>(row * grid.columns() + column), number);
+        }
+    }
+}
+
+// Parts of one tet follow each other, also from chunk to chunk.
+void TileProjectRenderer::count_tets(const Chunks& chunks) {
+    for (const auto& chunk : chunks) {
+        if (chunk->count() == 0) continue;
+        tets_drawn_ += chunk->tets() - (chunk->first_tet() == last_tet_);
+        last_tet_ = chunk->last_tet();
+    }
+}
+
+void TileProjectRenderer::draw(const Chunks& chunks) {
+    parallel_for(image_.grid().count(), 1,
+                 [&](std::int64_t tile) { draw_tile(chunks, static_cast<std::size_t>(tile)); });
+}
+
+void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile) {
+    const int number = static_cast<int>(tile);
+    const TetTile target{image_.grid().tile(number),
+                         slants_.empty() ? nullptr : slants_[tile].data(), image_.tile(number)};
+    for (const auto& chunk : chunks) {
+        const TileChunk::Parts& parts = chunk->parts(tile);
+        if (chunk->count() > 0 && parts != TileChunk::Parts{})
+            fragment_counts_[tile] += draw_tets(fragments_, *chunk, parts, target);
+    }
+}
+
+Image TileProjectRenderer::read() const {
+    return image_.to_image(fragments_.blend.largest);
+}
+
+}  // namespace lamina

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/progress.h"
+#include "image/image.h"
+#include "mesh/visibility_order.h"
+#include "projection/tet_projector.h"
+#include "projection/tile_chunk.h"
+#include "projection/tile_fragments.h"
+#include "projection/visible_parts.h"
+#include "scene/plan.h"
+#include "scene/scene_mesh.h"
+#include "tiles/tile_image.h"
+
+namespace lamina {
+
+// Draws a mesh as the plan says with the native engine: parts are projected in batches, in
+// visibility order, while the tiles of the picture draw the batch before. The picture does not
+// depend on the number of threads.
+class TileProjectRenderer {
+  public:
+    // Builds order and tables. The mesh must outlive it.
+    TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                        const ProjectPlan& plan, int width, int height);
+    TileProjectRenderer(const TileProjectRenderer&) = delete;
+    TileProjectRenderer& operator=(const TileProjectRenderer&) = delete;
+
+    // Ctrl-C ends it between batches; `progress` advances by step_count() in all.
+    void draw(const View& view, Progress* progress = nullptr);
+    int step_count() const { return static_cast<int>(batch_count()); }
+    Image read() const;
+
+    const OrderReport& order_report() const { return order_.report(); }
+    std::int64_t tets_drawn() const { return tets_drawn_; }  // of the last frame, like these:
+    std::int64_t fragments() const;
+    double order_ms() const { return order_ms_; }
+    double draw_ms() const { return draw_ms_; }
+    double table_ms() const { return table_ms_; }
+    std::int64_t byte_count() const;  // of host memory that it took, but for order and tables
+
+  private:
+    using Chunks = std::vector<std::unique_ptr<TileChunk>>;
+
+    std::size_t batch_count() const;
+    std::span<const TetPart> list_parts(const View& view);
+    void set_view(const View& view);
+    void clear();
+    void project(const TetProjector& projector, std::span<const TetPart> parts,
+                 Chunks& chunks) const;
+    void project_chunk(const TetProjector& projector, std::span<const TetPart> parts,
+                       TileChunk& chunk) const;
+    void count_tets(const Chunks& chunks);
+    void draw(const Chunks& chunks);
+    void draw_tile(const Chunks& chunks, std::size_t tile);
+
+    const SceneMesh& mesh_;
+    ProjectPlan plan_;
+    TetPieces pieces_;
+    VisibilityOrder order_;
+    std::optional<VisibleParts> parts_;
+    TetFragments fragments_{};
+    TileImage image_;
+    std::vector<TilePixels::Plane> slants_;      // of tiles; empty where all are 1
+    double slant_pixel_ = 0;                     // View::pixel that they are of
+    std::array<Chunks, 2> batches_;              // one is projected while the other is drawn
+    std::vector<std::int64_t> fragment_counts_;  // of tiles
+    std::int64_t tets_drawn_ = 0;
+    std::int32_t last_tet_ = -1;
+    double order_ms_ = 0, draw_ms_ = 0, table_ms_ = 0;
+};
+
+}  // namespace lamina

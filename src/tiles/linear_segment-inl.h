@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector form of shaders/optics/linear_segment.glsl: a segment on which colour and extinction are
+// linear. Opacity in closed form, colour by the weight of its front (optics/front_weights.h).
+#if defined(LAMINA_TILES_LINEAR_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
+#undef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
+#else
+#define LAMINA_TILES_LINEAR_SEGMENT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "optics/front_weights.h"
+#include "tiles/arithmetic-inl.h"
+#include "tiles/opacity-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Of p + q <= 2 thin_depth.
+template <class D>
+HWY_INLINE hn::Vec<D> thin_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
+    const auto c0 =
+        hn::Mul(q, polynomial(d, q, {0.166777794f, -0.025093103f, 0.002890381f, -0.000196459f}));
+    const auto c1 = polynomial(d, q, {0.333037217f, -0.074477034f, 0.011162302f, -0.000919007f});
+    const auto c2 = polynomial(d, q, {-0.065656503f, 0.015676728f, -0.001696676f});
+    const auto c3 = polynomial(d, q, {0.008428908f, -0.001502640f});
+    const auto c4 = hn::Set(d, -0.000561545f);
+    return mul_add(p, mul_add(p, mul_add(p, mul_add(p, c4, c3), c2), c1), c0);
+}
+
+// `table`: FrontWeightTable's, nodes x nodes floats, the row of q after the row before.
+template <class D>
+HWY_INLINE hn::Vec<D> front_weight(D d, const float* table, int nodes, hn::Vec<D> p, hn::Vec<D> q) {
+    const hn::RebindToSigned<D> di;
+    const auto one = hn::Set(d, 1.0f), last = hn::Set(d, static_cast<float>(nodes - 1));
+    const auto x = hn::Mul(last, hn::Sub(one, hn::Div(one, hn::Add(one, p))));
+    const auto y = hn::Mul(last, hn::Sub(one, hn::Div(one, hn::Sqrt(hn::Add(one, q)))));
+    const auto most = hn::Set(di, nodes - 2);
+    const auto column = hn::Min(hn::ConvertTo(di, x), most),
+               row = hn::Min(hn::ConvertTo(di, y), most);
+    const auto share_x = hn::Sub(x, hn::ConvertTo(d, column)),
+               share_y = hn::Sub(y, hn::ConvertTo(d, row));
+    const auto place = hn::Add(hn::Mul(row, hn::Set(di, nodes)), column);
+    const auto near =
+        mix(hn::GatherIndex(d, table, place), hn::GatherIndex(d, table + 1, place), share_x);
+    const auto far = mix(hn::GatherIndex(d, table + nodes, place),
+                         hn::GatherIndex(d, table + nodes + 1, place), share_x);
+    return mix(near, far, share_y);
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
