@@ -33,28 +33,32 @@ HWY_INLINE Fragment<hn::Vec<D>> constant_color(D d, const TetFragments& fragment
                       opacity_from_depth(d, hn::Mul(hn::Set(d, optics.a), run.world_length)));
 }
 
-template <class D>
+template <class Shade, class D>
 HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, const TetFragments& fragments,
-                                           const TetRecord& record, bool thin,
-                                           const TetRun<hn::Vec<D>>& run) {
+                                           const TetRecord& record, const TetRun<hn::Vec<D>>& run) {
     using V = hn::Vec<D>;
     const auto optics = [&](std::size_t i, V place) HWY_ATTR {
         return mix(hn::Set(d, record.low[i]), hn::Set(d, record.high[i]), place);
     };
     const V half = hn::Set(d, 0.5f), front = optics(3, run.front), back = optics(3, run.back);
-    if (!fragments.colored) {
+    if constexpr (!Shade::colored) {
         const V mean = hn::Add(hn::Mul(half, front), hn::Mul(half, back));
         return with_color(d, fragments.single_color,
                           opacity_from_depth(d, hn::Mul(mean, run.world_length)));
     }
     const V p = hn::Mul(front, run.world_length), q = hn::Mul(back, run.world_length);
     const V opacity = opacity_from_depth(d, hn::Add(hn::Mul(half, p), hn::Mul(half, q)));
-    const V most = thin ? thin_front_weight(d, p, q)
-                        : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
+    const V most = Shade::thin
+                       ? thin_front_weight(d, p, q)
+                       : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
     const V weight = hn::Min(most, opacity);
+    // opacity * back + weight * (front - back), in terms of the part's ends: no term is negative.
+    const V of_high =
+        hn::Add(hn::Mul(hn::Sub(opacity, weight), run.back), hn::Mul(weight, run.front));
+    const V of_low = hn::Sub(opacity, of_high);
     const auto channel = [&](std::size_t i) HWY_ATTR {
-        const V at_front = optics(i, run.front), at_back = optics(i, run.back);
-        return hn::Add(hn::Mul(opacity, at_back), hn::Mul(weight, hn::Sub(at_front, at_back)));
+        return hn::Add(hn::Mul(of_low, hn::Set(d, record.low[i])),
+                       hn::Mul(of_high, hn::Set(d, record.high[i])));
     };
     return {channel(0), channel(1), channel(2), opacity};
 }

@@ -171,16 +171,15 @@ HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
     return inside;
 }
 
-// `slant`: world length per unit of z. `covered`: rays that meet the part; the others' span is 0.
-template <class D>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const TetRecord& record,
+// `slant`: world length per unit of z. Rays that miss the part have the span 0.
+template <class Shade, class D>
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetRecord& record,
                                        const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
                                        hn::Vec<D> row, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
-    const bool has_scalars = fragments.source != SegmentSource::constant;
     TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
-    if (fragments.perspective) {
+    if constexpr (Shade::perspective) {
         // Differences of z from differences of depth, so that far eyes cost no digits.
         const V center = hn::Set(d, record.center_depth), minus_one = hn::Set(d, -1.0f),
                 most = hn::Set(d, -1e-30f);
@@ -191,13 +190,13 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const
         front = hn::Mul(hn::Mul(front, z_front), z_center);
         back = hn::Mul(hn::Mul(back, z_back), z_center);
     }
-    if (!has_scalars) return run;
+    if constexpr (Shade::source == SegmentSource::constant) return run;
+    constexpr bool cut = Shade::source == SegmentSource::parts;
+    const V least = hn::Set(d, cut ? 0.0f : record.limits[0]),
+            largest = hn::Set(d, cut ? 1.0f : record.limits[1]);
     const V aside = hn::Add(hn::Mul(column, hn::Set(d, record.scalar_per_column)),
                             hn::Mul(row, hn::Set(d, record.scalar_per_row)));
     const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);
-    const bool cut = fragments.source == SegmentSource::parts;
-    const V least = hn::Set(d, cut ? 0.0f : record.limits[0]),
-            largest = hn::Set(d, cut ? 1.0f : record.limits[1]);
     const auto scalar = [&](V from_center, V z) HWY_ATTR {
         const V sum = hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));
         return hn::Min(hn::Max(sum, least), largest);

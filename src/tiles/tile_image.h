@@ -10,10 +10,13 @@
 
 namespace lamina {
 
-// The pixels of one tile, at TileGrid::place(): associated colour and opacity; of fixed-point
-// targets codes, which floats hold exactly.
-struct alignas(64) TilePixels {
-    using Plane = std::array<float, TileGrid::pixels>;
+// One number for each pixel of a tile, at TileGrid::place().
+struct alignas(64) TilePlane : std::array<float, TileGrid::pixels> {};
+
+// The pixels of one tile: associated colour and opacity; of fixed-point targets codes, which floats
+// hold exactly.
+struct TilePixels {
+    using Plane = TilePlane;
     Plane red, green, blue, alpha;
 };
 
