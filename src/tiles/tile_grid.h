@@ -41,6 +41,15 @@ class TileGrid {
         const int number = row / block * (edge / block) + column / block;
         return number * block * block + row % block * block + column % block;
     }
+    // The pixel that it keeps there.
+    struct Place {
+        int column, row;
+    };
+    static constexpr Place pixel_at(int place) {
+        constexpr int per_row = edge / block;
+        const int number = place / (block * block), rest = place % (block * block);
+        return {number % per_row * block + rest % block, number / per_row * block + rest / block};
+    }
 
   private:
     int width_, height_, columns_, rows_;

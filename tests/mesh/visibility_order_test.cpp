@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <random>
 
-#include "allocation_count.h"
 #include "mesh/face_signs.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/order_check.h"
+#include "support/allocation_count.h"
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/expect_error.h"

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "slicing/tile_march.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slicing/tile_blend.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "slicing/tile_precise-inl.h"
+#include "slicing/tile_segments-inl.h"
+#include "tiles/random_bits-inl.h"
+#include "tiles/target_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+using Pixel = Pixels<Floats>;
+
+// Composites slabs onto a vector of pixels, twin of shaders/slicing/slab.frag.
+class SlabBlender {
+  public:
+    SlabBlender(const TileSlabs& slabs, const TargetBlend& target, const SampleSpan& span,
+                double depth_scale, bool opacity_only)
+        : slabs_(slabs),
+          plan_(*slabs.plan),
+          target_(target),
+          span_(span),
+          depth_scale_(depth_scale),
+          opacity_only_(opacity_only),
+          behind_(target.order == Order::front_to_back),
+          as_codes_(plan_.emulation || plan_.dither) {
+        const FloatTag d;
+        if (!plan_.single_color || opacity_only_) return;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const Floats color = hn::Set(d, slabs.single_color[channel]);
+            for (int i = 0; i < tile_block_slabs; ++i)
+                hn::Store(color, d, block_.colors[channel] + at(i));
+        }
+    }
+
+    // `there`: of the pixels from (column, row) on; opacity_only: its alpha.
+    void composite(int column, int row, Pixel& there) {
+        column_ = column;
+        row_ = row;
+        const bool colored = !plan_.single_color && !opacity_only_;
+        for (const TileBrickView& brick : slabs_.bricks) {
+            PacketRays rays = packet_rays(slabs_.rays, brick, column, row);
+            set_span(slabs_.rays, brick, span_.first, span_.end(), rays);
+            const int first = (rays.first_slab - span_.first) / tile_block_slabs;
+            const int end = (rays.end_slab - span_.first + tile_block_slabs - 1) / tile_block_slabs;
+            for (int k = 0; k < end - first; ++k) {
+                const int number = behind_ ? first + k : end - 1 - k;
+                block_.first_slab = span_.first + number * tile_block_slabs;
+                block_.from = std::max(rays.first_slab - block_.first_slab, 0);
+                block_.end = std::min(rays.end_slab - block_.first_slab, tile_block_slabs);
+                segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
+                                       : set_segments(slabs_, brick, rays, colored, block_);
+                composite_block(there);
+            }
+        }
+    }
+
+    std::int64_t segments() const { return segments_; }
+
+  private:
+    // Works on a copy, which stays in registers.
+    void composite_block(Pixel& pixel) const {
+        Pixel there = pixel;
+        if (as_codes_) {
+            for_each_slab([&](int i) HWY_ATTR { blend_code(i, there); });
+        } else if (opacity_only_) {
+            for_each_slab([&](int i) HWY_ATTR { blend_opacity_alone(i, there); });
+        } else if (target_.target != Target::float32) {
+            for_each_slab([&](int i) HWY_ATTR {
+                blend(FloatTag(), target_, fragment(i, opacity_of(i)), there);
+            });
+        } else if (behind_) {
+            for_each_slab([&](int i) HWY_ATTR { blend_float<true>(i, there); });
+        } else {
+            for_each_slab([&](int i) HWY_ATTR { blend_float<false>(i, there); });
+        }
+        pixel = there;
+    }
+
+    template <class Body>
+    HWY_INLINE void for_each_slab(const Body& body) const {
+        if (behind_) {
+            for (int i = block_.from; i < block_.end; ++i) body(i);
+        } else {
+            for (int i = block_.end; i-- > block_.from;) body(i);
+        }
+    }
+
+    HWY_INLINE Floats opacity_of(int slab) const {
+        return opacity_from_depth(FloatTag(), hn::Load(FloatTag(), block_.depths + at(slab)));
+    }
+
+    HWY_INLINE Floats color_of(int slab, std::size_t channel) const {
+        return hn::Load(FloatTag(), block_.colors[channel] + at(slab));
+    }
+
+    HWY_INLINE Fragment<Floats> fragment(int slab, Floats opacity) const {
+        return {hn::Mul(color_of(slab, 0), opacity), hn::Mul(color_of(slab, 1), opacity),
+                hn::Mul(color_of(slab, 2), opacity), opacity};
+    }
+
+    // blend() of tiles/target_pixels-inl.h with what it would ask known.
+    template <bool behind>
+    HWY_INLINE void blend_float(int slab, Pixel& there) const {
+        const Fragment<Floats> source = fragment(slab, opacity_of(slab));
+        const Floats kept = hn::Sub(hn::Set(FloatTag(), 1.0f), behind ? there.alpha : source.alpha);
+        const auto put = [&](Floats color, Floats& pixel) HWY_ATTR {
+            pixel = behind ? mul_add(color, kept, pixel) : mul_add(pixel, kept, color);
+        };
+        put(source.red, there.red);
+        put(source.green, there.green);
+        put(source.blue, there.blue);
+        put(source.alpha, there.alpha);
+    }
+
+    HWY_INLINE void blend_opacity_alone(int slab, Pixel& there) const {
+        const FloatTag d;
+        const Floats depth = hn::Mul(hn::Load(d, block_.depths + at(slab)),
+                                     hn::Set(d, static_cast<float>(depth_scale_)));
+        blend_opacity(d, target_, opacity_from_depth(d, depth), there.alpha);
+    }
+
+    void blend_code(int slab, Pixel& there) const {
+        const FloatTag d;
+        const Floats alpha = code_of_alpha(slab);
+        if (plan_.emulation && opacity_only_) {
+            composite_opacity(d, target_, alpha, there.alpha);
+        } else if (plan_.emulation) {
+            composite_codes(
+                d, target_,
+                {code_of_color(slab, 0), code_of_color(slab, 1), code_of_color(slab, 2), alpha},
+                there);
+        } else if (opacity_only_) {
+            blend_opacity(d, target_, hn::Div(alpha, hn::Set(d, target_.largest)), there.alpha);
+        } else {
+            const Floats largest = hn::Set(d, target_.largest);
+            const Floats rounded = hn::Div(alpha, largest);
+            const auto associated = [&](std::size_t channel) HWY_ATTR {
+                const Floats color = plan_.dither->color
+                                         ? hn::Div(code_of_color(slab, channel), largest)
+                                         : color_of(slab, channel);
+                return hn::Mul(color, rounded);
+            };
+            blend(d, target_, {associated(0), associated(1), associated(2), rounded}, there);
+        }
+    }
+
+    Floats code_of_alpha(int slab) const {
+        const FloatTag d;
+        const DoubleTag dd;
+        const TwoDoubles depth = load_doubles(block_.precise_depths + at(slab));
+        const auto scale = hn::Set(dd, depth_scale_);
+        const Doubles<FloatTag> opacity{opacity_from_depth(dd, hn::Mul(depth.half[0], scale)),
+                                        opacity_from_depth(dd, hn::Mul(depth.half[1], scale))};
+        const int number = block_.first_slab + slab;
+        if (plan_.dither) {
+            const int place = number % plan_.dither->period;
+            return dithered_code(d, target_, opacity, *plan_.dither,
+                                 slabs_.alpha_ranks[static_cast<std::size_t>(place)]);
+        }
+        return alpha_code(d, target_, opacity, random_of(number));
+    }
+
+    Words random_of(int number) const {
+        const WordTag d;
+        if (target_.alpha_rounding != AlphaRounding::stochastic) return hn::Zero(d);
+        const Words lane = hn::Iota(d, 0);
+        const Words column =
+            hn::Add(hn::Set(d, static_cast<std::uint32_t>(column_)), hn::And(lane, hn::Set(d, 3u)));
+        const Words row =
+            hn::Add(hn::Set(d, static_cast<std::uint32_t>(row_)), hn::ShiftRight<2>(lane));
+        return random_bits(d, column, row, hn::Set(d, static_cast<std::uint32_t>(number)),
+                           hn::Set(d, target_.seed));
+    }
+
+    Floats code_of_color(int slab, std::size_t channel) const {
+        const FloatTag d;
+        const Floats color = color_of(slab, channel);
+        if (!plan_.dither || !plan_.dither->color) return color_code(d, target_, color);
+        const int place = (block_.first_slab + slab) % plan_.dither->period;
+        return dithered_code(d, target_, to_doubles(d, clamp01(d, color)), *plan_.dither,
+                             slabs_.color_ranks[static_cast<std::size_t>(place)]);
+    }
+
+    const TileSlabs& slabs_;
+    const SlicePlan& plan_;
+    const TargetBlend& target_;
+    SampleSpan span_;
+    double depth_scale_;
+    bool opacity_only_, behind_, as_codes_;
+    int column_ = 0, row_ = 0;
+    std::int64_t segments_ = 0;
+    SlabBlock block_;
+};
+
+std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,
+                          const TileGrid::Tile& area, TilePixels& pixels) {
+    const FloatTag d;
+    SlabBlender blender(slabs, target, {0, slabs.plan->slabs}, 1, false);
+    for (std::size_t place = 0; place < TileGrid::pixels; place += hn::Lanes(d)) {
+        const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(place));
+        if (at.column >= area.width || at.row >= area.height) continue;
+        Pixel there{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        blender.composite(area.column + at.column, area.row + at.row, there);
+        hn::Store(there.red, d, pixels.red.data() + place);
+        hn::Store(there.green, d, pixels.green.data() + place);
+        hn::Store(there.blue, d, pixels.blue.data() + place);
+        hn::Store(there.alpha, d, pixels.alpha.data() + place);
+    }
+    return blender.segments();
+}
+
+std::int64_t blend_opacities(const TileSlabs& slabs, const TargetBlend& target,
+                             const TileGrid::Tile& area, const SampleSpan& span, double depth_scale,
+                             TilePixels::Plane& opacity) {
+    const FloatTag d;
+    SlabBlender blender(slabs, target, span, depth_scale, true);
+    for (std::size_t place = 0; place < TileGrid::pixels; place += hn::Lanes(d)) {
+        const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(place));
+        if (at.column >= area.width || at.row >= area.height) continue;
+        Pixel there{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Load(d, opacity.data() + place)};
+        blender.composite(area.column + at.column, area.row + at.row, there);
+        hn::Store(there.alpha, d, opacity.data() + place);
+    }
+    return blender.segments();
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lamina {
+
+HWY_EXPORT(blend_pixels);
+HWY_EXPORT(blend_opacities);
+
+std::int64_t blend_tile(const TileSlabs& slabs, const TargetBlend& blend,
+                        const TileGrid::Tile& area, TilePixels& pixels) {
+    return HWY_DYNAMIC_DISPATCH(blend_pixels)(slabs, blend, area, pixels);
+}
+
+std::int64_t blend_tile_opacity(const TileSlabs& slabs, const TargetBlend& blend,
+                                const TileGrid::Tile& area, const SampleSpan& span,
+                                double depth_scale, TilePixels::Plane& opacity) {
+    return HWY_DYNAMIC_DISPATCH(blend_opacities)(slabs, blend, area, span, depth_scale, opacity);
+}
+
+}  // namespace lamina
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/tile_fixed_tree.h"
+
+#include "base/interrupt.h"
+#include "compositing/unit_opacity.h"
+
+namespace lamina {
+
+struct TileFixedTree::Evaluation {
+    const TileGrid::Tile& area;
+    TileLeaves& leaves;
+    std::uint32_t swizzled = 0;  // nodes so far
+    // By level; a shape may have one level more than its factors.
+    alignas(64) std::array<TilePixels::Plane, max_tree_levels + 1> planes;
+};
+
+TileFixedTree::TileFixedTree(const CompositingPlan& plan, const TreeShape& shape,
+                             const std::array<float, 3>& single_color)
+    : blend_(target_blend(plan)),
+      emulated_(plan.emulation.has_value()),
+      shape_(shape),
+      single_color_(single_color) {
+    make_swizzles(0, shape_.root());
+}
+
+// Nodes of a level have one of few sizes: each once.
+void TileFixedTree::make_swizzles(int level, const SampleSpan& node) {
+    if (shape_.is_leaf(level, node)) return;
+    int last_size = 0;
+    for (int i = 0; i < shape_.factor(level); ++i) {
+        const SampleSpan child = child_span(node, i, shape_.factor(level));
+        if (child.count == 0 || child.count == last_size) continue;
+        last_size = child.count;
+        const auto [place, made] = swizzles_.try_emplace({child.count, node.count});
+        if (made) {
+            const double share = static_cast<double>(child.count) / node.count;
+            const std::uint32_t largest = largest_code(blend_.bits);
+            for (std::uint32_t code = 0; code <= largest; ++code) {
+                const double phi = static_cast<double>(code) / largest;
+                const ScaledValue scaled = split_scaled(largest * opacity_over(phi, share));
+                place->second.whole.push_back(static_cast<float>(scaled.whole));
+                place->second.rest.push_back(static_cast<float>(scaled.rest));
+            }
+        }
+        if (made || child.count == node.count) make_swizzles(level + 1, child);
+    }
+}
+
+void TileFixedTree::draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const {
+    Evaluation evaluation{area, leaves, 0, {}};
+    evaluate(0, shape_.root(), evaluation);
+    colorize_tile(blend_, emulated_, single_color_, evaluation.planes[0], pixels);
+}
+
+void TileFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& evaluation) const {
+    TilePixels::Plane& plane = evaluation.planes[static_cast<std::size_t>(level)];
+    plane.fill(0);
+    if (shape_.is_leaf(level, node)) {
+        check_interrupt();
+        evaluation.leaves.draw(node, static_cast<double>(shape_.samples()) / node.count, plane);
+        return;
+    }
+    const int children = shape_.factor(level);
+    for (int i = 0; i < children; ++i) {
+        const bool back_to_front = blend_.order == Order::back_to_front;
+        const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
+        if (child.count == 0) continue;
+        evaluate(level + 1, child, evaluation);
+        const Swizzle& swizzle = swizzles_.at({child.count, node.count});
+        const auto samples = static_cast<std::uint32_t>(shape_.samples());
+        swizzle_tile({blend_, emulated_, swizzle.whole.data(), swizzle.rest.data(),
+                      samples + evaluation.swizzled++},
+                     evaluation.area, evaluation.planes[static_cast<std::size_t>(level) + 1],
+                     plane);
+    }
+}
+
+std::int64_t TileFixedTree::byte_count() const {
+    std::size_t bytes = 0;
+    for (const auto& [sizes, swizzle] : swizzles_)
+        bytes += sizeof(float) * (swizzle.whole.size() + swizzle.rest.size());
+    return static_cast<std::int64_t>(bytes);
+}
+
+}  // namespace lamina

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "compositing/tree_shape.h"
+#include "slicing/tile_slabs.h"
+#include "tiles/target_blend.h"
+#include "tiles/tile_image.h"
+
+namespace lamina {
+
+// A node whose children are single slabs, or fewer, marches them, whatever its level: in float
+// that is the same.
+inline bool is_marched(const TreeShape& shape, int level, const SampleSpan& node) {
+    return shape.is_leaf(level, node) || shape.factor(level) >= node.count;
+}
+
+// Replaces a tile by the picture of a tree whose nodes are computed in float (NUMERICS section 4),
+// straight compositing in registers where the root is a leaf. Each vector of pixels goes through
+// the whole tree by itself, nearest slab first. Returns the segments evaluated.
+std::int64_t march_tile(const TileSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area,
+                        TilePixels& pixels);
+
+// Composites all slabs onto a tile one after the other, in the plan's order.
+std::int64_t blend_tile(const TileSlabs& slabs, const TargetBlend& blend,
+                        const TileGrid::Tile& area, TilePixels& pixels);
+
+// The opacity alone of some slabs, onto one channel: a leaf of a tree of fixed-point nodes. Optical
+// depths are multiplied by `depth_scale`.
+std::int64_t blend_tile_opacity(const TileSlabs& slabs, const TargetBlend& blend,
+                                const TileGrid::Tile& area, const SampleSpan& span,
+                                double depth_scale, TilePixels::Plane& opacity);
+
+}  // namespace lamina

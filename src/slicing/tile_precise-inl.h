@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Segments in double precision, for codes of n bits: the same numbers as the shaders', so that the
+// codes are the same.
+#if defined(LAMINA_SLICING_TILE_PRECISE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_TILE_PRECISE_INL_H_
+#undef LAMINA_SLICING_TILE_PRECISE_INL_H_
+#else
+#define LAMINA_SLICING_TILE_PRECISE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "slicing/tile_optics-inl.h"
+#include "slicing/tile_preintegration-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+HWY_INLINE TwoDoubles load_doubles(const double* from) {
+    const DoubleTag d;
+    return {{hn::Load(d, from), hn::Load(d, from + hn::Lanes(d))}};
+}
+
+HWY_INLINE void store_doubles(const TwoDoubles& v, double* to) {
+    const DoubleTag d;
+    hn::Store(v.half[0], d, to);
+    hn::Store(v.half[1], d, to + hn::Lanes(d));
+}
+
+// Depth of the boundary in front of a slab, inside the box.
+HWY_INLINE TwoDoubles boundary(const TileRays& frame, const PacketRays& rays, int slab) {
+    const auto depth = hn::Set(DoubleTag(), slab * frame.slab_thickness);
+    TwoDoubles result;
+    for (int h = 0; h < 2; ++h)
+        result.half[h] = hn::Min(hn::Max(depth, rays.enter.half[h]), rays.leave.half[h]);
+    return result;
+}
+
+HWY_INLINE Points precise_point(const PacketRays& rays, const TwoDoubles& depth) {
+    Floats point[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        TwoDoubles place;
+        for (int h = 0; h < 2; ++h) {
+            place.half[h] = hn::Add(rays.origin[axis].half[h],
+                                    hn::Mul(depth.half[h], rays.direction[axis].half[h]));
+        }
+        point[axis] = narrow(place);
+    }
+    return {point[0], point[1], point[2]};
+}
+
+// World lengths, into precise_depths and rounded; the number of segments that have one.
+HWY_INLINE std::int64_t set_precise_lengths(const TileRays& frame, const PacketRays& rays,
+                                            SlabBlock& block) {
+    const FloatTag d;
+    std::int64_t segments = 0;
+    TwoDoubles front = boundary(frame, rays, block.first_slab + block.from);
+    for (int i = block.from; i < block.end; ++i) {
+        const TwoDoubles back = boundary(frame, rays, block.first_slab + i + 1);
+        TwoDoubles length;
+        for (int h = 0; h < 2; ++h) {
+            length.half[h] =
+                hn::Mul(hn::Sub(back.half[h], front.half[h]), rays.length_per_depth.half[h]);
+        }
+        store_doubles(length, block.precise_depths + at(i));
+        const Floats rounded = narrow(length);
+        segments += static_cast<std::int64_t>(hn::CountTrue(d, hn::Gt(rounded, hn::Zero(d))));
+        hn::Store(rounded, d, block.lengths + at(i));
+        front = back;
+    }
+    return segments;
+}
+
+HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& brick,
+                                    const PacketRays& rays, SlabBlock& block) {
+    const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
+    const TileRays& frame = slabs.rays;
+    const auto middle = [&](int i) HWY_ATTR {
+        const TwoDoubles front = boundary(frame, rays, block.first_slab + i);
+        const TwoDoubles back = boundary(frame, rays, block.first_slab + i + 1);
+        TwoDoubles depth;
+        for (int h = 0; h < 2; ++h) {
+            depth.half[h] =
+                hn::Mul(hn::Set(DoubleTag(), 0.5), hn::Add(front.half[h], back.half[h]));
+        }
+        return precise_point(rays, depth);
+    };
+    sample_points<PointKind::exact>(brick, hardware, block.from, block.end, middle, block.scalars);
+    if (!slabs.plan->uses_table()) return;
+    const auto edge = [&](int i) HWY_ATTR {
+        return precise_point(rays, boundary(frame, rays, block.first_slab + i));
+    };
+    sample_points<PointKind::exact>(brick, hardware, block.from, block.end + 1, edge,
+                                    block.edge_scalars);
+}
+
+HWY_INLINE void scale_precise_depth(const TwoDoubles& extinction, int slab, SlabBlock& block) {
+    TwoDoubles depth = load_doubles(block.precise_depths + at(slab));
+    for (int h = 0; h < 2; ++h) depth.half[h] = hn::Mul(extinction.half[h], depth.half[h]);
+    store_doubles(depth, block.precise_depths + at(slab));
+}
+
+template <Lookup kind>
+HWY_INLINE void classify_precisely(const TileTransfer& transfer, bool colored, bool nan_transparent,
+                                   SlabBlock& block) {
+    const FloatTag d;
+    for (int i = block.from; i < block.end; ++i) {
+        Floats scalar = hn::Load(d, block.scalars + at(i));
+        const auto number = hn::Eq(scalar, scalar);
+        if (nan_transparent) scalar = hn::IfThenElseZero(number, scalar);
+        scalar = clamp01(d, scalar);
+        const Ints interval = find_interval<kind>(transfer, scalar);
+        const Floats share = share_of_interval<kind>(transfer, interval, scalar);
+        TwoDoubles extinction = precise_extinction_at<kind>(transfer, interval, share);
+        if (nan_transparent) {
+            const TwoDoubles seen = widen(hn::IfThenElseZero(number, hn::Set(d, 1.0f)));
+            for (int h = 0; h < 2; ++h)
+                extinction.half[h] = hn::Mul(extinction.half[h], seen.half[h]);
+        }
+        scale_precise_depth(extinction, i, block);
+        if (!colored) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            hn::Store(optics_at<kind>(transfer, channel, interval, share), d,
+                      block.colors[channel] + at(i));
+        }
+    }
+}
+
+// Fills the block's precise depths and its colours; returns how many segments have a length.
+inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrickView& brick,
+                                         const PacketRays& rays, bool colored, SlabBlock& block) {
+    const FloatTag d;
+    const SlicePlan& plan = *slabs.plan;
+    const std::int64_t segments = set_precise_lengths(slabs.rays, rays, block);
+    if (plan.sampling == VolumeSampling::none) {
+        const TwoDoubles extinction = all(slabs.constant_extinction);
+        for (int i = block.from; i < block.end; ++i) {
+            scale_precise_depth(extinction, i, block);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                hn::Store(hn::Set(d, slabs.single_color[channel]), d,
+                          block.colors[channel] + at(i));
+            }
+        }
+        return segments;
+    }
+    set_precise_scalars(slabs, brick.brick, rays, block);
+    const TileTransfer& transfer = *slabs.transfer;
+    with_lookup(transfer, [&](auto kind) HWY_ATTR {
+        constexpr Lookup lookup = decltype(kind)::value;
+        if (plan.uses_table()) {
+            integrate_runs<lookup>(transfer, colored, plan.nan_transparent, block);
+            for (int i = block.from; i < block.end; ++i) {
+                store_doubles(widen(hn::Load(d, block.depths + at(i))),
+                              block.precise_depths + at(i));
+            }
+        } else {
+            classify_precisely<lookup>(transfer, colored, plan.nan_transparent, block);
+        }
+    });
+    return segments;
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

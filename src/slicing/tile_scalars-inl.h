@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scalar at points of a brick, as shaders/volume/scalar.glsl: trilinear in float.
+#if defined(LAMINA_SLICING_TILE_SCALARS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_TILE_SCALARS_INL_H_
+#undef LAMINA_SLICING_TILE_SCALARS_INL_H_
+#else
+#define LAMINA_SLICING_TILE_SCALARS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "slicing/tile_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+using IntTag = hn::RebindToSigned<FloatTag>;
+using WordTag = hn::RebindToUnsigned<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using Words = hn::Vec<WordTag>;
+
+struct Points {
+    Floats x, y, z;
+};
+
+// The corners of a cell: at its lower and its upper x, each at (y, z), (y + 1, z), (y, z + 1),
+// (y + 1, z + 1).
+struct Corners {
+    Floats lower[4], upper[4];
+};
+
+HWY_INLINE Floats low_byte(Words v) {
+    return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), hn::And(v, hn::Set(WordTag(), 0xffu))));
+}
+
+HWY_INLINE Floats to_float(Words v) {
+    return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), v));
+}
+
+template <TileLayout layout>
+HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
+    Corners corners;
+    if constexpr (layout == TileLayout::quads) {
+        const auto* const quads = static_cast<const std::uint32_t*>(brick.samples);
+        for (int z = 0; z < 2; ++z) {
+            const Words quad =
+                hn::GatherIndex(WordTag(), quads + (z != 0 ? brick.slice : 0), index);
+            corners.lower[2 * z] = low_byte(quad);
+            corners.upper[2 * z] = low_byte(hn::ShiftRight<8>(quad));
+            corners.lower[2 * z + 1] = low_byte(hn::ShiftRight<16>(quad));
+            corners.upper[2 * z + 1] = to_float(hn::ShiftRight<24>(quad));
+        }
+    } else if constexpr (layout == TileLayout::floats) {
+        const auto* const floats = static_cast<const float*>(brick.samples);
+        const std::int32_t next = brick.last_sample[0] > 0 ? 1 : 0;
+        for (int i = 0; i < 4; ++i) {
+            const float* const from =
+                floats + ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
+            corners.lower[i] = hn::GatherIndex(FloatTag(), from, index);
+            corners.upper[i] = hn::GatherIndex(FloatTag(), from + next, index);
+        }
+    } else {
+        // 32 bits hold a sample and the next along x. What begins too near the memory's end is
+        // read a little before, and shifted.
+        constexpr int size = layout == TileLayout::bytes ? 1 : 2;
+        const auto* const words = static_cast<const std::uint32_t*>(brick.samples);
+        for (int i = 0; i < 4; ++i) {
+            const std::int32_t step =
+                ((i & 1) != 0 ? brick.row : 0) + ((i & 2) != 0 ? brick.slice : 0);
+            Ints offset = hn::Add(index, hn::Set(IntTag(), step));
+            if constexpr (size == 2) offset = hn::ShiftLeft<1>(offset);
+            const Ints inside = hn::Min(offset, hn::Set(IntTag(), brick.last_word));
+            const Words shift = hn::BitCast(WordTag(), hn::ShiftLeft<3>(hn::Sub(offset, inside)));
+            Words pair = hn::Shr(hn::GatherOffset(WordTag(), words, inside), shift);
+            if constexpr (size == 1) {
+                corners.lower[i] = low_byte(pair);
+                corners.upper[i] = low_byte(hn::ShiftRight<8>(pair));
+            } else {
+                pair = hn::Xor(pair, hn::Set(WordTag(), brick.flip));
+                corners.lower[i] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
+                corners.upper[i] = to_float(hn::ShiftRight<16>(pair));
+            }
+        }
+    }
+    return corners;
+}
+
+// `hardware`: with weights of 8 bits, as texture units have (NUMERICS section 2).
+HWY_INLINE Floats weight_of(Floats share, bool hardware) {
+    if (!hardware) return share;
+    const FloatTag d;
+    return hn::Mul(hn::Round(hn::Mul(share, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256));
+}
+
+HWY_INLINE Floats interpolate(const Corners& corners, Floats x, Floats y, Floats z) {
+    Floats along_x[4];
+    for (int i = 0; i < 4; ++i) along_x[i] = mix(corners.lower[i], corners.upper[i], x);
+    return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
+}
+
+// How a loop over points treats them. inside: they are known to lie between the first and the last
+// sample. exact: codes become what textures give before they are interpolated, so that the scalars
+// are those of the shaders bit for bit.
+enum class PointKind { inside, anywhere, exact };
+
+template <TileLayout layout, PointKind kind>
+HWY_INLINE Floats scalar_at(const TileBrick& brick, bool hardware, const Points& points) {
+    const FloatTag d;
+    const IntTag di;
+    const Floats point[3] = {points.x, points.y, points.z};
+    Floats share[3];
+    Ints lower[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        Floats p = point[axis], least = p;
+        if constexpr (kind != PointKind::inside) {
+            const float last = brick.last_sample[static_cast<std::size_t>(axis)];
+            p = hn::Min(hn::Max(p, hn::Zero(d)), hn::Set(d, last));
+            least = hn::Min(p, hn::Set(d, std::max(last - 1.0f, 0.0f)));
+        }
+        lower[axis] = hn::ConvertTo(di, least);
+        share[axis] = weight_of(hn::Sub(p, hn::ConvertTo(d, lower[axis])), hardware);
+    }
+    const Ints index = hn::Add(hn::Add(lower[0], hn::Mul(lower[1], hn::Set(di, brick.row))),
+                               hn::Mul(lower[2], hn::Set(di, brick.slice)));
+    Corners corners = fetch_corners<layout>(brick, index);
+    float scale = brick.scale;
+    if constexpr (kind == PointKind::exact && layout != TileLayout::floats) {
+        for (int i = 0; i < 4; ++i) {
+            corners.lower[i] = hn::Mul(corners.lower[i], hn::Set(d, brick.unit));
+            corners.upper[i] = hn::Mul(corners.upper[i], hn::Set(d, brick.unit));
+        }
+        scale = brick.unit_scale;
+    }
+    const Floats raw = interpolate(corners, share[0], share[1], share[2]);
+    if constexpr (layout == TileLayout::floats) return raw;
+    return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
+}
+
+// Scalars at point_at(i), i = first .. end - 1, a vector each.
+template <PointKind kind, class PointAt>
+HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
+                              const PointAt& point_at, float* scalars) {
+    const FloatTag d;
+    const auto sample = [&](auto layout) {
+        for (int i = first; i < end; ++i) {
+            hn::Store(scalar_at<decltype(layout)::value, kind>(brick, hardware, point_at(i)), d,
+                      scalars + static_cast<std::size_t>(i) * most_lanes);
+        }
+    };
+    switch (brick.layout) {
+        case TileLayout::quads:
+            return sample(std::integral_constant<TileLayout, TileLayout::quads>());
+        case TileLayout::bytes:
+            return sample(std::integral_constant<TileLayout, TileLayout::bytes>());
+        case TileLayout::words:
+            return sample(std::integral_constant<TileLayout, TileLayout::words>());
+        default:
+            return sample(std::integral_constant<TileLayout, TileLayout::floats>());
+    }
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

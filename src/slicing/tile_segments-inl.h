@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// The segments of a block of slabs along the rays of a vector of pixels: colour and optical depth,
+// as shaders/slicing/segment.glsl, in stages over the whole block, so that many slabs are under way
+// at a time.
+#if defined(LAMINA_SLICING_TILE_SEGMENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_TILE_SEGMENTS_INL_H_
+#undef LAMINA_SLICING_TILE_SEGMENTS_INL_H_
+#else
+#define LAMINA_SLICING_TILE_SEGMENTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "slicing/tile_optics-inl.h"
+#include "slicing/tile_preintegration-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+// Rays relative to the front of a block.
+struct BlockRays {
+    Floats base[3];
+    Floats enter, leave;
+};
+
+HWY_INLINE BlockRays block_rays(const PacketRays& rays, double front) {
+    const DoubleTag d;
+    const auto depth = hn::Set(d, front);
+    BlockRays block;
+    TwoDoubles point;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int h = 0; h < 2; ++h) {
+            point.half[h] =
+                hn::Add(rays.origin[axis].half[h], hn::Mul(depth, rays.direction[axis].half[h]));
+        }
+        block.base[axis] = narrow(point);
+    }
+    TwoDoubles enter, leave;
+    for (int h = 0; h < 2; ++h) {
+        enter.half[h] = hn::Sub(rays.enter.half[h], depth);
+        leave.half[h] = hn::Sub(rays.leave.half[h], depth);
+    }
+    block.enter = narrow(enter);
+    block.leave = narrow(leave);
+    return block;
+}
+
+HWY_INLINE Points point_at(const BlockRays& block, const PacketRays& rays, Floats depth) {
+    return {mul_add(depth, rays.direction_float[0], block.base[0]),
+            mul_add(depth, rays.direction_float[1], block.base[1]),
+            mul_add(depth, rays.direction_float[2], block.base[2])};
+}
+
+// Whether all lanes are inside the box throughout the block's slabs, and between samples.
+HWY_INLINE bool is_inside(const TileRays& frame, const TileBrick& brick, const SlabBlock& block,
+                          const BlockRays& rays, const PacketRays& packet) {
+    const FloatTag d;
+    const Floats front = hn::Set(d, frame.edges[static_cast<std::size_t>(block.from)]);
+    const Floats back = hn::Set(d, frame.edges[static_cast<std::size_t>(block.end)]);
+    auto inside = hn::And(hn::Le(rays.enter, front), hn::Ge(rays.leave, back));
+    for (const Floats depth : {front, back}) {
+        const Points point = point_at(rays, packet, depth);
+        const Floats places[3] = {point.x, point.y, point.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto within = hn::And(hn::Ge(places[axis], hn::Zero(d)),
+                                        hn::Lt(places[axis], hn::Set(d, brick.last_sample[axis])));
+            inside = hn::And(inside, within);
+        }
+    }
+    return hn::AllTrue(d, inside);
+}
+
+// Lengths, and for rays that leave the box or the slabs depths; the number of segments.
+HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays,
+                                    Floats length_per_depth, bool inside, SlabBlock& block) {
+    const FloatTag d;
+    if (inside) {
+        for (int i = block.from; i < block.end; ++i) {
+            const auto place = static_cast<std::size_t>(i);
+            const float thickness = frame.edges[place + 1] - frame.edges[place];
+            hn::Store(hn::Mul(hn::Set(d, thickness), length_per_depth), d, block.lengths + at(i));
+        }
+        return static_cast<std::int64_t>(hn::Lanes(d)) * (block.end - block.from);
+    }
+    const auto edge = [&](int i) {
+        return hn::Min(hn::Max(hn::Set(d, frame.edges[static_cast<std::size_t>(i)]), rays.enter),
+                       rays.leave);
+    };
+    std::int64_t segments = 0;
+    Floats front = edge(block.from);
+    hn::Store(front, d, block.edges + at(block.from));
+    for (int i = block.from; i < block.end; ++i) {
+        const Floats back = edge(i + 1);
+        const Floats thickness = hn::Sub(back, front);
+        segments += static_cast<std::int64_t>(hn::CountTrue(d, hn::Gt(thickness, hn::Zero(d))));
+        hn::Store(back, d, block.edges + at(i + 1));
+        hn::Store(hn::Mul(hn::Set(d, 0.5f), hn::Add(front, back)), d, block.middles + at(i));
+        hn::Store(hn::Mul(thickness, length_per_depth), d, block.lengths + at(i));
+        front = back;
+    }
+    return segments;
+}
+
+// Scalars in the middles, and where the plan has a table at the edges.
+HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
+                            const PacketRays& packet, const BlockRays& rays, bool inside,
+                            SlabBlock& block) {
+    const FloatTag d;
+    const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
+    const bool table = slabs.plan->uses_table();
+    if (inside) {
+        const auto among = [&](const float* depths) {
+            return [&, depths](int i) { return point_at(rays, packet, hn::Set(d, depths[i])); };
+        };
+        const TileRays& frame = slabs.rays;
+        sample_points<PointKind::inside>(brick, hardware, block.from, block.end,
+                                         among(frame.middles.data()), block.scalars);
+        if (!table) return;
+        sample_points<PointKind::inside>(brick, hardware, block.from, block.end + 1,
+                                         among(frame.edges.data()), block.edge_scalars);
+        return;
+    }
+    const auto among = [&](const float* depths) {
+        return [&, depths](int i) { return point_at(rays, packet, hn::Load(d, depths + at(i))); };
+    };
+    sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end, among(block.middles),
+                                       block.scalars);
+    if (!table) return;
+    sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end + 1,
+                                       among(block.edges), block.edge_scalars);
+}
+
+template <Lookup kind>
+HWY_INLINE void classify(const TileTransfer& transfer, bool colored, bool nan_transparent,
+                         SlabBlock& block) {
+    const FloatTag d;
+    for (int i = block.from; i < block.end; ++i) {
+        Floats scalar = hn::Load(d, block.scalars + at(i));
+        Floats length = hn::Load(d, block.lengths + at(i));
+        if (nan_transparent) {
+            const auto number = hn::Eq(scalar, scalar);
+            scalar = hn::IfThenElseZero(number, scalar);
+            length = hn::IfThenElseZero(number, length);
+        }
+        scalar = clamp01(d, scalar);
+        const Ints interval = find_interval<kind>(transfer, scalar);
+        const Floats share = share_of_interval<kind>(transfer, interval, scalar);
+        const Floats extinction = optics_at<kind>(transfer, 3, interval, share);
+        hn::Store(hn::Mul(extinction, length), d, block.depths + at(i));
+        if (!colored) continue;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            hn::Store(optics_at<kind>(transfer, channel, interval, share), d,
+                      block.colors[channel] + at(i));
+        }
+    }
+}
+
+HWY_INLINE void set_constant(const TileSlabs& slabs, SlabBlock& block) {
+    const FloatTag d;
+    const Floats extinction = hn::Set(d, static_cast<float>(slabs.constant_extinction));
+    for (int i = block.from; i < block.end; ++i) {
+        hn::Store(hn::Mul(extinction, hn::Load(d, block.lengths + at(i))), d, block.depths + at(i));
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            hn::Store(hn::Set(d, slabs.single_color[channel]), d, block.colors[channel] + at(i));
+        }
+    }
+}
+
+// Fills the block's depths and colours for its slabs from .. end - 1; returns how many segments
+// have a length.
+inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,
+                                 const PacketRays& packet, bool colored, SlabBlock& block) {
+    const SlicePlan& plan = *slabs.plan;
+    const BlockRays rays = block_rays(packet, block.first_slab * slabs.rays.slab_thickness);
+    const bool sampled = plan.sampling != VolumeSampling::none;
+    const bool inside = sampled && is_inside(slabs.rays, brick.brick, block, rays, packet);
+    const std::int64_t segments = set_lengths(slabs.rays, rays, packet.length_float, inside, block);
+    if (!sampled) {
+        set_constant(slabs, block);
+        return segments;
+    }
+    set_scalars(slabs, brick.brick, packet, rays, inside, block);
+    const TileTransfer& transfer = *slabs.transfer;
+    with_lookup(transfer, [&](auto kind) HWY_ATTR {
+        constexpr Lookup lookup = decltype(kind)::value;
+        if (plan.uses_table()) {
+            integrate_runs<lookup>(transfer, colored, plan.nan_transparent, block);
+        } else {
+            classify<lookup>(transfer, colored, plan.nan_transparent, block);
+        }
+    });
+    return segments;
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/tile_slab_source.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "base/stopwatch.h"
+#include "optics/linear_pieces.h"
+#include "scene/drawn_range.h"
+#include "slicing/shader_intervals.h"
+#include "slicing/texture_bricks.h"
+
+namespace lamina {
+TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
+                               const Facts& facts, const SlicePlan& plan)
+    : plan_(plan), grid_(facts.grid) {
+    const ValueRange range = drawn_range(transfer_function, facts.range);
+    const glm::dvec3 single = first_color(transfer_function, range.lo, range.hi);
+    const OpticalProperties constant = transfer_function.at(range.lo);
+    const bool sampled = plan_.sampling != VolumeSampling::none;
+    const glm::dvec3 color = plan_.single_color || sampled ? single : constant.color;
+    for (int channel = 0; channel < 3; ++channel)
+        slabs_.single_color[static_cast<std::size_t>(channel)] = static_cast<float>(color[channel]);
+    slabs_.constant_extinction = std::min(constant.extinction, max_shader_extinction);
+    slabs_.plan = &plan_;
+    slabs_.bricks.reserve(plan_.bricks.size());
+    if (plan_.dither) {
+        slabs_.alpha_ranks = dither_ranks(plan_.dither->period, plan_.dither->seed);
+        slabs_.color_ranks =
+            dither_ranks(plan_.dither->period, std::uint64_t{plan_.dither->seed} + 1);
+    }
+    if (!sampled) return;
+    const Stopwatch table_watch;
+    transfer_.emplace(transfer_function, range, plan_.uses_table() ? &plan_.table : nullptr);
+    slabs_.transfer = &*transfer_;
+    table_ms_ = table_watch.milliseconds();
+    const Stopwatch upload_watch;
+    volume_.emplace(volume, range, plan_);
+    upload_ms_ = upload_watch.milliseconds();
+}
+
+void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
+    set_rays(view, slabs);
+    slabs_.bricks.clear();
+    if (plan_.bricks.size() == 1) {
+        add_brick(0, view, slabs);
+        return;
+    }
+    // A node that a program computes marches from the front, whatever the order of slabs is.
+    const Order order = plan_.has_tree(NodeArithmetic::shader) ? Order::front_to_back : plan_.order;
+    for (const std::size_t number : visibility_order(plan_.bricks, grid_, view, order))
+        add_brick(number, view, slabs);
+}
+
+void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
+    TileRays& rays = slabs_.rays;
+    const bool perspective = view.projection == Projection::perspective;
+    const glm::dvec3 column = grid_.direction_to_index(view.pixel * view.right);
+    const glm::dvec3 row = grid_.direction_to_index(-view.pixel * view.up);
+    const double spread = perspective ? slabs.near : 1;
+    rays.origin_column = spread * column;
+    rays.origin_row = spread * row;
+    rays.direction_middle = grid_.direction_to_index(view.forward);
+    rays.direction_column = perspective ? column : glm::dvec3(0);
+    rays.direction_row = perspective ? row : glm::dvec3(0);
+    rays.middle_column = 0.5 * view.width;
+    rays.middle_row = 0.5 * view.height;
+    rays.pixel_size = perspective ? static_cast<double>(static_cast<float>(view.pixel)) : 0.0;
+    rays.slab_thickness = (slabs.far - slabs.near) / slabs.count;
+    for (std::size_t i = 0; i < rays.edges.size(); ++i)
+        rays.edges[i] = static_cast<float>(static_cast<double>(i) * rays.slab_thickness);
+    for (std::size_t i = 0; i < rays.middles.size(); ++i)
+        rays.middles[i] = 0.5f * (rays.edges[i] + rays.edges[i + 1]);
+}
+
+void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs& slabs) {
+    const TextureBrick& part = plan_.bricks[number];
+    const glm::dvec3 first{part.first[0], part.first[1], part.first[2]};
+    const IndexBox box = box_of(part, grid_);
+    TileBrickView brick;
+    brick.drawn = {glm::max(box.min, plan_.drawn.min), glm::min(box.max, plan_.drawn.max)};
+    if (brick.drawn.empty()) return;
+    if (volume_) brick.brick = volume_->bricks()[number];
+    brick.origin_middle = grid_.to_index(view.eye + slabs.near * view.forward) - first;
+    // Shaders get the box in float.
+    brick.box = {glm::dvec3(glm::vec3(box.min - first)), glm::dvec3(glm::vec3(box.max - first))};
+    brick.drawn.min -= first;
+    brick.drawn.max -= first;
+    slabs_.bricks.push_back(brick);
+}
+
+std::int64_t TileSlabSource::byte_count() const {
+    return (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
+}
+
+}  // namespace lamina

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "slicing/tile_slabs.h"
+
+namespace lamina {
+
+// What the slabs' samples are made of: the volume, the transfer function and its tables, and the
+// rays of a view.
+class TileSlabSource {
+  public:
+    // `plan` must outlive it.
+    TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
+                   const Facts& facts, const SlicePlan& plan);
+    TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
+    TileSlabSource& operator=(const TileSlabSource&) = delete;
+
+    void set_view(const View& view, const Slabs& slabs);
+    const TileSlabs& slabs() const { return slabs_; }
+
+    double upload_ms() const { return upload_ms_; }
+    double table_ms() const { return table_ms_; }
+    std::int64_t byte_count() const;
+
+  private:
+    void set_rays(const View& view, const Slabs& slabs);
+    void add_brick(std::size_t number, const View& view, const Slabs& slabs);
+
+    const SlicePlan& plan_;
+    Grid grid_;
+    std::optional<TileTransfer> transfer_;
+    std::optional<TileVolume> volume_;
+    TileSlabs slabs_;
+    double upload_ms_ = 0, table_ms_ = 0;
+};
+
+}  // namespace lamina

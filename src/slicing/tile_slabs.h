@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/facts.h"
+#include "scene/plan.h"
+#include "slicing/slab_polygons.h"
+#include "slicing/tile_transfer.h"
+#include "slicing/tile_volume.h"
+
+namespace lamina {
+
+// Slabs are computed in blocks of so many, each with float coordinates relative to its front.
+inline constexpr int tile_block_slabs = 32;
+
+// Where viewing rays run: the uniforms of shaders/slicing/ray.glsl. Index space of a brick, depth
+// from the nearest slab's front on.
+struct TileRays {
+    glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right, downwards
+    glm::dvec3 direction_middle{0}, direction_column{0}, direction_row{0};
+    double middle_column = 0, middle_row = 0;  // of the image, in pixels
+    double pixel_size = 0;                     // at depth 1; 0 where rays are parallel
+    double slab_thickness = 0;
+    // Boundaries of a block's slabs and the middles between them, from the block's front on.
+    std::array<float, tile_block_slabs + 1> edges{};
+    std::array<float, tile_block_slabs> middles{};
+};
+
+struct TileBrickView {
+    TileBrick brick;
+    glm::dvec3 origin_middle{0};  // of the ray through the image's middle
+    IndexBox box, drawn;          // in the brick's index space
+};
+
+// Everything that fragments of slabs depend on.
+struct TileSlabs {
+    const SlicePlan* plan = nullptr;
+    const TileTransfer* transfer = nullptr;  // null where no scalar is fetched
+    TileRays rays;
+    std::vector<TileBrickView> bricks;  // that show something, in the plan's order
+    std::array<float, 3> single_color{};
+    double constant_extinction = 0;
+    std::vector<std::uint32_t> alpha_ranks, color_ranks;  // of dithering, by slab modulo period
+};
+
+}  // namespace lamina

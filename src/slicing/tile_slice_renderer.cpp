@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/tile_slice_renderer.h"
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+
+namespace lamina {
+namespace {
+
+class SlabLeaves : public TileLeaves {
+  public:
+    SlabLeaves(const TileSlabs& slabs, const TargetBlend& blend, const TileGrid::Tile& area)
+        : slabs_(slabs), blend_(blend), area_(area) {}
+
+    void draw(const SampleSpan& span, double depth_scale, TilePixels::Plane& opacity) override {
+        samples_ += blend_tile_opacity(slabs_, blend_, area_, span, depth_scale, opacity);
+    }
+    std::int64_t samples() const { return samples_; }
+
+  private:
+    const TileSlabs& slabs_;
+    const TargetBlend& blend_;
+    const TileGrid::Tile& area_;
+    std::int64_t samples_ = 0;
+};
+
+}  // namespace
+
+TileSliceRenderer::TileSliceRenderer(const Volume& volume,
+                                     const TransferFunction& transfer_function, const Facts& facts,
+                                     const SlicePlan& plan, int width, int height)
+    : plan_(plan), grid_(facts.grid), target_(width, height), blend_(target_blend(plan)) {
+    if (plan_.nothing_visible) return;
+    source_.emplace(volume, transfer_function, facts, plan_);
+    if (plan_.tree) shape_.emplace(plan_.tree->factors, plan_.slabs);
+    if (plan_.has_tree(NodeArithmetic::fixed))
+        fixed_tree_.emplace(plan_, *shape_, source_->slabs().single_color);
+}
+
+void TileSliceRenderer::draw(const View& view, Progress* progress) {
+    samples_ = 0;
+    geometry_ms_ = draw_ms_ = 0;
+    const DepthRange depth = depth_range(grid_, view);
+    if (!source_ || depth.far <= depth.near) {
+        for (int number = 0; number < target_.grid().count(); ++number)
+            target_.tile(number) = TilePixels{};
+        return;
+    }
+    const Stopwatch geometry_watch;
+    source_->set_view(view, {depth.near, depth.far, plan_.slabs});
+    geometry_ms_ = geometry_watch.milliseconds();
+    const Stopwatch draw_watch;
+    parallel_for(target_.grid().count(), 1, [&](std::int64_t number) {
+        samples_ += draw_tile(static_cast<int>(number));
+        if (progress != nullptr) progress->advance();
+    });
+    draw_ms_ = draw_watch.milliseconds();
+}
+
+std::int64_t TileSliceRenderer::draw_tile(int number) {
+    const TileGrid::Tile area = target_.grid().tile(number);
+    TilePixels& pixels = target_.tile(number);
+    if (plan_.has_tree(NodeArithmetic::shader))
+        return march_tile(source_->slabs(), *shape_, area, pixels);
+    if (!fixed_tree_) return blend_tile(source_->slabs(), blend_, area, pixels);
+    SlabLeaves leaves(source_->slabs(), blend_, area);
+    fixed_tree_->draw(area, leaves, pixels);
+    return leaves.samples();
+}
+
+Image TileSliceRenderer::read() const {
+    return target_.to_image(blend_.largest);
+}
+
+std::int64_t TileSliceRenderer::byte_count() const {
+    return target_.byte_count() + (source_ ? source_->byte_count() : 0) +
+           (fixed_tree_ ? fixed_tree_->byte_count() : 0);
+}
+
+}  // namespace lamina

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <optional>
+
+#include "base/progress.h"
+#include "image/image.h"
+#include "slicing/tile_fixed_tree.h"
+#include "slicing/tile_march.h"
+#include "slicing/tile_slab_source.h"
+#include "tiles/tile_image.h"
+
+namespace lamina {
+
+// Draws a volume as the plan says, with the native engine: GlSliceRenderer's twin.
+class TileSliceRenderer {
+  public:
+    // Prepares the volume and the tables.
+    TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
+                      const Facts& facts, const SlicePlan& plan, int width, int height);
+    TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
+    TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
+
+    // Complete when it returns. Ctrl-C ends it between tiles; `progress` advances by step_count in
+    // all. Takes no memory after the first frame.
+    void draw(const View& view, Progress* progress = nullptr);
+    int step_count() const { return source_ ? target_.grid().count() : 0; }
+    Image read() const;
+
+    double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
+    double table_ms() const { return source_ ? source_->table_ms() : 0; }
+    double geometry_ms() const { return geometry_ms_; }  // of the last frame
+    double draw_ms() const { return draw_ms_; }
+    std::int64_t samples() const { return samples_; }  // segments of rays in the last frame
+    std::int64_t byte_count() const;                   // of host memory, beside the volume's
+
+  private:
+    std::int64_t draw_tile(int number);
+
+    SlicePlan plan_;
+    Grid grid_;
+    TileImage target_;
+    TargetBlend blend_;
+    std::optional<TileSlabSource> source_;  // none where nothing is visible
+    std::optional<TreeShape> shape_;
+    std::optional<TileFixedTree> fixed_tree_;
+    std::atomic<std::int64_t> samples_{0};
+    double geometry_ms_ = 0, draw_ms_ = 0;
+};
+
+}  // namespace lamina

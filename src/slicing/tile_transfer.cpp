@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/tile_transfer.h"
+
+#include <algorithm>
+
+#include "slicing/shader_intervals.h"
+
+namespace lamina {
+namespace {
+
+// Coloured tables are read entry by entry: extinction stands beside emission.
+std::vector<float> with_extinction(const PreintegrationTable& table) {
+    const std::size_t entries = table.mean_extinction.size();
+    std::vector<float> texels(entries * 4 * table.lengths.size());
+    for (std::size_t i = 0; i < entries * table.lengths.size(); ++i) {
+        std::copy_n(table.emission.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                    texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
+        texels[4 * i + 3] = table.mean_extinction[i % entries];
+    }
+    return texels;
+}
+
+}  // namespace
+
+TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
+                           const TablePlan* wanted) {
+    std::vector<PreintegrationTable::Anchor> anchors;
+    if (wanted != nullptr) {
+        table = preintegration_table(transfer_function,
+                                     {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
+                                      wanted->length_layers, wanted->colored});
+        anchors = table->anchors;
+        if (table->colored) texels = with_extinction(*table);
+        if (wanted->max_length > 0) {
+            layers_per_length =
+                static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
+        }
+    }
+    const ShaderIntervals shader =
+        make_intervals(transfer_function, range, anchors, sampled_step_advance);
+    intervals = shader.count;
+    const int padded = std::max(intervals, 0) + few;
+    const auto component = [&](int row, int channel) {
+        std::vector<float> values(static_cast<std::size_t>(padded));
+        for (int i = 0; i < padded; ++i) {
+            const int column = std::min(i, intervals - 1);
+            values[static_cast<std::size_t>(i)] =
+                shader.texels[static_cast<std::size_t>(4 * (row * intervals + column) + channel)];
+        }
+        return values;
+    };
+    end = component(0, 0);
+    inverse_width = component(0, 1);
+    first_node = component(0, 2);
+    nodes = component(0, 3);
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        left[c] = component(1, channel);
+        change[c] = component(2, channel);
+        for (std::size_t i = 0; i < left[c].size(); ++i) change[c][i] -= left[c][i];
+    }
+    right_extinction = component(2, 3);
+    left_rest = component(3, 0);
+    right_rest = component(3, 1);
+    for (const float start : shader.starts) starts.push_back(static_cast<std::int32_t>(start));
+}
+
+std::int64_t TileTransfer::byte_count() const {
+    const std::size_t per_interval = 4 + 8 + 3;
+    return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
+                                     sizeof(std::int32_t) * starts.size()) +
+           (table ? table->byte_count() : 0);
+}
+
+}  // namespace lamina

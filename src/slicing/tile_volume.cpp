@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/tile_volume.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace lamina {
+namespace {
+
+std::int64_t samples_of(const TextureBrick& part) {
+    return part.size[0] * part.size[1] * part.size[2];
+}
+
+template <typename Sample>
+const Sample* row_of(const Grid& grid, const TextureBrick& part, const Sample* samples,
+                     std::int64_t y, std::int64_t z) {
+    return samples + ((part.first[2] + z) * grid.size[1] + part.first[1] + y) * grid.size[0] +
+           part.first[0];
+}
+
+// Calls visit(y, z, first sample of the row), for all rows, in parallel.
+template <typename Sample, typename Visit>
+void for_each_row(const Grid& grid, const TextureBrick& part, const Sample* samples,
+                  const Visit& visit) {
+    parallel_for(part.size[1] * part.size[2], 64, [&](std::int64_t number) {
+        const std::int64_t y = number % part.size[1], z = number / part.size[1];
+        visit(y, z, row_of(grid, part, samples, y, z));
+    });
+}
+
+void fill_quads(const Grid& grid, const TextureBrick& part, const std::uint8_t* samples,
+                std::uint32_t* quads) {
+    for_each_row(grid, part, samples, [&](std::int64_t y, std::int64_t z, const auto* row) {
+        const std::uint8_t* const below =
+            row_of(grid, part, samples, std::min(y + 1, part.size[1] - 1), z);
+        std::uint32_t* const to = quads + (z * part.size[1] + y) * part.size[0];
+        for (std::int64_t x = 0; x < part.size[0]; ++x) {
+            const std::int64_t next = std::min(x + 1, part.size[0] - 1);
+            to[x] = std::uint32_t{row[x]} | std::uint32_t{row[next]} << 8 |
+                    std::uint32_t{below[x]} << 16 | std::uint32_t{below[next]} << 24;
+        }
+    });
+}
+
+}  // namespace
+
+TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
+                       std::int64_t most_bytes)
+    : volume_(volume), range_(range) {
+    const bool quads = volume.type() == SampleType::uint8 && !plan.float_texture &&
+                       (4 * volume.grid().sample_count() <= most_bytes || volume.byte_count() < 4);
+    const bool whole = plan.bricks.size() == 1;
+    for (const TextureBrick& part : plan.bricks) {
+        TileBrick brick;
+        brick.layout = plan.float_texture                   ? TileLayout::floats
+                       : volume.type() != SampleType::uint8 ? TileLayout::words
+                       : quads                              ? TileLayout::quads
+                                                            : TileLayout::bytes;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            brick.last_sample[axis] = static_cast<float>(part.size[axis] - 1);
+        brick.row = part.size[1] > 1 ? static_cast<std::int32_t>(part.size[0]) : 0;
+        brick.slice = part.size[2] > 1 ? static_cast<std::int32_t>(part.size[0] * part.size[1]) : 0;
+        normalise(range, brick);
+        const bool as_it_is =
+            brick.layout == TileLayout::bytes || brick.layout == TileLayout::words;
+        if (whole && as_it_is && volume.byte_count() >= 4) {
+            refer_to_volume(brick);
+        } else {
+            copy_brick(part, brick);
+        }
+        bricks_.push_back(brick);
+    }
+}
+
+// As GL reads codes: code / largest, int16 from 0 on.
+void TileVolume::normalise(const ValueRange& range, TileBrick& brick) const {
+    if (brick.layout == TileLayout::floats) return;
+    const double largest = volume_.type() == SampleType::uint8 ? 255 : 65535;
+    const double shift = volume_.type() == SampleType::int16 ? 32768 : 0;
+    const double scale = 1 / (range.hi - range.lo);
+    brick.flip = volume_.type() == SampleType::int16 ? 0x80008000u : 0u;
+    brick.scale = static_cast<float>(scale);
+    brick.offset = static_cast<float>(-(range.lo + shift) * scale);
+    brick.unit = static_cast<float>(1 / largest);
+    brick.unit_scale = static_cast<float>(largest * scale);
+}
+
+void TileVolume::refer_to_volume(TileBrick& brick) {
+    brick.samples = volume_.data();
+    brick.last_word = static_cast<std::int32_t>(volume_.byte_count() - 4);
+}
+
+void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
+    const Grid& grid = volume_.grid();
+    const std::int64_t count = samples_of(part);
+    const std::int64_t bytes = brick.layout == TileLayout::bytes   ? count
+                               : brick.layout == TileLayout::words ? 2 * count
+                                                                   : 4 * count;
+    std::vector<std::uint32_t>& copy = copies_.emplace_back();
+    copy.resize(static_cast<std::size_t>((bytes + 3) / 4));
+    brick.samples = copy.data();
+    brick.last_word = static_cast<std::int32_t>(std::min<std::int64_t>(
+        4 * static_cast<std::int64_t>(copy.size()) - 4, std::numeric_limits<std::int32_t>::max()));
+    if (brick.layout == TileLayout::quads) {
+        fill_quads(grid, part, static_cast<const std::uint8_t*>(volume_.data()), copy.data());
+        return;
+    }
+    volume_.visit([&](const auto* samples) {
+        using Sample = std::remove_cvref_t<decltype(*samples)>;
+        const double scale = 1 / (range_.hi - range_.lo);
+        for_each_row(grid, part, samples, [&](std::int64_t y, std::int64_t z, const Sample* row) {
+            const std::int64_t place = (z * part.size[1] + y) * part.size[0];
+            if (brick.layout != TileLayout::floats) {
+                std::memcpy(reinterpret_cast<std::byte*>(copy.data()) +
+                                static_cast<std::size_t>(place) * sizeof(Sample),
+                            row, static_cast<std::size_t>(part.size[0]) * sizeof(Sample));
+                return;
+            }
+            for (std::int64_t x = 0; x < part.size[0]; ++x) {
+                const double value = row[x];
+                const float normalised = std::isfinite(value)
+                                             ? static_cast<float>((value - range_.lo) * scale)
+                                             : std::numeric_limits<float>::quiet_NaN();
+                copy[static_cast<std::size_t>(place + x)] =
+                    std::bit_cast<std::uint32_t>(normalised);
+            }
+        });
+    });
+}
+
+std::int64_t TileVolume::byte_count() const {
+    std::int64_t bytes = 0;
+    for (const auto& copy : copies_) bytes += static_cast<std::int64_t>(4 * copy.size());
+    return bytes;
+}
+
+}  // namespace lamina

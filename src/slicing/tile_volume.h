@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/plan.h"
+#include "volume/min_max_bricks.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// How a brick's samples lie in memory.
+enum class TileLayout {
+    quads,   // uint8: at each sample its neighbours (x, y), (x+1, y), (x, y+1), (x+1, y+1) in the
+             // four bytes of a word, lowest first: one gather fetches them
+    bytes,   // uint8, as in the volume
+    words,   // int16, uint16, as in the volume
+    floats,  // normalised to the volume's range; NaN where not finite
+};
+
+// A brick as vectors address it: with 32-bit indices, x fastest.
+struct TileBrick {
+    TileLayout layout = TileLayout::quads;
+    const void* samples = nullptr;
+    std::int32_t row = 0, slice = 0;  // elements to the next y, z; 0 on an axis with one sample
+    std::int32_t last_word = 0;       // bytes, words: where the last whole 32 bits begin, in bytes
+    std::uint32_t flip = 0;           // bits to turn over: int16 becomes uint16 from 0 on
+    std::array<float, 3> last_sample{};  // size less one
+    // Normalised scalar = interpolated code * scale + offset, as textures see it: of codes times
+    // `unit`, * unit_scale + offset.
+    float scale = 1, offset = 0, unit = 1, unit_scale = 1;
+};
+
+// The bricks of a plan. They may refer to the volume's own samples, which are kept.
+class TileVolume {
+  public:
+    // Copies of more than this in all are not made where they only save time.
+    static constexpr std::int64_t largest_copy = std::int64_t{1} << 31;
+
+    // `range`: becomes [0, 1], lo < hi.
+    TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
+               std::int64_t most_bytes = largest_copy);
+
+    const std::vector<TileBrick>& bricks() const { return bricks_; }
+    std::int64_t byte_count() const;  // beyond the volume's own
+
+  private:
+    void copy_brick(const TextureBrick& part, TileBrick& brick);
+    void refer_to_volume(TileBrick& brick);
+    void normalise(const ValueRange& range, TileBrick& brick) const;
+
+    Volume volume_;
+    ValueRange range_;
+    std::vector<std::vector<std::uint32_t>> copies_;
+    std::vector<TileBrick> bricks_;
+};
+
+}  // namespace lamina

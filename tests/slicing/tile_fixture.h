@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way from a scene to its image with the native engine.
+#pragma once
+
+#include "slicing/tile_slice_renderer.h"
+#include "slicing_fixture.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+
+inline std::unique_ptr<TileSliceRenderer> tile_renderer(
+    const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {},
+    const Capabilities& capabilities = tile_capabilities()) {
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const Plan plan = make_plan(scene, facts, capabilities, omissions);
+    return std::make_unique<TileSliceRenderer>(volume, scene.transfer_function, facts, plan.slice,
+                                               scene.width, scene.height);
+}
+
+inline Image render_tiles(const Volume& volume, const Scene& scene,
+                          const OmissionSwitch& omissions = {},
+                          const Capabilities& capabilities = tile_capabilities()) {
+    const auto renderer = tile_renderer(volume, scene, omissions, capabilities);
+    renderer->draw(View(scene.camera, scene.width, scene.height));
+    return renderer->read();
+}
+
+}  // namespace lamina
