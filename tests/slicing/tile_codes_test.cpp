@@ -11,10 +11,13 @@
 namespace lamina {
 namespace {
 
-// How many components of two pictures are not the same.
+// How many components of two pictures are not the same code. OpenGL multiplies codes by a rounded
+// 1 / M when it reads them back: 1.2e-7 of the value; codes lie 1.5e-5 apart or more, numbers of
+// half precision that matter here, too.
 int differing(const Image& a, const Image& b) {
     int count = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) count += a.rgba[i] != b.rgba[i] ? 1 : 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        count += std::abs(a.rgba[i] - b.rgba[i]) > 1e-6f ? 1 : 0;
     return count;
 }
 
@@ -125,7 +128,7 @@ TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
                     const Image tiles = render_tiles(volume, scene);
                     const Image shaders = render(volume, scene, capabilities());
                     EXPECT_LE(differing(tiles, shaders), 61 * 47 * 4 / 500)
-                        << name_of(projection) << " " << name_of(classification) << dither;
+                        << name_of(classification) << dither;
                     EXPECT_LE(linf(tiles, shaders), 1.01);
                 }
             }

@@ -62,7 +62,7 @@ TEST_F(TileTreeTest, NodesAreOpenGls) {
             EXPECT_LE(linf(tiles, shaders), 3 * one)
                 << name_of(code) << " " << name_of(target) << " " << alpha_bits;
             // Nearly everywhere they are the same.
-            EXPECT_LE(image_error(tiles, shaders).all.l2, .15 * one);
+            EXPECT_LE(image_error(tiles, shaders).all.l2, .3 * one);
         }
     }
 }
@@ -75,11 +75,17 @@ TEST_F(TileTreeTest, ColourGoesThroughTheTree) {
     EXPECT_GT(linf(image, expected), 0);
 }
 
+// The same bricks in both, as OpenGL keeps the volume's own type where it has no exact filter.
 TEST_F(TileTreeTest, BricksAreMarchedInOrder) {
-    Capabilities small = tile_capabilities();
-    small.max_texture_bytes = 16 * 64 * 48 + 1000;
-    const Scene scene = scene_of(300, Target::float32, {10, 6});
-    EXPECT_LE(linf(render_tiles(volume_, scene, {}, small), render_tiles(volume_, scene)), .2);
+    Capabilities small = tile_capabilities(), small_textures = capabilities();
+    small_textures.exact_float_filter = false;
+    small.max_texture_bytes = small_textures.max_texture_bytes = 16 * 37 * 29 + 100;
+    for (const std::vector<int>& factors : {std::vector<int>{}, {10, 6}}) {
+        const Scene scene = scene_of(300, Target::float32, factors);
+        EXPECT_LE(
+            linf(render_tiles(volume_, scene, {}, small), render(volume_, scene, small_textures)),
+            255 * 2e-5);
+    }
 }
 
 TEST_F(TileTreeTest, NativeFixedNodesAreOpenGls) {
