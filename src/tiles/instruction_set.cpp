@@ -12,11 +12,23 @@
 namespace lamina {
 namespace {
 
+std::int64_t left_out = 0;  // by restrict_instructions()
+
+// Asked once: SupportedTargets() makes calls go to the machine's best target, whatever was left
+// out, until they are dispatched anew.
+std::int64_t of_machine() {
+    static const std::int64_t targets = [] {
+        const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
+        hwy::GetChosenTarget().DeInit();
+        return supported;
+    }();
+    return targets;
+}
+
 // Of Highway's targets the lower bit is the better one.
-std::vector<std::int64_t> available() {
+std::vector<std::int64_t> listed(std::int64_t all) {
     std::vector<std::int64_t> targets;
-    for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
-        targets.push_back(left & -left);
+    for (std::int64_t left = all; left != 0; left &= left - 1) targets.push_back(left & -left);
     return targets;
 }
 
@@ -33,22 +45,21 @@ std::string instruction_set() {
 }
 
 std::vector<std::string> instruction_sets() {
-    return names_of(available());
+    return names_of(listed(of_machine() & ~left_out));
 }
 
 void restrict_instructions(const std::string& name) {
-    hwy::DisableTargets(0);
-    const std::vector<std::int64_t> targets = available();
+    const std::vector<std::int64_t> targets = listed(of_machine());
     const std::vector<std::string> names = names_of(targets);
     const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
         throw UsageError(
             fmt::format("instruction set {}: expected one of {}", name, fmt::join(names, ", ")));
     }
-    std::int64_t better = 0;
+    left_out = 0;
     for (std::ptrdiff_t i = 0; i < found - names.begin(); ++i)
-        better |= targets[static_cast<std::size_t>(i)];
-    hwy::DisableTargets(better);
+        left_out |= targets[static_cast<std::size_t>(i)];
+    hwy::DisableTargets(left_out);
     hwy::GetChosenTarget().DeInit();
 }
 

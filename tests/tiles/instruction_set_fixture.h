@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tiles/instruction_set.h"
+#include "tiles/vector_functions.h"
 
 namespace lamina {
 
@@ -15,6 +17,8 @@ class EveryInstructionSet : public testing::TestWithParam<std::string> {
     void SetUp() override {
         restrict_instructions(GetParam());
         ASSERT_EQ(instruction_set(), GetParam());
+        const int lanes = GetParam() == "AVX3" ? 16 : GetParam() == "AVX2" ? 8 : 4;
+        ASSERT_EQ(vector_lanes(), lanes) << "runs on something else";
     }
     void TearDown() override { restrict_instructions(instruction_sets_.front()); }
 

@@ -64,6 +64,10 @@ void change_plane(Floats sources, std::span<float> pixels, F f) {
     }
 }
 
+int lanes() {
+    return static_cast<int>(hn::Lanes(df));
+}
+
 void exp_floats(Floats x, std::span<float> result) {
     for_vectors(
         df, result, [](auto v) HWY_ATTR { return exp_of(df, v); }, x);
@@ -195,6 +199,11 @@ namespace lamina {
     void name parameters {                                     \
         HWY_DYNAMIC_DISPATCH(function) arguments;              \
     }
+
+HWY_EXPORT(lanes);
+int vector_lanes() {
+    return HWY_DYNAMIC_DISPATCH(lanes)();
+}
 
 LAMINA_DISPATCH(vector_exp, exp_floats, (Floats x, std::span<float> result), (x, result))
 LAMINA_DISPATCH(vector_log, log_floats, (Floats x, std::span<float> result), (x, result))

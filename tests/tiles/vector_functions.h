@@ -17,6 +17,9 @@ using Floats = std::span<const float>;
 using Numbers = std::span<const double>;
 using Bits = std::span<const std::uint32_t>;
 
+// Floats of a vector.
+int vector_lanes();
+
 void vector_exp(Floats x, std::span<float> result);
 void vector_log(Floats x, std::span<float> result);
 void vector_opacity(Floats depth, std::span<float> result);
