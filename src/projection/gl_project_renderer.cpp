@@ -206,4 +206,11 @@ Image GlProjectRenderer::read() const {
     return image;
 }
 
+std::map<std::string, double> GlProjectRenderer::stages_ms() const {
+    return {{"tables", table_ms()},
+            {"order", order_ms()},
+            {"geometry", geometry_ms()},
+            {"draw", draw_ms()}};
+}
+
 }  // namespace lamina

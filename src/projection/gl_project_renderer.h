@@ -15,6 +15,7 @@
 #include "projection/gl_project_tables.h"
 #include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
+#include "projection/project_renderer.h"
 #include "projection/visible_parts.h"
 #include "scene/capabilities.h"
 #include "scene/plan.h"
@@ -29,7 +30,7 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind);
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive it.
-class GlProjectRenderer {
+class GlProjectRenderer : public ProjectRenderer {
   public:
     // Builds order, tables and programs; errors of OpenGL are Errors. The mesh must outlive it.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
@@ -38,14 +39,14 @@ class GlProjectRenderer {
     GlProjectRenderer(const GlProjectRenderer&) = delete;
     GlProjectRenderer& operator=(const GlProjectRenderer&) = delete;
 
-    // Complete when it returns. Ctrl-C ends it between batches; `progress` advances by step_count()
-    // in all.
-    void draw(const View& view, Progress* progress = nullptr);
-    int step_count() const;
-    Image read() const;
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override;
+    Image read() const override;
+    std::map<std::string, double> stages_ms() const override;
+    const OrderReport& order_report() const override { return order_.report(); }
+    std::int64_t tets_drawn() const override { return tets_drawn_; }
 
-    const OrderReport& order_report() const { return order_.report(); }
-    std::int64_t tets_drawn() const { return tets_drawn_; }  // of the last frame, like these:
+    // Of the last frame:
     double order_ms() const { return order_ms_; }
     double geometry_ms() const { return stream_ ? stream_->write_ms() : 0; }
     double draw_ms() const { return draw_ms_; }  // with the geometry, which runs beside it

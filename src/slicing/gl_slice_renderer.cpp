@@ -79,4 +79,11 @@ Image GlSliceRenderer::read() const {
     return image;
 }
 
+std::map<std::string, double> GlSliceRenderer::stages_ms() const {
+    return {{"tables", table_ms()},
+            {"upload", upload_ms()},
+            {"geometry", geometry_ms()},
+            {"draw", draw_ms()}};
+}
+
 }  // namespace lamina

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "gl/framebuffer.h"
 #include "image/image.h"
+#include "scene/frame_renderer.h"
 #include "slicing/gl_fixed_tree.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/gl_slab_pass.h"
@@ -15,7 +16,7 @@
 namespace lamina {
 
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive it.
-class GlSliceRenderer {
+class GlSliceRenderer : public FrameRenderer {
   public:
     // Uploads the volume, builds the tables and compiles the programs; errors of OpenGL are Errors.
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
@@ -24,11 +25,10 @@ class GlSliceRenderer {
     GlSliceRenderer(const GlSliceRenderer&) = delete;  // its parts refer to its plan
     GlSliceRenderer& operator=(const GlSliceRenderer&) = delete;
 
-    // Complete when it returns. Ctrl-C ends it between steps; `progress` advances by step_count in
-    // all.
-    void draw(const View& view, Progress* progress = nullptr);
-    int step_count() const;
-    Image read() const;
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override;
+    Image read() const override;
+    std::map<std::string, double> stages_ms() const override;
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }

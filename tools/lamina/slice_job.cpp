@@ -1,67 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
-#include "base/stopwatch.h"
-#include "clamped_colors.h"
-#include "context_kind.h"
-#include "first_frame.h"
-#include "gl/context.h"
+#include "frame_job.h"
 #include "loaded_volume.h"
-#include "render_job.h"
 #include "slicing/gl_slice_renderer.h"
 
 namespace lamina {
 namespace {
 
-class SliceJob : public RenderJob {
+class SliceMethod : public FrameMethod {
   public:
-    explicit SliceJob(const RenderRequest& request) : request_(request) {}
+    explicit SliceMethod(const RenderRequest& request) : request_(request) {}
 
-    Plan plan(RenderStats& stats) override {
-        data_.emplace(request_, stats);
-        const Stopwatch watch;
-        context_ = gl::Context::create(context_kind(request_.context));
-        stats.stages_ms["context"] = watch.milliseconds();
-        stats.context = context_->capabilities().renderer;
-        return make_plan(request_.scene, data_->facts, context_->capabilities(),
-                         request_.omissions);
+    const char* activity() const override { return "slicing"; }
+
+    void load(RenderStats& stats) override { data_.emplace(request_, stats); }
+
+    Plan plan(const Capabilities& capabilities) const override {
+        return make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
     }
 
-    std::string explanation(const Plan& plan) const override {
-        return explain(plan, data_->facts, context_->capabilities());
+    std::string explanation(const Plan& plan, const Capabilities& capabilities) const override {
+        return explain(plan, data_->facts, capabilities);
     }
 
-    void draw(const Plan& plan, const View& view, RenderStats& stats) override {
+    std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
+                                                 const Capabilities& capabilities) override {
         const Scene& scene = request_.scene;
-        count_clamped_colors(request_, stats);
-        renderer_.emplace(data_->volume, scene.transfer_function, data_->facts, plan.slice,
-                          context_->capabilities(), scene.width, scene.height);
-        image_.emplace(draw_first_frame(*renderer_, "slicing", request_, view, stats));
-        stats.stages_ms["tables"] = renderer_->table_ms();
-        stats.stages_ms["upload"] = renderer_->upload_ms();
-        stats.stages_ms["geometry"] = renderer_->geometry_ms();
-        stats.stages_ms["draw"] = renderer_->draw_ms();
-        stats.samples = plan.slice.slabs;
+        slabs_ = plan.slice.slabs;
+        return std::make_unique<GlSliceRenderer>(data_->volume, scene.transfer_function,
+                                                 data_->facts, plan.slice, capabilities,
+                                                 scene.width, scene.height);
     }
 
-    void draw_frame(const View& view) override { renderer_->draw(view); }
-
-    std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
-        return picture.write(*image_, request_.scene.background, attributes);
-    }
+    void report(RenderStats& stats) const override { stats.samples = slabs_; }
 
   private:
     const RenderRequest request_;
     std::optional<LoadedVolume> data_;
-    std::unique_ptr<gl::Context> context_;
-    std::optional<GlSliceRenderer> renderer_;
-    std::optional<Image> image_;
+    int slabs_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<RenderJob> make_slice_job(const RenderRequest& request) {
-    return std::make_unique<SliceJob>(request);
+    return std::make_unique<FrameJob>(request, std::make_unique<SliceMethod>(request));
 }
 
 }  // namespace lamina
