@@ -250,9 +250,7 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
         };
         record.limits = {normalised(field.least()), normalised(field.largest())};
     }
-    const auto parts = static_cast<std::uint32_t>(part.piece + 1);
-    record.number =
-        static_cast<std::uint32_t>(part.tet) + parts * static_cast<std::uint32_t>(tets_.size());
+    record.number = part_number(part, tets_.size());
     if (!plain) return FragmentKind::careful;
     const bool thin = piece != nullptr && largest_depth(corners, record) <= thin_depth;
     return thin ? FragmentKind::thin : FragmentKind::plain;

@@ -92,13 +92,14 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = order_watch.milliseconds();
     const Stopwatch draw_watch;
     set_view(view);
-    const TetProjector projector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view,
-                                 plan_.near_depth, margin);
+    const Projectors projectors{
+        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
+        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin}};
     const std::size_t parts_a_batch = batches_[0].size() * TileChunk::most_parts;
     const auto project_batch = [&](std::size_t batch) {
         const std::size_t first = batch * parts_a_batch;
         if (first < parts.size())
-            project(projector, parts.subspan(first, std::min(parts_a_batch, parts.size() - first)),
+            project(projectors, parts.subspan(first, std::min(parts_a_batch, parts.size() - first)),
                     batches_[batch % 2]);
     };
     last_tet_ = -1;
@@ -149,38 +150,59 @@ void TileProjectRenderer::clear() {
     std::ranges::fill(fragment_counts_, 0);
 }
 
-void TileProjectRenderer::project(const TetProjector& projector, std::span<const TetPart> parts,
+void TileProjectRenderer::project(const Projectors& projectors, std::span<const TetPart> parts,
                                   Chunks& chunks) const {
     parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t number) {
         const std::size_t first =
             std::min(static_cast<std::size_t>(number) * TileChunk::most_parts, parts.size());
-        project_chunk(projector,
+        project_chunk(projectors,
                       parts.subspan(first, std::min(TileChunk::most_parts, parts.size() - first)),
                       *chunks[static_cast<std::size_t>(number)]);
     });
 }
 
-void TileProjectRenderer::project_chunk(const TetProjector& projector,
+void TileProjectRenderer::project_chunk(const Projectors& projectors,
                                         std::span<const TetPart> parts, TileChunk& chunk) const {
-    const TileGrid& grid = image_.grid();
     chunk.clear();
-    for (const TetPart& part : parts) {
-        ScreenOutline outline;
-        const auto kind = projector.project(part, chunk.next(), outline);
-        if (!kind) continue;
-        const PixelBounds bounds =
-            pixel_bounds(outline.points(), margin, grid.width(), grid.height());
-        const PartArea area{bounds.first_column, bounds.last_column,
-                            grid.height() - 1 - bounds.last_row,
-                            grid.height() - 1 - bounds.first_row, *kind};
-        const std::size_t number = chunk.count();
-        chunk.add(area, part.tet);
-        for (int row = area.first_row / TileGrid::edge; row <= area.last_row / TileGrid::edge;
-             ++row) {
-            for (int column = area.first_column / TileGrid::edge;
-                 column <= area.last_column / TileGrid::edge; ++column)
-                chunk.touch(static_cast<std::size_t>(row * grid.columns() + column), number);
+    if (!plan_.plain) {
+        for (const TetPart& part : parts) project_doubtful(projectors.careful, part, chunk);
+        return;
+    }
+    for (std::size_t first = 0; first < parts.size(); first += TetSetup::most_parts) {
+        const auto group =
+            parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
+        TetSetup::Parts done;
+        projectors.setup.set_up(group, done);
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (done.outcomes[i] == TetSetup::Outcome::done) {
+                chunk.next() = done.records[i];
+                add(done.areas[i], group[i].tet, chunk);
+            } else if (done.outcomes[i] == TetSetup::Outcome::doubtful) {
+                project_doubtful(projectors.careful, group[i], chunk);
+            }
         }
+    }
+}
+
+void TileProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
+                                           TileChunk& chunk) const {
+    const TileGrid& grid = image_.grid();
+    ScreenOutline outline;
+    const auto kind = projector.project(part, chunk.next(), outline);
+    if (!kind) return;
+    const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
+    add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
+         grid.height() - 1 - bounds.first_row, plan_.plain ? *kind : FragmentKind::careful},
+        part.tet, chunk);
+}
+
+void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const {
+    constexpr int edge = TileGrid::edge;
+    const std::size_t number = chunk.count();
+    chunk.add(area, tet);
+    for (int row = area.first_row / edge; row <= area.last_row / edge; ++row) {
+        for (int column = area.first_column / edge; column <= area.last_column / edge; ++column)
+            chunk.touch(static_cast<std::size_t>(row * image_.grid().columns() + column), number);
     }
 }
 

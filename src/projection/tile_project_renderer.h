@@ -11,6 +11,7 @@
 #include "image/image.h"
 #include "mesh/visibility_order.h"
 #include "projection/tet_projector.h"
+#include "projection/tet_setup.h"
 #include "projection/tile_chunk.h"
 #include "projection/tile_fragments.h"
 #include "projection/visible_parts.h"
@@ -45,16 +46,24 @@ class TileProjectRenderer {
     std::int64_t byte_count() const;  // of host memory that it took, but for order and tables
 
   private:
+    // Of one view.
+    struct Projectors {
+        TetSetup setup;
+        TetProjector careful;
+    };
     using Chunks = std::vector<std::unique_ptr<TileChunk>>;
 
     std::size_t batch_count() const;
     std::span<const TetPart> list_parts(const View& view);
     void set_view(const View& view);
     void clear();
-    void project(const TetProjector& projector, std::span<const TetPart> parts,
+    void project(const Projectors& projectors, std::span<const TetPart> parts,
                  Chunks& chunks) const;
-    void project_chunk(const TetProjector& projector, std::span<const TetPart> parts,
+    void project_chunk(const Projectors& projectors, std::span<const TetPart> parts,
                        TileChunk& chunk) const;
+    void project_doubtful(const TetProjector& projector, const TetPart& part,
+                          TileChunk& chunk) const;
+    void add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const;
     void count_tets(const Chunks& chunks);
     void draw(const Chunks& chunks);
     void draw_tile(const Chunks& chunks, std::size_t tile);

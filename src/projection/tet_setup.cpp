@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/tet_setup.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "projection/tet_setup.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "optics/front_weights.h"
+#include "projection/tet_setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes) {
+    for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
+        TetVectors(view, lanes, first).set_up(parts);
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lamina {
+
+HWY_EXPORT(set_up_vectors);
+
+namespace {
+
+std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
+    std::array<std::size_t, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = static_cast<std::size_t>(tet[i]);
+    const auto sort = [&](std::size_t i, std::size_t j) {
+        const std::size_t low = std::min(corners[i], corners[j]);
+        corners[j] = std::max(corners[i], corners[j]);
+        corners[i] = low;
+    };
+    sort(0, 1);
+    sort(2, 3);
+    sort(0, 2);
+    sort(1, 3);
+    sort(1, 2);
+    return corners;
+}
+
+float to_float(const TetSetup::Lanes::Row& row, std::size_t lane) {
+    return static_cast<float>(row[lane]);
+}
+
+}  // namespace
+
+void TetSetup::set_up(std::span<const TetPart> parts, Parts& result) const {
+    Lanes lanes;
+    load(parts, lanes);
+    const bool pieces = parts[0].piece != TetPart::whole;
+    const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
+    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lanes);
+    store(parts, lanes, result);
+}
+
+// Lanes without a part repeat the last one.
+void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
+    for (std::size_t lane = 0; lane < most_parts; ++lane) {
+        const TetPart& part = parts[std::min(lane, parts.size() - 1)];
+        const auto corners = sorted_corners(tets_[static_cast<std::size_t>(part.tet)]);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::dvec3& point = points_[corners[i]];
+            lanes.x[i][lane] = point.x;
+            lanes.y[i][lane] = point.y;
+            lanes.z[i][lane] = point.z;
+            lanes.value[i][lane] = scalar_[corners[i]];
+        }
+        if (part.piece == TetPart::whole) continue;
+        const LinearPiece& piece = pieces_.pieces()[static_cast<std::size_t>(part.piece)];
+        lanes.piece_from[lane] = piece.from;
+        lanes.piece_to[lane] = piece.to;
+        for (int channel = 0; channel < 3; ++channel) {
+            lanes.at_from[static_cast<std::size_t>(channel)][lane] = piece.at_from.color[channel];
+            lanes.at_to[static_cast<std::size_t>(channel)][lane] = piece.at_to.color[channel];
+        }
+        lanes.at_from[3][lane] = piece.at_from.extinction;
+        lanes.at_to[3][lane] = piece.at_to.extinction;
+    }
+}
+
+void TetSetup::store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const {
+    std::size_t first_back = 0, place_of_back = 3;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const std::size_t place = lanes.front[face][lane] != 0 ? first_back++ : place_of_back--;
+        record.depth.high[place] = to_float(lanes.depth[face], lane);
+        record.depth_per_column.high[place] = to_float(lanes.per_column[face], lane);
+        record.depth_per_row.high[place] = to_float(lanes.per_row[face], lane);
+    }
+    record.fronts = static_cast<std::uint32_t>(first_back);
+}
+
+void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& result) const {
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+        Outcome& outcome = result.outcomes[lane];
+        outcome = lanes.good[lane] == 0      ? Outcome::doubtful
+                  : lanes.visible[lane] == 0 ? Outcome::invisible
+                                             : Outcome::done;
+        if (outcome != Outcome::done) continue;
+        const auto pixel = [&](const Lanes::Row& row) {
+            return static_cast<std::int32_t>(row[lane]);
+        };
+        const int last = window_.view().height - 1;
+        const bool whole = parts[lane].piece == TetPart::whole;
+        const bool thin = !whole && lanes.largest_depth[lane] <= thin_depth;
+        result.areas[lane] = {pixel(lanes.first_column), pixel(lanes.last_column),
+                              last - pixel(lanes.last_row), last - pixel(lanes.first_row),
+                              thin ? FragmentKind::thin : FragmentKind::plain};
+        TetRecord& record = result.records[lane];
+        store_faces(lanes, lane, record);
+        record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
+        record.center_depth = to_float(lanes.center_depth, lane);
+        record.center_z = to_float(lanes.center_z, lane);
+        record.scalar = to_float(lanes.scalar, lane);
+        record.scalar_per_z = to_float(lanes.scalar_per_z, lane);
+        record.scalar_per_column = to_float(lanes.scalar_per_column, lane);
+        record.scalar_per_row = to_float(lanes.scalar_per_row, lane);
+        record.number = part_number(parts[lane], tets_.size());
+        if (whole) {
+            record.limits = {to_float(lanes.limits[0], lane), to_float(lanes.limits[1], lane)};
+            continue;
+        }
+        record.lower_cut = {to_float(lanes.lower_cut.depth, lane),
+                            to_float(lanes.lower_cut.per_column, lane),
+                            to_float(lanes.lower_cut.per_row, lane)};
+        record.upper_cut = to_float(lanes.upper_cut.depth, lane);
+        record.limits = {to_float(lanes.upper_cut.per_column, lane),
+                         to_float(lanes.upper_cut.per_row, lane)};
+        if (lanes.lower_cut.front[lane] != 0) record.fronts |= TetRecord::lower_cut_is_front;
+        if (lanes.upper_cut.front[lane] != 0) record.fronts |= TetRecord::upper_cut_is_front;
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            record.low[channel] = to_float(lanes.low[channel], lane);
+            record.high[channel] = to_float(lanes.high[channel], lane);
+        }
+    }
+}
+
+}  // namespace lamina
+#endif

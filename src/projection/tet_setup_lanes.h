@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "projection/tet_setup.h"
+
+namespace lamina {
+
+// What the vectors of TetSetup read and write, one number a part in each row. Corners are in the
+// order of their numbers, so that the two tets of a face compute the same numbers.
+struct TetSetup::Lanes {
+    struct alignas(64) Row : std::array<double, most_parts> {};
+    struct Cut {
+        Row depth, per_column, per_row, front;
+    };
+
+    std::array<Row, 4> x, y, z, value;                   // in
+    Row piece_from, piece_to;                            // scalars at the ends of the part's piece
+    std::array<Row, 4> at_from, at_to;                   // colour and extinction there
+    Row good, visible;                                   // out: 1 or 0
+    Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
+    Row center_column, center_row, center_depth, center_z;
+    std::array<Row, 4> front, depth, per_column, per_row;  // of the face opposite each corner
+    Row scalar, scalar_per_z, scalar_per_column, scalar_per_row;
+    std::array<Row, 2> limits;
+    Cut lower_cut, upper_cut;
+    std::array<Row, 4> low, high;
+    Row largest_depth;
+};
+
+struct SetupView {
+    const View& view;
+    bool perspective;
+    double near_depth, margin;
+    ValueRange range;
+};
+
+// The sign of a determinant is doubtful where it is at most this share of the product of its
+// vectors' largest numbers: 450 half ulps, for some 20 roundings.
+inline constexpr double doubtful_sign = 1e-13;
+
+// See TetProjector.
+inline constexpr double float_tolerance = 2e-3;
+inline constexpr double float_epsilon = std::numeric_limits<float>::epsilon();
+inline constexpr double beyond_all = -double{TetRecord::in_front_of_all};
+
+}  // namespace lamina
