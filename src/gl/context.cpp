@@ -44,6 +44,8 @@ const char* advice(ContextKind kind) {
     switch (kind) {
         case ContextKind::osmesa:
             return "install libosmesa6, or pass --context egl";
+        case ContextKind::gpu:
+            return "install the GPU's own driver and libegl1, or do without it: --context cpu";
         case ContextKind::egl:
             return "install libegl1 and libegl-mesa0 or the GPU's own driver, or pass --context "
                    "osmesa";
@@ -61,6 +63,7 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
     const Attempt osmesa = create_osmesa_context;
 
     std::vector<Attempt> attempts{hardware, osmesa, egl};
+    if (kind == ContextKind::gpu) attempts = {hardware};
     if (kind == ContextKind::osmesa) attempts = {osmesa};
     if (kind == ContextKind::egl) attempts = {egl};
 

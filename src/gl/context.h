@@ -8,8 +8,9 @@
 namespace lamina::gl {
 
 // automatic: a GPU through EGL where there is one, else OSMesa, else EGL with a software renderer.
+// gpu: a GPU through EGL.
 // egl: a GPU where there is one, else a software renderer.
-enum class ContextKind { automatic, osmesa, egl };
+enum class ContextKind { automatic, gpu, osmesa, egl };
 
 // An OpenGL 4.5 core context without a window or a display server, current in the thread that made
 // it. Only one is alive at a time. Every object of this room belongs to it and must be gone before

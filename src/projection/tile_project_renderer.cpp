@@ -235,4 +235,8 @@ Image TileProjectRenderer::read() const {
     return image_.to_image(fragments_.blend.largest);
 }
 
+std::map<std::string, double> TileProjectRenderer::stages_ms() const {
+    return {{"tables", table_ms()}, {"order", order_ms()}, {"draw", draw_ms()}};
+}
+
 }  // namespace lamina

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "image/image.h"
 #include "mesh/visibility_order.h"
+#include "projection/project_renderer.h"
 #include "projection/tet_projector.h"
 #include "projection/tet_setup.h"
 #include "projection/tile_chunk.h"
@@ -24,7 +25,7 @@ namespace lamina {
 // Draws a mesh as the plan says with the native engine: parts are projected in batches, in
 // visibility order, while the tiles of the picture draw the batch before. The picture does not
 // depend on the number of threads.
-class TileProjectRenderer {
+class TileProjectRenderer : public ProjectRenderer {
   public:
     // Builds order and tables. The mesh must outlive it.
     TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
@@ -32,18 +33,22 @@ class TileProjectRenderer {
     TileProjectRenderer(const TileProjectRenderer&) = delete;
     TileProjectRenderer& operator=(const TileProjectRenderer&) = delete;
 
-    // Ctrl-C ends it between batches; `progress` advances by step_count() in all.
-    void draw(const View& view, Progress* progress = nullptr);
-    int step_count() const { return static_cast<int>(batch_count()); }
-    Image read() const;
+    // Steps are batches.
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override { return static_cast<int>(batch_count()); }
+    Image read() const override;
+    std::map<std::string, double> stages_ms() const override;
 
-    const OrderReport& order_report() const { return order_.report(); }
-    std::int64_t tets_drawn() const { return tets_drawn_; }  // of the last frame, like these:
-    std::int64_t fragments() const;
+    const OrderReport& order_report() const override { return order_.report(); }
+    std::int64_t tets_drawn() const override {
+        return tets_drawn_;
+    }  // of the last frame, like these:
+    std::int64_t fragments() const override;
     double order_ms() const { return order_ms_; }
     double draw_ms() const { return draw_ms_; }
     double table_ms() const { return table_ms_; }
-    std::int64_t byte_count() const;  // of host memory that it took, but for order and tables
+    std::int64_t byte_count()
+        const override;  // of host memory that it took, but for order and tables
 
   private:
     // Of one view.

@@ -5,6 +5,7 @@
 
 #include "compositing/emulation.h"
 #include "compositing/order.h"
+#include "scene/capabilities.h"
 #include "scene/scene.h"
 
 namespace lamina {
@@ -14,7 +15,12 @@ enum class Blending {
     native,   // the blending unit
     fetch,    // the program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
     barrier,  // the program, which reads the target as a texture, with a barrier between layers
+    tiles,    // the native engine, which holds the pixel
 };
+
+// Of what is more than a blending unit can do.
+Blending programmable_blending(const Capabilities& capabilities);
+const char* name_of(Blending blending);
 
 // How fragments are put over one another.
 struct CompositingPlan {

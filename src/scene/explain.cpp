@@ -7,7 +7,11 @@
 namespace lamina {
 namespace {
 
-const char* text_of(VolumeSampling sampling) {
+const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
+    if (capabilities.tiles && sampling == VolumeSampling::fetch)
+        return "8 samples, float arithmetic";
+    if (capabilities.tiles && sampling == VolumeSampling::hardware)
+        return "8 samples, weights of 8 bits as graphics hardware has them";
     switch (sampling) {
         case VolumeSampling::none:
             return "none";
@@ -31,10 +35,23 @@ std::string left_out(const Plan& plan) {
     return plan.omitted.empty() ? text + "  nothing\n" : text;
 }
 
+const char* text_of(Blending blending) {
+    switch (blending) {
+        case Blending::native:
+            return "the blending unit";
+        case Blending::fetch:
+            return "framebuffer fetch";
+        case Blending::barrier:
+            return "texture barriers";
+        default:
+            return "the native engine";
+    }
+}
+
 std::string text_of_codes(const CompositingPlan& plan) {
     return fmt::format("{} bits, alpha {}, over {}, by {}", plan.emulation->bits,
                        name_of(plan.emulation->alpha), name_of(plan.emulation->over),
-                       plan.blending == Blending::fetch ? "framebuffer fetch" : "texture barriers");
+                       text_of(plan.blending));
 }
 
 template <typename Row>
@@ -134,9 +151,11 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("classification", name_of(slice.classification));
         row("order", name_of(slice.order));
         row("rays", slice.precise_rays ? "double" : "float");
-        row("scalar", text_of(slice.sampling));
-        row("textures", fmt::format("{} of {}", slice.bricks.size(),
-                                    slice.float_texture ? "float" : name_of(facts.type)));
+        row("scalar", text_of(slice.sampling, capabilities));
+        if (!capabilities.tiles) {
+            row("textures", fmt::format("{} of {}", slice.bricks.size(),
+                                        slice.float_texture ? "float" : name_of(facts.type)));
+        }
         explain_compositing(slice, facts, row);
         if (slice.uses_table()) {
             row("table",

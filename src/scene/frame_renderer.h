@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "base/progress.h"
@@ -27,10 +26,10 @@ class FrameRenderer {
 
     // What took how long, by the names of the statistics: of preparing, or of the last frame.
     virtual std::map<std::string, double> stages_ms() const = 0;
-    // Of the last frame; none where OpenGL's queries count them.
-    virtual std::optional<std::uint64_t> fragments() const { return {}; }
+    // Of the last frame; 0 where OpenGL's queries count them.
+    virtual std::int64_t fragments() const { return 0; }
     // Host memory taken beside the data itself; 0 where it is OpenGL's.
-    virtual std::int64_t bytes_host() const { return 0; }
+    virtual std::int64_t byte_count() const { return 0; }
 };
 
 }  // namespace lamina

@@ -252,7 +252,7 @@ class SlicePlanner {
             slice.tree->largest_color = std::max(facts_.max_color, 1.0);
         }
         if (slice.emulation) {
-            slice.blending = capabilities_.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+            slice.blending = programmable_blending(capabilities_);
         }
         if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
     }

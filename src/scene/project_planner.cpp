@@ -160,7 +160,7 @@ class ProjectPlanner {
                 {"dither", "tets are composited in float: there is nothing to dither"});
         }
         if (plan_.emulation || plan_.dither == ProjectDither::after_blend) {
-            plan_.blending = capabilities_.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+            plan_.blending = programmable_blending(capabilities_);
         }
     }
 

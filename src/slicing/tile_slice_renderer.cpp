@@ -77,4 +77,11 @@ std::int64_t TileSliceRenderer::byte_count() const {
            (fixed_tree_ ? fixed_tree_->byte_count() : 0);
 }
 
+std::map<std::string, double> TileSliceRenderer::stages_ms() const {
+    return {{"tables", table_ms()},
+            {"upload", upload_ms()},
+            {"geometry", geometry_ms()},
+            {"draw", draw_ms()}};
+}
+
 }  // namespace lamina

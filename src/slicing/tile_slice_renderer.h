@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "image/image.h"
+#include "scene/frame_renderer.h"
 #include "slicing/tile_fixed_tree.h"
 #include "slicing/tile_march.h"
 #include "slicing/tile_slab_source.h"
@@ -14,7 +15,7 @@
 namespace lamina {
 
 // Draws a volume as the plan says, with the native engine: GlSliceRenderer's twin.
-class TileSliceRenderer {
+class TileSliceRenderer : public FrameRenderer {
   public:
     // Prepares the volume and the tables.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
@@ -22,18 +23,19 @@ class TileSliceRenderer {
     TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
 
-    // Complete when it returns. Ctrl-C ends it between tiles; `progress` advances by step_count in
-    // all. Takes no memory after the first frame.
-    void draw(const View& view, Progress* progress = nullptr);
-    int step_count() const { return source_ ? target_.grid().count() : 0; }
-    Image read() const;
+    // Steps are tiles. Takes no memory after the first frame.
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override { return source_ ? target_.grid().count() : 0; }
+    Image read() const override;
+    std::map<std::string, double> stages_ms() const override;
+    std::int64_t fragments() const override { return samples_; }
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }
     double geometry_ms() const { return geometry_ms_; }  // of the last frame
     double draw_ms() const { return draw_ms_; }
     std::int64_t samples() const { return samples_; }  // segments of rays in the last frame
-    std::int64_t byte_count() const;                   // of host memory, beside the volume's
+    std::int64_t byte_count() const override;          // of host memory, beside the volume's
 
   private:
     std::int64_t draw_tile(int number);

@@ -68,6 +68,14 @@ TEST_P(AnyContext, TurnsErrorsIntoExceptions) {
     EXPECT_NO_THROW(check("testing again"));
 }
 
+TEST(Context, TakesNoSoftwareForAGpu) {
+    try {
+        EXPECT_FALSE(Context::create(ContextKind::gpu)->capabilities().software);
+    } catch (const Error& error) {  // none here
+        EXPECT_NE(std::string(error.what()).find("--context cpu"), std::string::npos);
+    }
+}
+
 TEST(Context, AlternatesBetweenOsmesaAndEgl) {
     if (!has_egl()) GTEST_SKIP() << "no libEGL.so.1";
     for (int round = 0; round < 3; ++round) {

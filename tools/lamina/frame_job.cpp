@@ -4,7 +4,6 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "clamped_colors.h"
-#include "context_kind.h"
 #include "gl/memory.h"
 #include "gl/query.h"
 
@@ -16,7 +15,7 @@ FrameJob::FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> me
 Plan FrameJob::plan(RenderStats& stats) {
     method_->load(stats);
     const Stopwatch context_watch;
-    context_ = gl::Context::create(context_kind(request_.context));
+    context_.emplace(request_.context);
     stats.stages_ms["context"] = context_watch.milliseconds();
     stats.context = context_->capabilities().renderer;
     const Stopwatch plan_watch;
@@ -41,6 +40,7 @@ void FrameJob::draw(const Plan& plan, const View& view, RenderStats& stats) {
     image_.emplace(renderer_->read());
     stats.stages_ms["read"] = read_watch.milliseconds();
     stats.bytes_gpu = gl::bytes_allocated();
+    stats.bytes_host = renderer_->byte_count();
     stats.stages_ms.merge(renderer_->stages_ms());
     method_->report(stats);
 }
@@ -48,8 +48,9 @@ void FrameJob::draw(const Plan& plan, const View& view, RenderStats& stats) {
 // With its progress and, where somebody will read them, its fragments.
 void FrameJob::draw_first(const View& view, RenderStats& stats) {
     Progress progress(method_->activity(), renderer_->step_count());
-    if (!request_.count_fragments) {
+    if (!request_.count_fragments || context_->capabilities().tiles) {
         renderer_->draw(view, &progress);
+        stats.fragments = static_cast<std::uint64_t>(renderer_->fragments());
         return;
     }
     gl::Query query(gl::Query::Kind::samples_passed);

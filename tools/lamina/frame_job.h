@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "gl/context.h"
+#include "draw_context.h"
 #include "render_job.h"
 #include "scene/frame_renderer.h"
 
@@ -43,7 +43,7 @@ class FrameJob : public RenderJob {
 
     const RenderRequest request_;
     std::unique_ptr<FrameMethod> method_;
-    std::unique_ptr<gl::Context> context_;
+    std::optional<DrawContext> context_;
     std::unique_ptr<FrameRenderer> renderer_;
     std::optional<Image> image_;
 };

@@ -6,6 +6,7 @@
 #include "frame_job.h"
 #include "loaded_mesh.h"
 #include "projection/gl_project_renderer.h"
+#include "projection/tile_project_renderer.h"
 
 namespace lamina {
 namespace {
@@ -28,10 +29,7 @@ class ProjectMethod : public FrameMethod {
 
     std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
                                                  const Capabilities& capabilities) override {
-        const Scene& scene = request_.scene;
-        auto renderer =
-            std::make_unique<GlProjectRenderer>(mesh_->data, scene.transfer_function, plan.project,
-                                                capabilities, scene.width, scene.height);
+        auto renderer = make_project_renderer(plan.project, capabilities);
         renderer_ = renderer.get();
         return renderer;
     }
@@ -50,6 +48,17 @@ class ProjectMethod : public FrameMethod {
     }
 
   private:
+    std::unique_ptr<ProjectRenderer> make_project_renderer(const ProjectPlan& plan,
+                                                           const Capabilities& capabilities) const {
+        const Scene& scene = request_.scene;
+        if (capabilities.tiles) {
+            return std::make_unique<TileProjectRenderer>(mesh_->data, scene.transfer_function, plan,
+                                                         scene.width, scene.height);
+        }
+        return std::make_unique<GlProjectRenderer>(mesh_->data, scene.transfer_function, plan,
+                                                   capabilities, scene.width, scene.height);
+    }
+
     const RenderRequest request_;
     std::optional<LoadedMesh> mesh_;
     const ProjectRenderer* renderer_ = nullptr;  // that make_renderer() made

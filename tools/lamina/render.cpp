@@ -10,7 +10,7 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
-#include "context_kind.h"
+#include "context_choice.h"
 #include "render_job.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
@@ -126,14 +126,15 @@ void run(const RenderOptions& options) {
     const Scene scene = load_scene(options, scene_text);
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
-    context_kind(options.context);  // a bad word fails before any work
+    const ContextChoice context = context_choice(options.context);
+    restrict_instructions_as_asked();
     std::optional<PictureFile> picture;
     if (!options.output.empty()) picture.emplace(options.output, scene.method == Method::trace);
     std::optional<AtomicFile> stats_file;
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
-    const auto job = make_job({scene, omissions, options.context, !options.stats.empty(), say});
+    const auto job = make_job({scene, omissions, context, !options.stats.empty(), say});
     RenderStats stats;
     const Plan plan = job->plan(stats);
     const std::string explanation = job->explanation(plan);
@@ -180,7 +181,11 @@ void add_render(CLI::App& app, int&) {
     verb->add_flag("--explain", options->explain, "Print what runs and what is left out, and why");
     verb->add_flag("--no-omit{all}", options->kept,
                    "Leave out nothing, or with =NAME keep one thing in");
-    verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");
+    verb->add_option(
+        "--context", options->context,
+        "What draws: auto (a GPU, else cpu), osmesa or egl (OpenGL), cpu (the native engine; "
+        "LAMINA_INSTRUCTIONS=SSE4, AVX2, AVX3 or NEON keeps it to these instructions, and it "
+        "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         if (options->output.empty() && !options->explain) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "context_choice.h"
 #include "picture_file.h"
 #include "render_stats.h"
 #include "scene/camera.h"
@@ -17,7 +18,7 @@ namespace lamina {
 struct RenderRequest {
     const Scene& scene;
     const OmissionSwitch& omissions;
-    std::string context;                              // --context
+    ContextChoice context;                            // --context
     bool count_fragments;                             // somebody will read the statistics
     std::function<void(const std::string&)> message;  // to stderr, unless --quiet
 };

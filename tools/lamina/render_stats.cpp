@@ -34,11 +34,10 @@ const char* word_of(VolumeSampling sampling) {
 void add_emulation(const CompositingPlan& plan, Json& json) {
     if (!plan.emulation) return;
     const Emulation& emulation = *plan.emulation;
-    json["emulate"] = {
-        {"bits", emulation.bits},
-        {"alpha", name_of(emulation.alpha)},
-        {"over", name_of(emulation.over)},
-        {"by", plan.blending == Blending::fetch ? "framebuffer_fetch" : "texture_barrier"}};
+    json["emulate"] = {{"bits", emulation.bits},
+                       {"alpha", name_of(emulation.alpha)},
+                       {"over", name_of(emulation.over)},
+                       {"by", name_of(plan.blending)}};
 }
 
 Json project_to_json(const ProjectPlan& project) {
@@ -130,6 +129,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     json["fragments"] = stats.fragments;
     json["tets_drawn"] = stats.tets_drawn;
     json["bytes_gpu"] = stats.bytes_gpu;
+    json["bytes_host"] = stats.bytes_host;
     json["peak_rss_mb"] = peak_rss_mb();
     json["context"] = stats.context;
     json["plan"] = plan_to_json(plan);

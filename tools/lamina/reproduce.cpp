@@ -13,7 +13,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/progress.h"
-#include "context_kind.h"
+#include "context_choice.h"
 #include "gl/context.h"
 #include "study/kraus.h"
 #include "study/kraus_stage.h"
@@ -77,7 +77,7 @@ class Stagehand {
 
 template <typename Stage>
 void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options) {
-    Stagehand<Stage> stagehand(context_kind(options.context));
+    Stagehand<Stage> stagehand(opengl_kind(options.context));
     const std::vector<PaperItem<Stage>> items = chosen_items(all, options);
     make_folder(options.output);
     const std::filesystem::path folder = options.output;

@@ -4,6 +4,7 @@
 #include "frame_job.h"
 #include "loaded_volume.h"
 #include "slicing/gl_slice_renderer.h"
+#include "slicing/tile_slice_renderer.h"
 
 namespace lamina {
 namespace {
@@ -28,6 +29,11 @@ class SliceMethod : public FrameMethod {
                                                  const Capabilities& capabilities) override {
         const Scene& scene = request_.scene;
         slabs_ = plan.slice.slabs;
+        if (capabilities.tiles) {
+            return std::make_unique<TileSliceRenderer>(data_->volume, scene.transfer_function,
+                                                       data_->facts, plan.slice, scene.width,
+                                                       scene.height);
+        }
         return std::make_unique<GlSliceRenderer>(data_->volume, scene.transfer_function,
                                                  data_->facts, plan.slice, capabilities,
                                                  scene.width, scene.height);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/compositing_plan.h"
+
+namespace lamina {
+
+Blending programmable_blending(const Capabilities& capabilities) {
+    if (capabilities.tiles) return Blending::tiles;
+    return capabilities.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+}
+
+const char* name_of(Blending blending) {
+    switch (blending) {
+        case Blending::native:
+            return "blending_unit";
+        case Blending::fetch:
+            return "framebuffer_fetch";
+        case Blending::barrier:
+            return "texture_barrier";
+        default:
+            return "tiles";
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// lamina render --context cpu, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_program.h"
+#include "image/exr.h"
+#include "support/temporary_folder.h"
+#include "tiles/instruction_set.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class NativeEngine : public testing::Test {
+  protected:
+    void SetUp() override {
+        const json scene = json::parse(R"({
+            "version": 1,
+            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
+            "mesh": {"tolerance": 0.1},
+            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
+                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
+            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
+            "image": {"width": 100, "height": 75},
+            "render": {"slice": {"samples": 60}}})");
+        write_bytes_to(folder / "scene.json", scene.dump());
+    }
+
+    // `before`: what starts the program, and how.
+    ProgramResult render(const std::string& context, const std::vector<std::string>& options,
+                         std::vector<std::string> before = {}) {
+        before.insert(before.end(),
+                      {LAMINA_BINARY, "render", folder / "scene.json", "--context", context});
+        before.insert(before.end(), options.begin(), options.end());
+        return run_program(before);
+    }
+
+    json stats_of(const std::string& context, const std::string& method) {
+        const ProgramResult result = render(
+            context, {"--method", method, "-o", folder / "a.exr", "--stats", folder / "s.json"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return json::parse(read_bytes_of(folder / "s.json"));
+    }
+
+    Image picture(const std::string& method, const std::vector<std::string>& before) {
+        const ProgramResult result =
+            render("cpu", {"--method", method, "-o", folder / "p.exr"}, before);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read_exr(folder / "p.exr");
+    }
+
+    TemporaryFolder folder;
+};
+
+constexpr const char* methods[] = {"slice", "project"};
+
+bool has(const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+}
+
+// The dynamic linker's own record of the files that it opens.
+TEST_F(NativeEngine, LoadsNoOpenGL) {
+    const std::vector<std::string> recorded = {"env", "LD_DEBUG=files"};
+    const std::vector<std::string> output = {"-o", folder / "a.exr"};
+    ASSERT_TRUE(has(render("osmesa", output, recorded).err, "libOSMesa")) << "nothing is recorded";
+    for (const char* method : methods) {
+        const ProgramResult result =
+            render("cpu", {"-o", folder / "a.exr", "--method", method}, recorded);
+        EXPECT_EQ(result.exit_code, 0);
+        for (const char* library : {"libOSMesa", "libEGL", "libGL", "libLLVM"})
+            EXPECT_FALSE(has(result.err, library)) << method << " loads " << library;
+    }
+}
+
+TEST_F(NativeEngine, SaysWhatItTookInTheStatistics) {
+    for (const char* method : methods) {
+        const json stats = stats_of("cpu", method);
+        for (const char* key :
+             {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu", "bytes_host",
+              "peak_rss_mb", "context", "plan", "omitted", "counts"}) {
+            EXPECT_TRUE(stats.contains(key)) << key;
+        }
+        const std::string context = stats["context"];
+        EXPECT_TRUE(context.starts_with("cpu: " + instruction_set() + ", ")) << context;
+        EXPECT_EQ(stats["bytes_gpu"], 0);
+        EXPECT_GT(stats["bytes_host"], 100 * 75 * 16);  // the picture at least
+        EXPECT_GT(stats["fragments"], 1000);
+        EXPECT_GT(stats["stages"]["draw"], 0);
+    }
+}
+
+// Without a GPU it is what draws; with one OpenGL.
+TEST_F(NativeEngine, IsTheDefaultWithoutAGpu) {
+    const json stats = stats_of("auto", "slice");
+    const std::string context = stats["context"];
+    EXPECT_TRUE(context.starts_with("cpu: ") || context.starts_with("EGL: ")) << context;
+    EXPECT_EQ(stats["bytes_gpu"] == 0, context.starts_with("cpu: "));
+}
+
+TEST_F(NativeEngine, DrawsTheSameWithAllInstructions) {
+    for (const char* method : methods) {
+        const Image expected = picture(method, {});
+        for (const std::string& name : instruction_sets()) {
+            EXPECT_EQ(picture(method, {"env", "LAMINA_INSTRUCTIONS=" + name}).rgba, expected.rgba)
+                << method << " with " << name;
+        }
+    }
+}
+
+TEST_F(NativeEngine, DrawsTheSameInOneThread) {
+    if (run_program({"taskset", "-c", "0", "true"}).exit_code != 0) GTEST_SKIP() << "no taskset";
+    for (const char* method : methods) {
+        EXPECT_EQ(picture(method, {"taskset", "-c", "0"}).rgba, picture(method, {}).rgba) << method;
+    }
+    const ProgramResult result = render("cpu", {"-o", folder / "a.exr"}, {"taskset", "-c", "0"});
+    EXPECT_TRUE(has(result.err, ", 1 thread,")) << result.err;
+}
+
+TEST_F(NativeEngine, RefusesInstructionsThatTheMachineHasNot) {
+    const ProgramResult result =
+        render("cpu", {"-o", folder / "a.exr"}, {"env", "LAMINA_INSTRUCTIONS=abacus"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(has(result.err, "LAMINA_INSTRUCTIONS")) << result.err;
+    EXPECT_TRUE(has(result.err, instruction_set().c_str())) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
+TEST_F(NativeEngine, ExplainsItself) {
+    const ProgramResult result = render("cpu", {"--explain", "--set", "render.target=emulated"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(has(result.out, "the native engine")) << result.out;
+    for (const char* word : {"framebuffer", "texture"})
+        EXPECT_FALSE(has(result.out, word)) << result.out;
+}
+
+TEST_F(NativeEngine, IsNoPlaceToReproduceAPaper) {
+    const ProgramResult result = run_program(
+        {LAMINA_BINARY, "reproduce", "lamar", "table3", "-o", folder / "x", "--context", "cpu"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(has(result.err, "needs OpenGL")) << result.err;
+}
+
+}  // namespace
+}  // namespace lamina

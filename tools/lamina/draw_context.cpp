@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "draw_context.h"
+
+#include "base/error.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+// None where there is no GPU with OpenGL 4.5.
+std::unique_ptr<gl::Context> find_gpu() {
+    try {
+        return gl::Context::create(gl::ContextKind::gpu);
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+std::unique_ptr<gl::Context> make_opengl(ContextChoice choice) {
+    switch (choice) {
+        case ContextChoice::automatic:
+            return find_gpu();
+        case ContextChoice::osmesa:
+            return gl::Context::create(gl::ContextKind::osmesa);
+        case ContextChoice::egl:
+            return gl::Context::create(gl::ContextKind::egl);
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+
+DrawContext::DrawContext(ContextChoice choice)
+    : opengl_(make_opengl(choice)),
+      capabilities_(opengl_ ? opengl_->capabilities() : tile_capabilities()) {}
+
+}  // namespace lamina

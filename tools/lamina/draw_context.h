@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "context_choice.h"
+#include "gl/context.h"
+#include "scene/capabilities.h"
+
+namespace lamina {
+
+// What draws: OpenGL, or the native engine, for which no library of OpenGL's is loaded.
+class DrawContext {
+  public:
+    // Errors of OpenGL are Errors, but for ContextChoice::automatic.
+    explicit DrawContext(ContextChoice choice);
+
+    const Capabilities& capabilities() const { return capabilities_; }
+
+  private:
+    std::unique_ptr<gl::Context> opengl_;  // none: the native engine
+    Capabilities capabilities_;
+};
+
+}  // namespace lamina
