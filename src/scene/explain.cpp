@@ -103,11 +103,13 @@ std::string text_of_table(const ProjectPlan& project) {
 }
 
 template <typename Row>
-void explain_projection(const ProjectPlan& project, const MeshFacts& facts, const Row& row) {
+void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool tiles,
+                        const Row& row) {
     row("target", name_of(project.target));
     row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
                              facts.convexity == Convexity::none ? "not " : ""));
-    row("geometry", name_of(project.geometry));
+    row("geometry",
+        tiles ? "where a ray enters and leaves a tet, pixel by pixel" : name_of(project.geometry));
     row("interpolation", fmt::format("{}, thickness {}", name_of(project.interpolation),
                                      name_of(project.thickness)));
     row("edges", fmt::format("from {:.3g} to {:.3g}: optical depth of a tet at most {:.3g}",
@@ -175,7 +177,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo, facts.range.hi));
     if (plan.method == Method::project) {
         row("context", capabilities.renderer);
-        explain_projection(plan.project, facts, row);
+        explain_projection(plan.project, facts, capabilities.tiles, row);
     }
     return text + left_out(plan);
 }
