@@ -20,6 +20,13 @@ std::size_t texel_index(int column, int row) {
 
 }  // namespace
 
+// Minimax over the triangle p, q >= 0, p + q <= 2 faint_depth, of degree 2 (as below).
+double faint_front_weight(double p, double q) {
+    const double of_p = 0.33272117 - 0.06162436 * p - 0.07001289 * q;
+    const double of_q = 0.16649824 - 0.02334885 * q;
+    return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
+}
+
 // Minimax over the triangle p, q >= 0, p + q <= 2 thin_depth, of degree 4 (iterated least squares).
 double thin_front_weight(double p, double q) {
     const double c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));

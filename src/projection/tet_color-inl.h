@@ -47,10 +47,17 @@ HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, const TetFragments& fragments,
                           opacity_from_depth(d, hn::Mul(mean, run.world_length)));
     }
     const V p = hn::Mul(front, run.world_length), q = hn::Mul(back, run.world_length);
-    const V opacity = opacity_from_depth(d, hn::Add(hn::Mul(half, p), hn::Mul(half, q)));
-    const V most = Shade::thin
-                       ? thin_front_weight(d, p, q)
-                       : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
+    const V depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
+    V opacity, most;
+    if constexpr (Shade::depth == PartDepth::faint) {
+        opacity = faint_opacity(d, depth);
+        most = faint_front_weight(d, p, q);
+    } else {
+        opacity = opacity_from_depth(d, depth);
+        most = Shade::depth == PartDepth::thin
+                   ? thin_front_weight(d, p, q)
+                   : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
+    }
     const V weight = hn::Min(most, opacity);
     // opacity * back + weight * (front - back), in terms of the part's ends: no term is negative.
     const V of_high =

@@ -173,7 +173,7 @@ HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
 
 // `slant`: world length per unit of z. Rays that miss the part have the span 0.
 template <class Shade, class D>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetRecord& record,
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const TetRecord& record,
                                        const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
                                        hn::Vec<D> row, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
@@ -181,10 +181,17 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetRecord& record,
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
     if constexpr (Shade::perspective) {
         // Differences of z from differences of depth, so that far eyes cost no digits.
-        const V center = hn::Set(d, record.center_depth), minus_one = hn::Set(d, -1.0f),
-                most = hn::Set(d, -1e-30f);
-        z_front = hn::Div(minus_one, hn::Min(hn::Add(center, span.enter), most));
-        z_back = hn::Div(minus_one, hn::Min(hn::Add(center, span.leave), most));
+        const V center = hn::Set(d, record.center_depth);
+        const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
+        if (fragments.squares_in_range) {  // one division for both
+            const V product = hn::Div(hn::Set(d, 1.0f), hn::Mul(depth_front, depth_back));
+            z_front = hn::Neg(hn::Mul(depth_back, product));
+            z_back = hn::Neg(hn::Mul(depth_front, product));
+        } else {
+            const V minus_one = hn::Set(d, -1.0f), most = hn::Set(d, -1e-30f);
+            z_front = hn::Div(minus_one, hn::Min(depth_front, most));
+            z_back = hn::Div(minus_one, hn::Min(depth_back, most));
+        }
         run.world_length = hn::Mul(hn::Mul(hn::Mul(run.world_length, z_front), z_back), slant);
         const V z_center = hn::Set(d, record.center_z);
         front = hn::Mul(hn::Mul(front, z_front), z_center);

@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "optics/front_weights.h"
 #include "projection/tet_setup-inl.h"
@@ -108,10 +109,15 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& 
         };
         const int last = window_.view().height - 1;
         const bool whole = parts[lane].piece == TetPart::whole;
-        const bool thin = !whole && lanes.largest_depth[lane] <= thin_depth;
-        result.areas[lane] = {pixel(lanes.first_column), pixel(lanes.last_column),
-                              last - pixel(lanes.last_row), last - pixel(lanes.first_row),
-                              thin ? FragmentKind::thin : FragmentKind::plain};
+        const double depth = whole ? INFINITY : lanes.largest_depth[lane];
+        result.areas[lane] = {pixel(lanes.first_column),
+                              pixel(lanes.last_column),
+                              last - pixel(lanes.last_row),
+                              last - pixel(lanes.first_row),
+                              false,
+                              depth <= faint_depth  ? PartDepth::faint
+                              : depth <= thin_depth ? PartDepth::thin
+                                                    : PartDepth::any};
         TetRecord& record = result.records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};

@@ -12,10 +12,15 @@
 
 namespace lamina {
 
+// How much optical depth a run through a part has at most: what the closed forms of its colour
+// cost.
+enum class PartDepth { any, thin, faint };  // optics/front_weights.h
+
 // Where a part may cover pixels: columns from the left, rows from the top of the picture.
 struct PartArea {
     std::int32_t first_column, last_column, first_row, last_row;
-    FragmentKind kind;
+    bool careful;     // its depths are found in double (FragmentKind::careful)
+    PartDepth depth;  // of any run through it
 };
 
 // Some parts that follow each other in visibility order, projected, and which of them each tile of

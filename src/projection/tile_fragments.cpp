@@ -22,11 +22,12 @@ using D = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
 using V = hn::Vec<D>;
 
 // What decides how fragments are computed, once for all of a part.
-template <SegmentSource source_of, bool perspective_view, bool has_color, bool thin_part,
+template <SegmentSource source_of, bool perspective_view, bool has_color, PartDepth most_depth,
           bool plain_target>
 struct Shading {
     static constexpr SegmentSource source = source_of;
-    static constexpr bool perspective = perspective_view, colored = has_color, thin = thin_part;
+    static constexpr bool perspective = perspective_view, colored = has_color;
+    static constexpr PartDepth depth = most_depth;
     static constexpr bool float32 = plain_target;
 };
 
@@ -71,7 +72,7 @@ class TetDrawing {
     HWY_INLINE void draw(const TetRecord& record, const PartArea& area) {
         CoveredPixels covered;
         const std::uint64_t blocks = blocks_of(area);
-        if (area.kind == FragmentKind::careful) {
+        if (area.careful) {
             find_covered<Shade, CarefulDepths<D>>(record, blocks, covered);
         } else {
             const bool many = hwy::PopCount(blocks) > few_blocks;
@@ -83,7 +84,7 @@ class TetDrawing {
     std::int64_t fragments() const { return count_; }
 
   private:
-    static constexpr std::size_t few_blocks = 12;  // are looked at one by one
+    static constexpr std::size_t few_blocks = 6;  // are looked at one by one
     static constexpr int block = TileGrid::block, blocks_a_row = TileGrid::edge / TileGrid::block;
 
     // Blocks of the tile that the part may touch, a bit each, row by row.
@@ -197,8 +198,8 @@ class TetDrawing {
         const std::size_t place = covered.place(i);
         const V slant =
             tile_.slants != nullptr ? hn::Load(d_, tile_.slants + place) : hn::Set(d_, 1.0f);
-        const auto run = find_run<Shade>(d_, record, covered.span(d_, i), covered.columns(d_, i),
-                                         covered.rows(d_, i), slant);
+        const auto run = find_run<Shade>(d_, fragments_, record, covered.span(d_, i),
+                                         covered.columns(d_, i), covered.rows(d_, i), slant);
         if constexpr (Shade::source == SegmentSource::constant)
             return constant_color(d_, fragments_, run);
         return part_color<Shade>(d_, fragments_, record, run);
@@ -236,10 +237,15 @@ std::int64_t draw_parts(const TetFragments& fragments, const TileChunk& chunk,
     for_each_part(parts, [&](std::size_t part) HWY_ATTR {
         const TetRecord& record = chunk.record(part);
         const PartArea& area = chunk.area(part);
-        if (source == SegmentSource::parts && colored && area.kind == FragmentKind::thin) {
-            drawing.draw<Shading<source, perspective, colored, true, float32>>(record, area);
+        if (source == SegmentSource::parts && colored && area.depth == PartDepth::faint) {
+            drawing.draw<Shading<source, perspective, colored, PartDepth::faint, float32>>(record,
+                                                                                           area);
+        } else if (source == SegmentSource::parts && colored && area.depth == PartDepth::thin) {
+            drawing.draw<Shading<source, perspective, colored, PartDepth::thin, float32>>(record,
+                                                                                          area);
         } else {
-            drawing.draw<Shading<source, perspective, colored, false, float32>>(record, area);
+            drawing.draw<Shading<source, perspective, colored, PartDepth::any, float32>>(record,
+                                                                                         area);
         }
     });
     return drawing.fragments();

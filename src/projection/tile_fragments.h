@@ -27,6 +27,7 @@ struct TetFragments {
     int image_rows;
     float pixel_size;
     float near_depth;
+    bool squares_in_range;  // of all depths, in floats
     glm::dvec3 tie_shift;
     glm::vec4 constant_optics;             // SegmentSource::constant
     glm::vec3 single_color;                // where not colored

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -23,6 +25,11 @@ constexpr double margin = 1e-3;
 // and for two batches to take less memory than a fourth of the mesh's parts.
 std::size_t chunks_of_batch(std::size_t parts) {
     return std::clamp<std::size_t>(parts / (8 * TileChunk::most_parts), 1, 32);
+}
+
+double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {
+    const auto& [min, max] = mesh.bounds();
+    return glm::length(glm::max(glm::abs(min - eye), glm::abs(max - eye)));
 }
 
 }  // namespace
@@ -124,6 +131,8 @@ void TileProjectRenderer::set_view(const View& view) {
     fragments_.near_depth =
         static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
     fragments_.tie_shift = tie_shift(view);
+    fragments_.squares_in_range =
+        plan_.near_depth > 1e-18 && farthest_corner(mesh_.mesh, view.eye) < 1e18;
     if (!fragments_.perspective || plan_.thickness == Thickness::dz || slant_pixel_ == view.pixel)
         return;
     slant_pixel_ = view.pixel;
@@ -192,7 +201,8 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
-         grid.height() - 1 - bounds.first_row, plan_.plain ? *kind : FragmentKind::careful},
+         grid.height() - 1 - bounds.first_row, !plan_.plain || *kind == FragmentKind::careful,
+         *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
         part.tet, chunk);
 }
 

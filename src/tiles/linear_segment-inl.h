@@ -18,7 +18,23 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of p + q <= 2 thin_depth.
+// Of optical depths up to faint_depth: opacity to 1.1e-7 of itself, the weight as
+// faint_front_weight().
+template <class D>
+HWY_INLINE hn::Vec<D> faint_opacity(D d, hn::Vec<D> depth) {
+    return hn::Mul(depth,
+                   polynomial(d, depth, {0.9999999f, -0.4999845f, 0.16627573f, -0.03848669f}));
+}
+template <class D>
+HWY_INLINE hn::Vec<D> faint_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
+    const auto set = [d](float c) HWY_ATTR { return hn::Set(d, c); };
+    const auto of_p = hn::Add(hn::Add(set(0.33272117f), hn::Mul(p, set(-0.06162436f))),
+                              hn::Mul(q, set(-0.07001289f)));
+    const auto of_q = hn::Add(set(0.16649824f), hn::Mul(q, set(-0.02334885f)));
+    return hn::Add(hn::Mul(p, of_p), hn::Mul(q, of_q));
+}
+
+// Of optical depths up to thin_depth.
 template <class D>
 HWY_INLINE hn::Vec<D> thin_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     const auto c0 =
