@@ -63,7 +63,7 @@ void colorize_pixels(const TargetBlend& target, bool emulated,
     const Tag d;
     pixels.alpha = root;
     TilePixels::Plane* const planes[3] = {&pixels.red, &pixels.green, &pixels.blue};
-    const auto largest = hn::Set(d, target.largest);
+    const auto unit = hn::Set(d, 1 / target.largest);  // as textures are read
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const auto color = hn::Set(d, single_color[channel]);
         const auto code = color_code(d, target, color);
@@ -72,7 +72,7 @@ void colorize_pixels(const TargetBlend& target, bool emulated,
             // OVER of nothing is the product, rounded.
             const auto associated =
                 emulated ? composite_channel(d, target, code, alpha, hn::Zero(d), hn::Zero(d))
-                         : native_code(d, target.largest, hn::Mul(color, hn::Div(alpha, largest)));
+                         : native_code(d, target.largest, hn::Mul(color, hn::Mul(alpha, unit)));
             hn::Store(associated, d, planes[channel]->data() + place);
         }
     }

@@ -10,12 +10,16 @@ namespace {
 
 // Coloured tables are read entry by entry: extinction stands beside emission.
 std::vector<float> with_extinction(const PreintegrationTable& table) {
-    const std::size_t entries = table.mean_extinction.size();
-    std::vector<float> texels(entries * 4 * table.lengths.size());
-    for (std::size_t i = 0; i < entries * table.lengths.size(); ++i) {
-        std::copy_n(table.emission.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
-                    texels.begin() + static_cast<std::ptrdiff_t>(4 * i));
-        texels[4 * i + 3] = table.mean_extinction[i % entries];
+    const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
+    std::vector<float> texels(entries * 4 * layers);
+    for (std::size_t entry = 0; entry < entries; ++entry) {
+        for (std::size_t layer = 0; layer < layers; ++layer) {
+            const auto from = static_cast<std::ptrdiff_t>(3 * (layer * entries + entry));
+            const std::size_t to = 4 * (entry * layers + layer);
+            std::copy_n(table.emission.begin() + from, 3,
+                        texels.begin() + static_cast<std::ptrdiff_t>(to));
+            texels[to + 3] = table.mean_extinction[entry];
+        }
     }
     return texels;
 }
@@ -60,13 +64,19 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
         for (std::size_t i = 0; i < left[c].size(); ++i) change[c][i] -= left[c][i];
     }
     right_extinction = component(2, 3);
+    float before = 0;
+    for (std::size_t i = 0; i < right_extinction.size(); ++i) {
+        shown_before.push_back(before);
+        shown.push_back(left[3][i] > 0 || right_extinction[i] > 0 ? 1.0f : 0.0f);
+        before += shown.back();
+    }
     left_rest = component(3, 0);
     right_rest = component(3, 1);
     for (const float start : shader.starts) starts.push_back(static_cast<std::int32_t>(start));
 }
 
 std::int64_t TileTransfer::byte_count() const {
-    const std::size_t per_interval = 4 + 8 + 3;
+    const std::size_t per_interval = 4 + 8 + 5;
     return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
                                      sizeof(std::int32_t) * starts.size()) +
            (table ? table->byte_count() : 0);

@@ -29,10 +29,13 @@ struct TileTransfer {
     std::array<std::vector<float>, 4> change;  // to the right end
     std::vector<float> right_extinction;
     std::vector<float> left_rest, right_rest;  // what float leaves over of the extinctions
-    std::vector<std::int32_t> starts;          // ShaderIntervals::starts
+    std::vector<float> shown_before, shown;  // intervals with extinction before it; it itself: 0, 1
+    std::vector<std::int32_t> starts;        // ShaderIntervals::starts
 
     std::shared_ptr<const PreintegrationTable> table;
-    std::vector<float> texels;  // of a coloured table: emission and mean extinction, RGBA
+    // Of a coloured table: emission and mean extinction, RGBA, the layers of a pair of scalars side
+    // by side.
+    std::vector<float> texels;
     float layers_per_length = 0;
 
     std::int64_t byte_count() const;
