@@ -40,24 +40,24 @@ class SlabBlender {
         }
     }
 
-    // `there`: of the pixels from (column, row) on; opacity_only: its alpha.
-    void composite(int column, int row, Pixel& there) {
-        column_ = column;
-        row_ = row;
-        const bool colored = !plan_.single_color && !opacity_only_;
+    // `pixels`: of the group's packets; opacity_only: their alpha.
+    void composite(const TileGrid::Tile& area, std::size_t group, Pixel* pixels) {
         for (const TileBrickView& brick : slabs_.bricks) {
-            PacketRays rays = packet_rays(slabs_.rays, brick, column, row);
-            set_span(slabs_.rays, brick, span_.first, span_.end(), rays);
-            const int first = (rays.first_slab - span_.first) / tile_block_slabs;
-            const int end = (rays.end_slab - span_.first + tile_block_slabs - 1) / tile_block_slabs;
-            for (int k = 0; k < end - first; ++k) {
-                const int number = behind_ ? first + k : end - 1 - k;
+            rays_.set_pixels(slabs_.rays, brick, area, group);
+            rays_.set_slabs(slabs_.rays, span_.first, span_.end());
+            if (rays_.first_slab >= rays_.end_slab) continue;
+            const int first = (rays_.first_slab - span_.first) / tile_block_slabs;
+            const int last = (rays_.end_slab - 1 - span_.first) / tile_block_slabs;
+            for (int k = 0; k <= last - first; ++k) {
+                const int number = behind_ ? first + k : last - k;
                 block_.first_slab = span_.first + number * tile_block_slabs;
-                block_.from = std::max(rays.first_slab - block_.first_slab, 0);
-                block_.end = std::min(rays.end_slab - block_.first_slab, tile_block_slabs);
-                segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
-                                       : set_segments(slabs_, brick, rays, colored, block_);
-                composite_block(there);
+                for (std::size_t p = 0; p < group_packets; ++p) {
+                    const TileGrid::Place at =
+                        TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
+                    column_ = area.column + at.column;
+                    row_ = area.row + at.row;
+                    composite_packet(brick, rays_.packets[p], pixels[p]);
+                }
             }
         }
     }
@@ -65,6 +65,15 @@ class SlabBlender {
     std::int64_t segments() const { return segments_; }
 
   private:
+    HWY_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
+                                     Pixel& pixel) {
+        if (!block_.set_slabs(rays)) return;
+        const bool colored = !plan_.single_color && !opacity_only_;
+        segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
+                               : set_segments(slabs_, brick, rays, colored, block_);
+        composite_block(pixel);
+    }
+
     // Works on a copy, which stays in registers.
     void composite_block(Pixel& pixel) const {
         Pixel there = pixel;
@@ -197,6 +206,7 @@ class SlabBlender {
     bool opacity_only_, behind_, as_codes_;
     int column_ = 0, row_ = 0;
     std::int64_t segments_ = 0;
+    GroupRays rays_;
     SlabBlock block_;
 };
 
@@ -204,15 +214,17 @@ std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,
                           const TileGrid::Tile& area, TilePixels& pixels) {
     const FloatTag d;
     SlabBlender blender(slabs, target, {0, slabs.plan->slabs}, 1, false);
-    for (std::size_t place = 0; place < TileGrid::pixels; place += hn::Lanes(d)) {
-        const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(place));
-        if (at.column >= area.width || at.row >= area.height) continue;
-        Pixel there{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        blender.composite(area.column + at.column, area.row + at.row, there);
-        hn::Store(there.red, d, pixels.red.data() + place);
-        hn::Store(there.green, d, pixels.green.data() + place);
-        hn::Store(there.blue, d, pixels.blue.data() + place);
-        hn::Store(there.alpha, d, pixels.alpha.data() + place);
+    for (std::size_t group = 0; group < tile_groups; ++group) {
+        Pixel there[group_packets];
+        for (Pixel& pixel : there) pixel = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        blender.composite(area, group, there);
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            const std::size_t place = packet_place(group, p);
+            hn::Store(there[p].red, d, pixels.red.data() + place);
+            hn::Store(there[p].green, d, pixels.green.data() + place);
+            hn::Store(there[p].blue, d, pixels.blue.data() + place);
+            hn::Store(there[p].alpha, d, pixels.alpha.data() + place);
+        }
     }
     return blender.segments();
 }
@@ -222,12 +234,13 @@ std::int64_t blend_opacities(const TileSlabs& slabs, const TargetBlend& target,
                              TilePixels::Plane& opacity) {
     const FloatTag d;
     SlabBlender blender(slabs, target, span, depth_scale, true);
-    for (std::size_t place = 0; place < TileGrid::pixels; place += hn::Lanes(d)) {
-        const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(place));
-        if (at.column >= area.width || at.row >= area.height) continue;
-        Pixel there{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Load(d, opacity.data() + place)};
-        blender.composite(area.column + at.column, area.row + at.row, there);
-        hn::Store(there.alpha, d, opacity.data() + place);
+    for (std::size_t group = 0; group < tile_groups; ++group) {
+        Pixel there[group_packets];
+        for (std::size_t p = 0; p < group_packets; ++p)
+            there[p].alpha = hn::Load(d, opacity.data() + packet_place(group, p));
+        blender.composite(area, group, there);
+        for (std::size_t p = 0; p < group_packets; ++p)
+            hn::Store(there[p].alpha, d, opacity.data() + packet_place(group, p));
     }
     return blender.segments();
 }

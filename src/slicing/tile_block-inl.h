@@ -27,6 +27,13 @@ struct SlabBlock {
     // Of codes, which are computed in double precision: optical depths.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
+
+    // The slabs of the block that a packet wants; false where there are none.
+    bool set_slabs(const PacketRays& rays) {
+        from = std::max(rays.first_slab - first_slab, 0);
+        end = std::min(rays.end_slab - first_slab, tile_block_slabs);
+        return from < end;
+    }
 };
 
 constexpr std::size_t at(int slab) {

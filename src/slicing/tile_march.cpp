@@ -19,44 +19,59 @@ struct NodeSum {
     Floats depth;
 };
 
+// Takes a group of packets through the tree.
 class Marcher {
   public:
-    Marcher(const TileSlabs& slabs, const TreeShape& shape, int column, int row)
+    Marcher(const TileSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area)
         : slabs_(slabs),
           plan_(*slabs.plan),
           shape_(shape),
           single_color_(plan_.single_color),
-          column_(column),
-          row_(row) {
-        if (slabs_.bricks.size() == 1)
-            rays_ = packet_rays(slabs_.rays, slabs_.bricks[0], column_, row_);
-    }
+          area_(area) {}
 
-    // What a node of the tree holds before it is written.
-    NodeSum evaluate(int level, const SampleSpan& node) {
-        if (is_marched(shape_, level, node)) return march(node);
-        const FloatTag d;
-        NodeSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
-        Floats transmittance = hn::Set(d, 1.0f);
-        const int children = shape_.factor(level);
-        for (int i = 0; i < children; ++i) {
-            const SampleSpan child = child_span(node, i, children);
-            if (child.count == 0) continue;
-            const NodeSum image = stored(evaluate(level + 1, child), child.count);
-            sum.depth = hn::Add(sum.depth, image.depth);
-            const Floats weight = hn::Mul(transmittance, opacity_from_depth(d, image.depth));
-            if (!single_color_) {
-                for (int channel = 0; channel < 3; ++channel)
-                    sum.color[channel] = mul_add(weight, image.color[channel], sum.color[channel]);
-            }
-            transmittance = hn::Sub(transmittance, weight);
-        }
-        return sum;
+    // The root of the tree for each packet, before it is written.
+    void evaluate(std::size_t group, NodeSum* sums) {
+        group_ = group;
+        if (slabs_.bricks.size() == 1)
+            rays_.set_pixels(slabs_.rays, slabs_.bricks[0], area_, group_);
+        evaluate(0, shape_.root(), sums);
     }
 
     std::int64_t segments() const { return segments_; }
 
   private:
+    void evaluate(int level, const SampleSpan& node, NodeSum* sums) {
+        if (is_marched(shape_, level, node)) {
+            march(node, sums);
+            return;
+        }
+        const FloatTag d;
+        Floats transmittance[group_packets];
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            sums[p] = {{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
+            transmittance[p] = hn::Set(d, 1.0f);
+        }
+        const int children = shape_.factor(level);
+        for (int i = 0; i < children; ++i) {
+            const SampleSpan child = child_span(node, i, children);
+            if (child.count == 0) continue;
+            NodeSum images[group_packets];
+            evaluate(level + 1, child, images);
+            for (std::size_t p = 0; p < group_packets; ++p)
+                put_behind(stored(images[p], child.count), sums[p], transmittance[p]);
+        }
+    }
+
+    HWY_INLINE void put_behind(const NodeSum& image, NodeSum& sum, Floats& transmittance) const {
+        const FloatTag d;
+        sum.depth = hn::Add(sum.depth, image.depth);
+        const Floats weight = hn::Mul(transmittance, opacity_from_depth(d, image.depth));
+        transmittance = hn::Sub(transmittance, weight);
+        if (single_color_) return;
+        for (int channel = 0; channel < 3; ++channel)
+            sum.color[channel] = mul_add(weight, image.color[channel], sum.color[channel]);
+    }
+
     // A child as its node reads it: colour not associated, rounded to the image's format.
     NodeSum stored(const NodeSum& child, int samples) const {
         const FloatTag d;
@@ -92,40 +107,35 @@ class Marcher {
         }
     }
 
-    // All slabs of a leaf. Sums of thousands of small terms: of a block in float, in which nothing
-    // is lost as opacity begins at 0, of blocks in double.
-    NodeSum march(const SampleSpan& leaf) {
-        const FloatTag d;
-        TwoDoubles color[3] = {all(0), all(0), all(0)}, depth = all(0), transmittance = all(1);
-        for (const TileBrickView& brick : slabs_.bricks) {
-            if (slabs_.bricks.size() > 1) rays_ = packet_rays(slabs_.rays, brick, column_, row_);
-            set_span(slabs_.rays, brick, leaf.first, leaf.end(), rays_);
-            for_each_block(leaf, [&] HWY_ATTR {
-                segments_ += set_segments(slabs_, brick, rays_, !single_color_, block_);
-                if (single_color_) {
-                    add(depth, block_depth());
-                } else {
-                    add_block(color, depth, transmittance);
-                }
-            });
-        }
-        NodeSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, narrow(depth)};
-        if (single_color_) return sum;
-        for (int channel = 0; channel < 3; ++channel) sum.color[channel] = narrow(color[channel]);
-        return sum;
-    }
+    // Sums of thousands of small terms: of a block in float, in which nothing is lost as opacity
+    // begins at 0, of blocks in double.
+    struct LeafSum {
+        TwoDoubles color[3], depth, transmittance;
+    };
 
-    // Blocks begin at the leaf's first slab, whatever part of them is wanted: pictures must not
-    // depend on that.
-    template <class Body>
-    HWY_INLINE void for_each_block(const SampleSpan& leaf, const Body& body) {
-        if (rays_.first_slab >= rays_.end_slab) return;
-        const int number = (rays_.first_slab - leaf.first) / tile_block_slabs;
-        block_.first_slab = leaf.first + number * tile_block_slabs;
-        for (; block_.first_slab < rays_.end_slab; block_.first_slab += tile_block_slabs) {
-            block_.from = std::max(rays_.first_slab - block_.first_slab, 0);
-            block_.end = std::min(rays_.end_slab - block_.first_slab, tile_block_slabs);
-            body();
+    // All slabs of a leaf. Blocks begin at its first slab, whatever part of them is wanted:
+    // pictures must not depend on that.
+    void march(const SampleSpan& leaf, NodeSum* sums) {
+        LeafSum leaves[group_packets];
+        for (LeafSum& sum : leaves) sum = {{all(0), all(0), all(0)}, all(0), all(1)};
+        for (const TileBrickView& brick : slabs_.bricks) {
+            if (slabs_.bricks.size() > 1) rays_.set_pixels(slabs_.rays, brick, area_, group_);
+            rays_.set_slabs(slabs_.rays, leaf.first, leaf.end());
+            const int skipped = (rays_.first_slab - leaf.first) / tile_block_slabs;
+            block_.first_slab = leaf.first + skipped * tile_block_slabs;
+            for (; block_.first_slab < rays_.end_slab; block_.first_slab += tile_block_slabs) {
+                for (std::size_t p = 0; p < group_packets; ++p) {
+                    if (!block_.set_slabs(rays_.packets[p])) continue;
+                    segments_ +=
+                        set_segments(slabs_, brick, rays_.packets[p], !single_color_, block_);
+                    add_block(leaves[p]);
+                }
+            }
+        }
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            sums[p].depth = narrow(leaves[p].depth);
+            for (int channel = 0; channel < 3; ++channel)
+                sums[p].color[channel] = narrow(leaves[p].color[channel]);
         }
     }
 
@@ -142,8 +152,11 @@ class Marcher {
         return depth;
     }
 
-    HWY_INLINE void add_block(TwoDoubles (&color)[3], TwoDoubles& depth,
-                              TwoDoubles& transmittance) const {
+    HWY_INLINE void add_block(LeafSum& leaf) const {
+        if (single_color_) {
+            add(leaf.depth, block_depth());
+            return;
+        }
         const FloatTag d;
         const DoubleTag dd;
         const Floats one = hn::Set(d, 1.0f);
@@ -161,25 +174,26 @@ class Marcher {
         for (int channel = 0; channel < 3; ++channel) {
             const TwoDoubles part = widen(parts[channel]);
             for (int h = 0; h < 2; ++h) {
-                color[channel].half[h] =
-                    mul_add(transmittance.half[h], part.half[h], color[channel].half[h]);
+                leaf.color[channel].half[h] =
+                    mul_add(leaf.transmittance.half[h], part.half[h], leaf.color[channel].half[h]);
             }
         }
         const TwoDoubles hidden = widen(opacity);
         for (int h = 0; h < 2; ++h) {
-            transmittance.half[h] =
-                hn::Mul(transmittance.half[h], hn::Sub(hn::Set(dd, 1.0), hidden.half[h]));
+            leaf.transmittance.half[h] =
+                hn::Mul(leaf.transmittance.half[h], hn::Sub(hn::Set(dd, 1.0), hidden.half[h]));
         }
-        add(depth, sum);
+        add(leaf.depth, sum);
     }
 
     const TileSlabs& slabs_;
     const SlicePlan& plan_;
     const TreeShape& shape_;
     bool single_color_;
-    int column_, row_;
+    const TileGrid::Tile& area_;
+    std::size_t group_ = 0;
     std::int64_t segments_ = 0;
-    PacketRays rays_;
+    GroupRays rays_;
     SlabBlock block_;
 };
 
@@ -189,30 +203,30 @@ std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,
     const Target target = slabs.plan->target;
     const bool codes = is_fixed_point(target);
     const float largest = codes ? static_cast<float>(largest_code(slabs.plan->code_bits())) : 1.0f;
-    std::int64_t segments = 0;
+    const bool single = slabs.plan->single_color;
     const auto store = [&](Floats value, TilePixels::Plane& plane, std::size_t place) HWY_ATTR {
         if (codes) value = native_code(d, largest, value);
         if (target == Target::float16) value = truncate_to_half(d, value);
         hn::Store(value, d, plane.data() + place);
     };
-    for (std::size_t place = 0; place < TileGrid::pixels; place += hn::Lanes(d)) {
-        const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(place));
-        if (at.column >= area.width || at.row >= area.height) continue;
-        Marcher marcher(slabs, shape, area.column + at.column, area.row + at.row);
-        const NodeSum sum = marcher.evaluate(0, shape.root());
-        segments += marcher.segments();
-        const Floats opacity = opacity_from_depth(d, sum.depth);
-        const bool single = slabs.plan->single_color;
-        const auto color = [&](std::size_t channel) HWY_ATTR {
-            return single ? hn::Mul(hn::Set(d, slabs.single_color[channel]), opacity)
-                          : sum.color[channel];
-        };
-        store(color(0), pixels.red, place);
-        store(color(1), pixels.green, place);
-        store(color(2), pixels.blue, place);
-        store(opacity, pixels.alpha, place);
+    Marcher marcher(slabs, shape, area);
+    for (std::size_t group = 0; group < tile_groups; ++group) {
+        NodeSum sums[group_packets];
+        marcher.evaluate(group, sums);
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            const std::size_t place = packet_place(group, p);
+            const Floats opacity = opacity_from_depth(d, sums[p].depth);
+            const auto color = [&](std::size_t channel) HWY_ATTR {
+                return single ? hn::Mul(hn::Set(d, slabs.single_color[channel]), opacity)
+                              : sums[p].color[channel];
+            };
+            store(color(0), pixels.red, place);
+            store(color(1), pixels.green, place);
+            store(color(2), pixels.blue, place);
+            store(opacity, pixels.alpha, place);
+        }
     }
-    return segments;
+    return marcher.segments();
 }
 
 }  // namespace lamina::HWY_NAMESPACE

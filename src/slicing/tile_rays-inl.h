@@ -44,18 +44,21 @@ HWY_INLINE Floats narrow(const TwoDoubles& v) {
     return hn::Combine(FloatTag(), hn::DemoteTo(dh, v.half[1]), hn::DemoteTo(dh, v.half[0]));
 }
 
+// Depths between which a ray is in a box; enter > leave where it never is.
+struct DepthSpan {
+    TwoDoubles enter, leave;
+};
+
 struct PacketRays {
     TwoDoubles origin[3], direction[3];
     TwoDoubles length_per_depth;  // world units
-    TwoDoubles last_depth;        // below all others where the pixel is outside the image
-    TwoDoubles enter, leave;      // depths; enter = leave where the ray misses the box or the span
+    DepthSpan box, drawn;         // of the brick, in pixels of the image
+    TwoDoubles enter, leave;      // enter = leave where the ray misses the box or the slabs
     Floats direction_float[3], length_float;
     int first_slab, end_slab;  // that may show something; none: first >= end
 };
 
-// Depths between which the ray is in a box; not clipped: enter > leave where it never is.
-HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, TwoDoubles& enter,
-                            TwoDoubles& leave) {
+HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSpan& span) {
     const DoubleTag d;
     const auto least = hn::Set(d, 1e-20);  // a ray that runs along a face never crosses it
     for (int axis = 0; axis < 3; ++axis) {
@@ -66,22 +69,21 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, TwoDoub
             const auto origin = rays.origin[axis].half[h];
             const auto one = hn::Mul(hn::Sub(hn::Set(d, box.min[axis]), origin), inverse);
             const auto other = hn::Mul(hn::Sub(hn::Set(d, box.max[axis]), origin), inverse);
-            enter.half[h] = hn::Max(enter.half[h], hn::Min(one, other));
-            leave.half[h] = hn::Min(leave.half[h], hn::Max(one, other));
+            span.enter.half[h] = hn::Max(span.enter.half[h], hn::Min(one, other));
+            span.leave.half[h] = hn::Min(span.leave.half[h], hn::Max(one, other));
         }
     }
 }
 
 // Smallest enter and largest leave of the lanes where the ray hits; false where none does.
-HWY_INLINE bool depth_hull(const TwoDoubles& enter, const TwoDoubles& leave, double& first,
-                           double& last) {
+HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     const DoubleTag d;
     const auto far = hn::Set(d, 1e300);
     auto least = far, most = hn::Neg(far);
     for (int h = 0; h < 2; ++h) {
-        const auto hit = hn::Gt(leave.half[h], enter.half[h]);
-        least = hn::Min(least, hn::IfThenElse(hit, enter.half[h], far));
-        most = hn::Max(most, hn::IfThenElse(hit, leave.half[h], hn::Neg(far)));
+        const auto hit = hn::Gt(span.leave.half[h], span.enter.half[h]);
+        least = hn::Min(least, hn::IfThenElse(hit, span.enter.half[h], far));
+        most = hn::Max(most, hn::IfThenElse(hit, span.leave.half[h], hn::Neg(far)));
     }
     first = hn::GetLane(hn::MinOfLanes(d, least));
     last = hn::GetLane(hn::MaxOfLanes(d, most));
@@ -114,40 +116,85 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
         }
         const auto in_image = hn::And(hn::Lt(x, hn::Set(d, frame.middle_column)),
                                       hn::Lt(y, hn::Set(d, frame.middle_row)));
-        rays.last_depth.half[h] = hn::IfThenElse(in_image, hn::Set(d, 1e300), hn::Set(d, -1.0));
+        rays.box.enter.half[h] = hn::Zero(d);
+        rays.box.leave.half[h] = hn::IfThenElse(in_image, hn::Set(d, 1e300), hn::Set(d, -1.0));
         const auto size = hn::Set(d, frame.pixel_size);
         const auto square = hn::Mul(hn::Mul(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), size), size);
         rays.length_per_depth.half[h] = hn::Sqrt(hn::Add(hn::Set(d, 1.0), square));
     }
     for (int axis = 0; axis < 3; ++axis) rays.direction_float[axis] = narrow(rays.direction[axis]);
     rays.length_float = narrow(rays.length_per_depth);
+    rays.drawn = rays.box;
+    clip_to_box(rays, brick.box, rays.box);
+    clip_to_box(rays, brick.drawn, rays.drawn);
     return rays;
 }
 
-// Clips to the brick's box and to slabs first .. end - 1. Slabs that lie wholly beyond the box
-// that is drawn are not needed.
-HWY_INLINE void set_span(const TileRays& frame, const TileBrickView& brick, int first, int end,
-                         PacketRays& rays) {
+// Clips to slabs first .. end - 1. Slabs that lie wholly beyond the box that is drawn are not
+// needed.
+HWY_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& rays) {
     const DoubleTag d;
-    rays.enter = all(first * frame.slab_thickness);
+    const auto front = hn::Set(d, first * frame.slab_thickness);
+    const auto back = hn::Set(d, end * frame.slab_thickness);
+    DepthSpan seen;
     for (int h = 0; h < 2; ++h) {
-        rays.leave.half[h] =
-            hn::Min(hn::Set(d, end * frame.slab_thickness), rays.last_depth.half[h]);
+        seen.enter.half[h] = hn::Max(front, rays.drawn.enter.half[h]);
+        seen.leave.half[h] = hn::Min(back, rays.drawn.leave.half[h]);
+        const auto enter = hn::Max(front, rays.box.enter.half[h]);
+        const auto leave = hn::Min(back, rays.box.leave.half[h]);
+        const auto hit = hn::Gt(leave, enter);
+        rays.enter.half[h] = hn::IfThenElseZero(hit, enter);
+        rays.leave.half[h] = hn::IfThenElseZero(hit, leave);
     }
-    TwoDoubles enter = rays.enter, leave = rays.leave;
-    clip_to_box(rays, brick.drawn, enter, leave);
-    double front = 0, back = 0;
+    double nearest = 0, farthest = 0;
     rays.first_slab = rays.end_slab = first;
-    if (!depth_hull(enter, leave, front, back)) return;
-    rays.first_slab = std::max(first, static_cast<int>(front / frame.slab_thickness) - 1);
-    rays.end_slab = std::min(end, static_cast<int>(back / frame.slab_thickness) + 2);
-    clip_to_box(rays, brick.box, rays.enter, rays.leave);
-    for (int h = 0; h < 2; ++h) {
-        const auto hit = hn::Gt(rays.leave.half[h], rays.enter.half[h]);
-        rays.enter.half[h] = hn::IfThenElseZero(hit, rays.enter.half[h]);
-        rays.leave.half[h] = hn::IfThenElseZero(hit, rays.leave.half[h]);
-    }
+    if (!depth_hull(seen, nearest, farthest)) return;
+    rays.first_slab = std::max(first, static_cast<int>(nearest / frame.slab_thickness) - 1);
+    rays.end_slab = std::min(end, static_cast<int>(farthest / frame.slab_thickness) + 2);
 }
+
+// Pixels that go through the volume side by side, so that what they fetch stays in the cache: a
+// square of 2 x 2 blocks.
+constexpr std::size_t group_blocks = 4;
+constexpr std::size_t group_packets = group_blocks * most_lanes / hn::MaxLanes(FloatTag());
+constexpr std::size_t tile_groups = TileGrid::pixels / (group_blocks * most_lanes);
+
+// Where a tile keeps the first pixel of one of a group's packets.
+constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
+    constexpr std::size_t edge = 2 * TileGrid::block, per_row = TileGrid::edge / edge;
+    const std::size_t pixel = packet * hn::MaxLanes(FloatTag());
+    const std::size_t block = pixel / most_lanes;
+    const std::size_t column = group % per_row * edge + block % 2 * TileGrid::block;
+    const std::size_t row = group / per_row * edge + block / 2 * TileGrid::block;
+    return static_cast<std::size_t>(
+               TileGrid::place(static_cast<int>(column), static_cast<int>(row))) +
+           pixel % most_lanes;
+}
+
+// The rays of a group through one brick. Packets outside the image want no slabs.
+struct GroupRays {
+    PacketRays packets[group_packets];
+    int first_slab, end_slab;  // of all of them
+
+    HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
+                               const TileGrid::Tile& area, std::size_t group) {
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
+            packets[p] = packet_rays(frame, brick, area.column + at.column, area.row + at.row);
+        }
+    }
+
+    HWY_INLINE void set_slabs(const TileRays& frame, int first, int end) {
+        first_slab = end;
+        end_slab = first;
+        for (PacketRays& rays : packets) {
+            set_span(frame, first, end, rays);
+            if (rays.first_slab >= rays.end_slab) continue;
+            first_slab = std::min(first_slab, rays.first_slab);
+            end_slab = std::max(end_slab, rays.end_slab);
+        }
+    }
+};
 
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
