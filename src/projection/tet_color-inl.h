@@ -33,15 +33,17 @@ HWY_INLINE Fragment<hn::Vec<D>> constant_color(D d, const TetFragments& fragment
                       opacity_from_depth(d, hn::Mul(hn::Set(d, optics.a), run.world_length)));
 }
 
-template <class Shade, class D>
-HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, const TetFragments& fragments,
-                                           const TetRecord& record, const TetRun<hn::Vec<D>>& run) {
+// `colored`: else of fragments.single_color. `most_depth`: of the part.
+template <class D>
+HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, bool colored, PartDepth most_depth,
+                                           const TetFragments& fragments, const TetRecord& record,
+                                           const TetRun<hn::Vec<D>>& run) {
     using V = hn::Vec<D>;
     const auto optics = [&](std::size_t i, V place) HWY_ATTR {
         return mix(hn::Set(d, record.low[i]), hn::Set(d, record.high[i]), place);
     };
     const V half = hn::Set(d, 0.5f), front = optics(3, run.front), back = optics(3, run.back);
-    if constexpr (!Shade::colored) {
+    if (!colored) {
         const V mean = hn::Add(hn::Mul(half, front), hn::Mul(half, back));
         return with_color(d, fragments.single_color,
                           opacity_from_depth(d, hn::Mul(mean, run.world_length)));
@@ -49,12 +51,12 @@ HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, const TetFragments& fragments,
     const V p = hn::Mul(front, run.world_length), q = hn::Mul(back, run.world_length);
     const V depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
     V opacity, most;
-    if constexpr (Shade::depth == PartDepth::faint) {
+    if (most_depth == PartDepth::faint) {
         opacity = faint_opacity(d, depth);
         most = faint_front_weight(d, p, q);
     } else {
         opacity = opacity_from_depth(d, depth);
-        most = Shade::depth == PartDepth::thin
+        most = most_depth == PartDepth::thin
                    ? thin_front_weight(d, p, q)
                    : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
     }

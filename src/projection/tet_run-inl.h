@@ -171,15 +171,16 @@ HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
     return inside;
 }
 
-// `slant`: world length per unit of z. Rays that miss the part have the span 0.
-template <class Shade, class D>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const TetRecord& record,
-                                       const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
-                                       hn::Vec<D> row, hn::Vec<D> slant) {
+// `slant`: world length per unit of z. Rays that miss the part have the span 0. `Shading`: see
+// projection/tet_drawing-inl.h.
+template <class D, class Shading>
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFragments& fragments,
+                                       const TetRecord& record, const DepthSpan<hn::Vec<D>>& span,
+                                       hn::Vec<D> column, hn::Vec<D> row, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
     TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
-    if constexpr (Shade::perspective) {
+    if (shading.perspective) {
         // Differences of z from differences of depth, so that far eyes cost no digits.
         const V center = hn::Set(d, record.center_depth);
         const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
@@ -197,10 +198,9 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const TetFragments& fragments, const
         front = hn::Mul(hn::Mul(front, z_front), z_center);
         back = hn::Mul(hn::Mul(back, z_back), z_center);
     }
-    if constexpr (Shade::source == SegmentSource::constant) return run;
-    constexpr bool cut = Shade::source == SegmentSource::parts;
-    const V least = hn::Set(d, cut ? 0.0f : record.limits[0]),
-            largest = hn::Set(d, cut ? 1.0f : record.limits[1]);
+    if (!shading.scalars) return run;
+    const V least = hn::Set(d, shading.cut ? 0.0f : record.limits[0]),
+            largest = hn::Set(d, shading.cut ? 1.0f : record.limits[1]);
     const V aside = hn::Add(hn::Mul(column, hn::Set(d, record.scalar_per_column)),
                             hn::Mul(row, hn::Set(d, record.scalar_per_row)));
     const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);

@@ -7,20 +7,29 @@
 
 #include <cstdint>
 
+#include "optics/segment_table.h"
 #include "projection/tile_chunk.h"
 #include "scene/project_plan.h"
+#include "slicing/tile_transfer.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {
 
+// How a fragment reaches the target (shaders/projection/output.glsl).
+enum class FragmentOutput {
+    native,      // as a blending unit does it
+    dithered,    // rounded to codes by chance first: ProjectDither::alpha
+    stochastic,  // the result rounded by chance: ProjectDither::after_blend
+    emulated     // as render.emulate says
+};
+
 // What the fragments of a frame know beside their records: shaders/projection/*.glsl's uniforms.
 struct TetFragments {
     SegmentSource source;
     bool perspective, colored;
-    ProjectDither dither;
-    bool in_codes;
+    FragmentOutput output;
     std::uint32_t seed;
     TargetBlend blend;
     glm::vec2 image_middle;  // window coordinates
@@ -29,9 +38,12 @@ struct TetFragments {
     float near_depth;
     bool squares_in_range;  // of all depths, in floats
     glm::dvec3 tie_shift;
-    glm::vec4 constant_optics;             // SegmentSource::constant
-    glm::vec3 single_color;                // where not colored
-    const float* front_weights = nullptr;  // SegmentSource::parts, where colored
+    glm::vec4 constant_optics;               // SegmentSource::constant
+    glm::vec3 single_color;                  // where not colored
+    const float* front_weights = nullptr;    // SegmentSource::parts, where colored
+    const SegmentTable* table = nullptr;     // SegmentSource::table
+    float inverse_first_length = 0;          // of it
+    const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
 };
 
 // One tile of a frame. `slants`: of its pixels, at TileGrid::place(), world length per unit of z;
@@ -46,5 +58,9 @@ struct TetTile {
 // fragments.
 std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile);
+
+// The same for everything that a plan may ask for; draw_tets() knows what is asked for most.
+std::int64_t draw_general_tets(const TetFragments& fragments, const TileChunk& chunk,
+                               const TileChunk::Parts& parts, const TetTile& tile);
 
 }  // namespace lamina

@@ -11,8 +11,6 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
 #include "projection/tie_shift.h"
 
 namespace lamina {
@@ -32,6 +30,12 @@ double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {
     return glm::length(glm::max(glm::abs(min - eye), glm::abs(max - eye)));
 }
 
+FragmentOutput output_of(const ProjectPlan& plan) {
+    if (plan.dither == ProjectDither::after_blend) return FragmentOutput::stochastic;
+    if (plan.emulation) return FragmentOutput::emulated;
+    return plan.dither == ProjectDither::alpha ? FragmentOutput::dithered : FragmentOutput::native;
+}
+
 }  // namespace
 
 TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
@@ -44,23 +48,13 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
       image_(width, height),
       fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
     if (plan_.nothing_visible) return;
-    const Stopwatch table_watch;
-    fragments_.source = plan_.source;
+    tables_.emplace(transfer_function, plan_);
+    tables_->set(fragments_);
     fragments_.perspective = !plan_.orthographic;
     fragments_.colored = !plan_.single_color;
-    fragments_.dither = plan_.dither;
-    fragments_.in_codes = plan_.in_codes();
+    fragments_.output = output_of(plan_);
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
-    fragments_.single_color = first_color(transfer_function, plan_.range.lo, plan_.range.hi);
-    if (plan_.source == SegmentSource::constant) {
-        const OpticalProperties constant = transfer_function.at(plan_.range.lo);
-        fragments_.constant_optics =
-            glm::vec4(glm::vec3(constant.color), std::min(constant.extinction, 1e30));
-    }
-    if (plan_.source == SegmentSource::parts && fragments_.colored)
-        fragments_.front_weights = FrontWeightTable::get().texels().data();
-    table_ms_ = table_watch.milliseconds();
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
     const std::size_t chunks = chunks_of_batch(static_cast<std::size_t>(parts_->count()));

@@ -15,6 +15,7 @@
 #include "projection/tet_setup.h"
 #include "projection/tile_chunk.h"
 #include "projection/tile_fragments.h"
+#include "projection/tile_project_tables.h"
 #include "projection/visible_parts.h"
 #include "scene/plan.h"
 #include "scene/scene_mesh.h"
@@ -46,9 +47,9 @@ class TileProjectRenderer : public ProjectRenderer {
     std::int64_t fragments() const override;
     double order_ms() const { return order_ms_; }
     double draw_ms() const { return draw_ms_; }
-    double table_ms() const { return table_ms_; }
-    std::int64_t byte_count()
-        const override;  // of host memory that it took, but for order and tables
+    double table_ms() const { return tables_ ? tables_->build_ms() : 0; }
+    // Of host memory that it took, but for order and tables.
+    std::int64_t byte_count() const override;
 
   private:
     // Of one view.
@@ -77,6 +78,7 @@ class TileProjectRenderer : public ProjectRenderer {
     ProjectPlan plan_;
     TetPieces pieces_;
     VisibilityOrder order_;
+    std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
     std::optional<VisibleParts> parts_;
     TetFragments fragments_{};
     TileImage image_;
@@ -86,7 +88,7 @@ class TileProjectRenderer : public ProjectRenderer {
     std::vector<std::int64_t> fragment_counts_;  // of tiles
     std::int64_t tets_drawn_ = 0;
     std::int32_t last_tet_ = -1;
-    double order_ms_ = 0, draw_ms_ = 0, table_ms_ = 0;
+    double order_ms_ = 0, draw_ms_ = 0;
 };
 
 }  // namespace lamina

@@ -31,7 +31,8 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     }
     if (!sampled) return;
     const Stopwatch table_watch;
-    transfer_.emplace(transfer_function, range, plan_.uses_table() ? &plan_.table : nullptr);
+    transfer_.emplace(transfer_function, range, plan_.uses_table() ? &plan_.table : nullptr,
+                      sampled_step_advance);
     slabs_.transfer = &*transfer_;
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;

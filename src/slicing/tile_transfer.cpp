@@ -27,7 +27,7 @@ std::vector<float> with_extinction(const PreintegrationTable& table) {
 }  // namespace
 
 TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                           const TablePlan* wanted) {
+                           const TablePlan* wanted, double step_advance) {
     std::vector<PreintegrationTable::Anchor> anchors;
     if (wanted != nullptr) {
         table = preintegration_table(transfer_function,
@@ -40,8 +40,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
                 static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
         }
     }
-    const ShaderIntervals shader =
-        make_intervals(transfer_function, range, anchors, sampled_step_advance);
+    const ShaderIntervals shader = make_intervals(transfer_function, range, anchors, step_advance);
     intervals = shader.count;
     const int padded = std::max(intervals, 0) + few;
     const auto component = [&](int row, int channel) {

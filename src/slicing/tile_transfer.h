@@ -19,8 +19,9 @@ struct TileTransfer {
     static constexpr int few = 16;  // intervals that are found by comparisons
 
     // `range`: the scalars seen as [0, 1]; lo < hi. `table`: of the pre-integration, or null.
+    // `step_advance`: see make_intervals().
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                 const TablePlan* table);
+                 const TablePlan* table, double step_advance);
 
     int intervals = 0;
     std::vector<float> end, inverse_width;     // left end, 1 / width

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fragments reach their pixels: vector form of shaders/projection/output.glsl. Fragments
+// without opacity and colour leave their pixels as they are, in all targets.
+#if defined(LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
+#undef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
+#else
+#define LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "projection/tile_fragments.h"
+#include "tiles/random_bits-inl.h"
+#include "tiles/target_pixels-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Of the pixels of a tile from `place` on, and of the part that is drawn.
+template <class D>
+HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> random_of_fragments(D, const TetFragments& fragments,
+                                                                const TileGrid::Tile& area,
+                                                                std::size_t place,
+                                                                std::uint32_t number) {
+    const hn::RebindToUnsigned<D> du;
+    const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(place));
+    const auto lane = hn::Iota(du, 0);
+    const auto from = [&](int pixel) { return hn::Set(du, static_cast<std::uint32_t>(pixel)); };
+    const auto column = hn::Add(from(area.column + first.column), hn::And(lane, hn::Set(du, 3u)));
+    const auto row = hn::Add(from(area.row + first.row), hn::ShiftRight<2>(lane));
+    static_assert(TileGrid::block == 4);
+    return random_bits(du, column, row, hn::Set(du, number), hn::Set(du, fragments.seed));
+}
+
+// Kraus 2004, section 4.2, with one random number for all channels: the blending unit rounds
+// associated colours, too.
+template <class D>
+HWY_INLINE hn::Vec<D> dithered(D d, float largest, hn::Vec<D> value, hn::Vec<D> random) {
+    const auto scaled = hn::Mul(clamp01(d, value), hn::Set(d, largest));
+    const auto whole = hn::Floor(scaled);
+    const auto up = hn::Lt(random, hn::Sub(scaled, whole));
+    return hn::Div(hn::Add(whole, hn::IfThenElseZero(up, hn::Set(d, 1.0f))), hn::Set(d, largest));
+}
+
+// 24 of the bits, as a number below 1.
+template <class D>
+HWY_INLINE hn::Vec<D> as_share(D d, hn::Vec<hn::RebindToUnsigned<D>> random) {
+    const hn::RebindToSigned<D> di;
+    return hn::Mul(hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<8>(random))),
+                   hn::Set(d, 0x1p-24f));
+}
+
+template <class D>
+HWY_INLINE void put_codes(D d, const TargetBlend& target, const Fragment<hn::Vec<D>>& fragment,
+                          hn::Vec<hn::RebindToUnsigned<D>> random, Pixels<hn::Vec<D>>& there) {
+    const auto seen = hn::Gt(fragment.alpha, hn::Zero(d));
+    const auto code = [&](hn::Vec<D> color) HWY_ATTR {
+        return color_code(d, target, hn::IfThenElseZero(seen, hn::Div(color, fragment.alpha)));
+    };
+    const auto alpha = alpha_code(d, target, to_doubles(d, fragment.alpha), random);
+    composite_codes(
+        d, target,
+        Pixels<hn::Vec<D>>{code(fragment.red), code(fragment.green), code(fragment.blue), alpha},
+        there);
+}
+
+template <class D>
+HWY_INLINE void put_fragment(D d, const TetFragments& fragments,
+                             const Fragment<hn::Vec<D>>& fragment,
+                             hn::Vec<hn::RebindToUnsigned<D>> random, Pixels<hn::Vec<D>>& there) {
+    const TargetBlend& target = fragments.blend;
+    switch (fragments.output) {
+        case FragmentOutput::emulated:
+            put_codes(d, target, fragment, random, there);
+            break;
+        case FragmentOutput::stochastic:
+            composite_stochastic(d, target, fragment, random, there);
+            break;
+        case FragmentOutput::dithered: {
+            const auto share = as_share(d, random);
+            const auto code = [&](hn::Vec<D> v)
+                                  HWY_ATTR { return dithered(d, target.largest, v, share); };
+            blend(d, target,
+                  Fragment<hn::Vec<D>>{code(fragment.red), code(fragment.green),
+                                       code(fragment.blue), code(fragment.alpha)},
+                  there);
+            break;
+        }
+        default:
+            blend(d, target, fragment, there);
+    }
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

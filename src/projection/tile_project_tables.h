@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "optics/transfer_function.h"
+#include "projection/tile_fragments.h"
+#include "scene/project_plan.h"
+#include "slicing/tile_transfer.h"
+
+namespace lamina {
+
+// The transfer function as the fragments of tets read it (projection/tet_color-inl.h).
+class TileProjectTables {
+  public:
+    TileProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan);
+
+    // `fragments` must not outlive it.
+    void set(TetFragments& fragments) const;
+    double build_ms() const { return build_ms_; }
+    std::int64_t byte_count() const;
+
+  private:
+    SegmentSource source_;
+    glm::vec3 single_color_;
+    glm::vec4 constant_optics_{0};
+    const float* front_weights_ = nullptr;
+    std::shared_ptr<const SegmentTable> table_;
+    std::optional<TileTransfer> transfer_;  // cut_table and analytic
+    double build_ms_ = 0;
+};
+
+}  // namespace lamina
