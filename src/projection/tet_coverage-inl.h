@@ -27,7 +27,7 @@ using Vector = hn::Vec<Tag>;
 class CoveredPixels {
   public:
     HWY_INLINE void add(Tag d, int place, Vector columns, Vector rows,
-                        const DepthSpan<Vector>& span) {
+                        const InsideSpan<Vector>& span) {
         places_[count_] = place;
         hn::Store(columns, d, columns_ + count_ * lanes);
         hn::Store(rows, d, rows_ + count_ * lanes);
@@ -41,7 +41,7 @@ class CoveredPixels {
         return hn::Load(d, columns_ + i * lanes);
     }
     HWY_INLINE Vector rows(Tag d, std::size_t i) const { return hn::Load(d, rows_ + i * lanes); }
-    HWY_INLINE DepthSpan<Vector> span(Tag d, std::size_t i) const {
+    HWY_INLINE InsideSpan<Vector> span(Tag d, std::size_t i) const {
         return {hn::Load(d, enter_ + i * lanes), hn::Load(d, leave_ + i * lanes)};
     }
 
@@ -145,7 +145,7 @@ class TetCoverage {
             };
             const std::uint32_t fronts = record.fronts & 7u;
             const auto sign = [&](std::uint32_t face) { return face < fronts ? -1.0f : 1.0f; };
-            const DepthSpan<Vector> span =
+            const InsideSpan<Vector> span =
                 order_depths(fronts, farthest(0, sign(0)), farthest(1, sign(1)),
                              farthest(2, sign(2)), farthest(3, sign(3)));
             std::uint8_t bits[8] = {};
@@ -168,7 +168,7 @@ class TetCoverage {
             for (int row = row_of_block; row < row_of_block + block; row += rows_a_vector) {
                 const Vector rows =
                     hn::Sub(hn::Set(d_, first_row - static_cast<float>(row)), lane_rows_);
-                DepthSpan<Vector> span = depths.at(d_, rows);
+                InsideSpan<Vector> span = depths.at(d_, rows);
                 if constexpr (cut) span = cut_depths(d_, record, span, columns, rows);
                 const auto inside = hn::Gt(span.leave, span.enter);
                 if (hn::AllFalse(d_, inside)) continue;

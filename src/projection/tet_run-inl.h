@@ -19,7 +19,7 @@ namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
-struct DepthSpan {
+struct InsideSpan {
     V enter, leave;
 };
 
@@ -43,7 +43,7 @@ HWY_INLINE hn::Vec<D> at_row(D d, hn::Vec<D> value, float per_row, hn::Vec<D> ro
 // The entry is the largest of the depths on front faces, which come first, the exit the least of
 // the others.
 template <class V>
-HWY_INLINE DepthSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
+HWY_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
     switch (fronts) {
         case 1:
             return {d0, hn::Min(hn::Min(d1, d2), d3)};
@@ -55,9 +55,10 @@ HWY_INLINE DepthSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d
 }
 
 template <class V>
-HWY_INLINE DepthSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2, V d3) {
+HWY_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0, V d1, V d2,
+                                           V d3) {
     if (fronts == 0) return {nearest, hn::Min(hn::Min(d0, d1), hn::Min(d2, d3))};
-    const DepthSpan<V> span = order_depths(fronts, d0, d1, d2, d3);
+    const InsideSpan<V> span = order_depths(fronts, d0, d1, d2, d3);
     return {hn::Max(nearest, span.enter), span.leave};
 }
 
@@ -77,7 +78,7 @@ class PlainDepths {
         d2_ = start(2);
         d3_ = start(3);
     }
-    HWY_INLINE DepthSpan<V> at(D d, V row) const {
+    HWY_INLINE InsideSpan<V> at(D d, V row) const {
         const auto& per_row = record_.depth_per_row.high;
         return order_depths(record_.fronts & 7u, at_row(d, d0_, per_row[0], row),
                             at_row(d, d1_, per_row[1], row), at_row(d, d2_, per_row[2], row),
@@ -104,7 +105,7 @@ class CarefulDepths {
         };
         column_ = each_half(moved, to_doubles(d, column));
     }
-    HWY_INLINE DepthSpan<V> at(D d, V row) const {
+    HWY_INLINE InsideSpan<V> at(D d, V row) const {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
             return move(dd, place, record_.center[1], fragments_.image_middle.y,
@@ -147,13 +148,13 @@ class CarefulDepths {
 
 // The part of a ray's run on which the scalar is between the part's least and largest.
 template <class D>
-HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
-                                            const DepthSpan<hn::Vec<D>>& span, hn::Vec<D> column,
-                                            hn::Vec<D> row) {
+HWY_INLINE InsideSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
+                                             const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> column,
+                                             hn::Vec<D> row) {
     const auto plane = [&](float at_center, float per_column, float per_row) HWY_ATTR {
         return at_row(d, at_column(d, at_center, per_column, column), per_row, row);
     };
-    DepthSpan<hn::Vec<D>> inside = span;
+    InsideSpan<hn::Vec<D>> inside = span;
     const auto cut = [&](bool front, hn::Vec<D> depth) HWY_ATTR {
         if (front) {
             inside.enter = hn::Max(inside.enter, depth);
@@ -175,7 +176,7 @@ HWY_INLINE DepthSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
 // projection/tet_drawing-inl.h.
 template <class D, class Shading>
 HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFragments& fragments,
-                                       const TetRecord& record, const DepthSpan<hn::Vec<D>>& span,
+                                       const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
                                        hn::Vec<D> column, hn::Vec<D> row, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
     TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
