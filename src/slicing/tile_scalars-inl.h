@@ -37,20 +37,23 @@ HWY_INLINE Floats to_float(Words v) {
     return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), v));
 }
 
+HWY_INLINE Corners unpack_quads(Words near, Words far) {
+    Corners corners;
+    const Words quads[2] = {near, far};
+    for (int z = 0; z < 2; ++z) {
+        corners.lower[2 * z] = low_byte(quads[z]);
+        corners.upper[2 * z] = low_byte(hn::ShiftRight<8>(quads[z]));
+        corners.lower[2 * z + 1] = low_byte(hn::ShiftRight<16>(quads[z]));
+        corners.upper[2 * z + 1] = to_float(hn::ShiftRight<24>(quads[z]));
+    }
+    return corners;
+}
+
+// Of the other layouts.
 template <TileLayout layout>
 HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     Corners corners;
-    if constexpr (layout == TileLayout::quads) {
-        const auto* const quads = static_cast<const std::uint32_t*>(brick.samples);
-        for (int z = 0; z < 2; ++z) {
-            const Words quad =
-                hn::GatherIndex(WordTag(), quads + (z != 0 ? brick.slice : 0), index);
-            corners.lower[2 * z] = low_byte(quad);
-            corners.upper[2 * z] = low_byte(hn::ShiftRight<8>(quad));
-            corners.lower[2 * z + 1] = low_byte(hn::ShiftRight<16>(quad));
-            corners.upper[2 * z + 1] = to_float(hn::ShiftRight<24>(quad));
-        }
-    } else if constexpr (layout == TileLayout::floats) {
+    if constexpr (layout == TileLayout::floats) {
         const auto* const floats = static_cast<const float*>(brick.samples);
         const std::int32_t next = brick.last_sample[0] > 0 ? 1 : 0;
         for (int i = 0; i < 4; ++i) {
@@ -103,12 +106,17 @@ HWY_INLINE Floats interpolate(const Corners& corners, Floats x, Floats y, Floats
 // are those of the shaders bit for bit.
 enum class PointKind { inside, anywhere, exact };
 
-template <TileLayout layout, PointKind kind>
-HWY_INLINE Floats scalar_at(const TileBrick& brick, bool hardware, const Points& points) {
+struct Cell {
+    Ints index;  // of its lowest corner
+    Floats share[3];
+};
+
+template <PointKind kind>
+HWY_INLINE Cell cell_at(const TileBrick& brick, bool hardware, const Points& points) {
     const FloatTag d;
     const IntTag di;
     const Floats point[3] = {points.x, points.y, points.z};
-    Floats share[3];
+    Cell cell;
     Ints lower[3];
     for (int axis = 0; axis < 3; ++axis) {
         Floats p = point[axis], least = p;
@@ -118,11 +126,16 @@ HWY_INLINE Floats scalar_at(const TileBrick& brick, bool hardware, const Points&
             least = hn::Min(p, hn::Set(d, std::max(last - 1.0f, 0.0f)));
         }
         lower[axis] = hn::ConvertTo(di, least);
-        share[axis] = weight_of(hn::Sub(p, hn::ConvertTo(d, lower[axis])), hardware);
+        cell.share[axis] = weight_of(hn::Sub(p, hn::ConvertTo(d, lower[axis])), hardware);
     }
-    const Ints index = hn::Add(hn::Add(lower[0], hn::Mul(lower[1], hn::Set(di, brick.row))),
-                               hn::Mul(lower[2], hn::Set(di, brick.slice)));
-    Corners corners = fetch_corners<layout>(brick, index);
+    cell.index = hn::Add(hn::Add(lower[0], hn::Mul(lower[1], hn::Set(di, brick.row))),
+                         hn::Mul(lower[2], hn::Set(di, brick.slice)));
+    return cell;
+}
+
+template <TileLayout layout, PointKind kind>
+HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Floats* share) {
+    const FloatTag d;
     float scale = brick.scale;
     if constexpr (kind == PointKind::exact && layout != TileLayout::floats) {
         for (int i = 0; i < 4; ++i) {
@@ -136,20 +149,56 @@ HWY_INLINE Floats scalar_at(const TileBrick& brick, bool hardware, const Points&
     return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
 }
 
+// Quads in two stages, a few vectors each, so that many gathers are under way at a time.
+template <PointKind kind, class PointAt>
+HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, int end,
+                             const PointAt& point_at, float* scalars) {
+    const FloatTag d;
+    const WordTag du;
+    constexpr int stage = 8;
+    const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
+    const auto* const far = near + brick.slice;
+    alignas(64) std::uint32_t quads[2][stage * most_lanes];
+    alignas(64) float shares[3][stage * most_lanes];
+    for (int begin = first; begin < end; begin += stage) {
+        const int count = std::min(stage, end - begin);
+        for (int i = 0; i < count; ++i) {
+            const std::size_t place = static_cast<std::size_t>(i) * most_lanes;
+            const Cell cell = cell_at<kind>(brick, hardware, point_at(begin + i));
+            hn::Store(hn::GatherIndex(du, near, cell.index), du, quads[0] + place);
+            hn::Store(hn::GatherIndex(du, far, cell.index), du, quads[1] + place);
+            for (int axis = 0; axis < 3; ++axis)
+                hn::Store(cell.share[axis], d, shares[axis] + place);
+        }
+        for (int i = 0; i < count; ++i) {
+            const std::size_t place = static_cast<std::size_t>(i) * most_lanes;
+            const Corners corners =
+                unpack_quads(hn::Load(du, quads[0] + place), hn::Load(du, quads[1] + place));
+            const Floats share[3] = {hn::Load(d, shares[0] + place), hn::Load(d, shares[1] + place),
+                                     hn::Load(d, shares[2] + place)};
+            hn::Store(scalar_in<TileLayout::quads, kind>(brick, corners, share), d,
+                      scalars + static_cast<std::size_t>(begin + i) * most_lanes);
+        }
+    }
+}
+
 // Scalars at point_at(i), i = first .. end - 1, a vector each.
 template <PointKind kind, class PointAt>
 HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
                               const PointAt& point_at, float* scalars) {
     const FloatTag d;
-    const auto sample = [&](auto layout) {
+    const auto sample = [&](auto kind_of_layout) HWY_ATTR {
+        constexpr TileLayout layout = decltype(kind_of_layout)::value;
         for (int i = first; i < end; ++i) {
-            hn::Store(scalar_at<decltype(layout)::value, kind>(brick, hardware, point_at(i)), d,
+            const Cell cell = cell_at<kind>(brick, hardware, point_at(i));
+            const Corners corners = fetch_corners<layout>(brick, cell.index);
+            hn::Store(scalar_in<layout, kind>(brick, corners, cell.share), d,
                       scalars + static_cast<std::size_t>(i) * most_lanes);
         }
     };
     switch (brick.layout) {
         case TileLayout::quads:
-            return sample(std::integral_constant<TileLayout, TileLayout::quads>());
+            return sample_quads<kind>(brick, hardware, first, end, point_at, scalars);
         case TileLayout::bytes:
             return sample(std::integral_constant<TileLayout, TileLayout::bytes>());
         case TileLayout::words:

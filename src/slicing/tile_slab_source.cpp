@@ -12,7 +12,7 @@
 
 namespace lamina {
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                               const Facts& facts, const SlicePlan& plan)
+                               const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy)
     : plan_(plan), grid_(facts.grid) {
     const ValueRange range = drawn_range(transfer_function, facts.range);
     const glm::dvec3 single = first_color(transfer_function, range.lo, range.hi);
@@ -36,7 +36,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     slabs_.transfer = &*transfer_;
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;
-    volume_.emplace(volume, range, plan_);
+    volume_.emplace(volume, range, plan_, largest_copy);
     upload_ms_ = upload_watch.milliseconds();
 }
 

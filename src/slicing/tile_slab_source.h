@@ -11,9 +11,9 @@ namespace lamina {
 // rays of a view.
 class TileSlabSource {
   public:
-    // `plan` must outlive it.
+    // `plan` must outlive it. `largest_copy`: see TileVolume.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                   const Facts& facts, const SlicePlan& plan);
+                   const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy);
     TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
     TileSlabSource& operator=(const TileSlabSource&) = delete;
 

@@ -17,9 +17,11 @@ namespace lamina {
 // Draws a volume as the plan says, with the native engine: GlSliceRenderer's twin.
 class TileSliceRenderer : public FrameRenderer {
   public:
-    // Prepares the volume and the tables.
+    // Prepares the volume and the tables. Copies of the volume that only save time take at most
+    // `largest_copy` bytes.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
-                      const Facts& facts, const SlicePlan& plan, int width, int height);
+                      const Facts& facts, const SlicePlan& plan, int width, int height,
+                      std::int64_t largest_copy = TileVolume::largest_copy);
     TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
 

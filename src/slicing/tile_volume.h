@@ -41,7 +41,7 @@ class TileVolume {
 
     // `range`: becomes [0, 1], lo < hi.
     TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
-               std::int64_t most_bytes = largest_copy);
+               std::int64_t most_bytes);
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
     std::int64_t byte_count() const;  // beyond the volume's own

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the native engine: against OpenGL's float32, against exact chords and the tracer.
 #include "reference/chord.h"
+#include "support/volume_of.h"
 #include "tile_fixture.h"
 
 namespace lamina {
@@ -201,6 +202,23 @@ TEST(TilePictureTest, EmptySpaceIsLeftOutBitForBit) {
     }
 }
 
+// Where a copy of the volume would be too large it is read as it is: the same numbers.
+TEST(TilePictureTest, TheLayoutInMemoryDoesNotChangeThePicture) {
+    for (const std::array<std::int64_t, 3> size :
+         {std::array<std::int64_t, 3>{37, 29, 33}, {1, 29, 33}, {37, 1, 33}, {2, 3, 1}}) {
+        const Volume volume = generate({"mixing", size, SampleType::uint8});
+        Scene scene = unit_box_scene(hues(volume, 3), Projection::perspective, 61, 47);
+        scene.slice.samples = 50;
+        const Facts facts = measure(scene, volume, measure_bricks(volume));
+        const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
+        TileSliceRenderer in_place(volume, scene.transfer_function, facts, plan.slice, scene.width,
+                                   scene.height, 0);
+        in_place.draw(View(scene.camera, scene.width, scene.height));
+        EXPECT_EQ(in_place.read().rgba, render_tiles(volume, scene).rgba);
+        EXPECT_LT(in_place.byte_count(), tile_renderer(volume, scene)->byte_count());
+    }
+}
+
 // Bounds and reasons: bricks_test.cpp.
 TEST(TilePictureTest, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
@@ -221,6 +239,32 @@ TEST(TilePictureTest, BricksLeaveNoSeam) {
                           .2);
             }
         }
+    }
+}
+
+// labels_test.cpp
+TEST(TilePictureTest, StepsAtLabelsShowTheirLaterSide) {
+    constexpr int labels = 7, slabs = 2048;
+    constexpr double extinction = .3;
+    const Volume volume = test::volume_of<std::uint8_t>(
+        test::grid_of({2 * labels, 8, 8}, Centering::node),
+        [](double i, double, double) { return 3 * std::floor(i / 2); });
+    std::vector<TransferKnot> points{knot(0, {1, 0, 0}, .02)};
+    for (int label = 1; label < labels; ++label) {
+        const double value = 3 * label;
+        points.push_back(knot(value, points.back().optics.color, points.back().optics.extinction));
+        points.push_back(knot(value, {label % 2, .5, 1. / label}, label % 2 ? extinction : .05));
+    }
+    Scene scene = unit_box_scene(TransferFunction::linear(points), Projection::perspective);
+    scene.camera.eye = {20, 15, 18};
+    scene.camera.center = {6.5, 3.5, 3.5};
+    scene.slice.samples = slabs;
+    const double longest = 2 * std::hypot(13, 7, 7);
+    const Image reference = trace(volume, scene, 1e-6);
+    for (const auto classification : {Classification::post, Classification::preintegrated}) {
+        scene.slice.classification = classification;
+        EXPECT_LT(linf(render_tiles(volume, scene), reference),
+                  255 * 2 * labels * extinction * longest / slabs);
     }
 }
 
