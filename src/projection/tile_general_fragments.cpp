@@ -85,8 +85,8 @@ struct GeneralShading {
         }
     }
 
-    HWY_INLINE Fragment<Vector> color(Tag d, const TetFragments& fragments, const TetRecord& record,
-                                      const TetRun<Vector>& run) const {
+    HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
+                                        const TetRecord& record, const TetRun<Vector>& run) const {
         switch (source) {
             case SegmentSource::constant:
                 return constant_color(d, fragments, run);
@@ -100,9 +100,9 @@ struct GeneralShading {
                 return cut_table_color(d, fragments, run);
         }
     }
-    HWY_INLINE void put(Tag d, const TetFragments& fragments, const TetRecord& record,
-                        const Fragment<Vector>& fragment, const TetTile& tile,
-                        std::size_t place) const {
+    HWY_NOINLINE void put(Tag d, const TetFragments& fragments, const TetRecord& record,
+                          const Fragment<Vector>& fragment, const TetTile& tile,
+                          std::size_t place) const {
         const auto bits = random
                               ? random_of_fragments(d, fragments, tile.area, place, record.number)
                               : hn::Zero(hn::RebindToUnsigned<Tag>());

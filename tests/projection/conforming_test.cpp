@@ -46,22 +46,24 @@ class Conforming : public ProjectionTest {
 const auto zero = [](const glm::dvec3&) { return 0.0; };
 
 // The bounds, in 1/255. Float32 OVER of 100 tets leaves 100 * 6e-8 * 255 = .0015.
-TEST_F(Conforming, Kuhn) {
+TEST_P(Conforming, Kuhn) {
     expect_constant(scene_mesh(scaled(test::kuhn_box({8, 8, 8}, zero), 0.125)), 0.02, "kuhn");
 }
 
-TEST_F(Conforming, KuhnOfManyTets) {  // float32 faces but where they are edge-on
+TEST_P(Conforming, KuhnOfManyTets) {  // float32 faces but where they are edge-on
     expect_constant(scene_mesh(scaled(test::kuhn_box({13, 13, 13}, zero), 1 / 13.0)), 0.02,
                     "kuhn 13");
 }
 
-TEST_F(Conforming, Irregular) {
+TEST_P(Conforming, Irregular) {
     expect_constant(scene_mesh(test::split_box(3, 2000, 1e-2, zero)), 0.02, "split");
 }
 
-TEST_F(Conforming, Graded) {
+TEST_P(Conforming, Graded) {
     expect_constant(scene_mesh(test::split_box(4, 4000, 1e-4, zero)), 0.2, "graded");
 }
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, Conforming, both_engines, engine_name);
 
 }  // namespace
 }  // namespace lamina

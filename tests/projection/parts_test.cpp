@@ -49,7 +49,7 @@ class Parts : public ProjectionTest {
 // The weights are off by 3e-5 in thin parts and 5e-4 in opaque ones, times what the colour changes
 // along the ray, of full scale some 6 times in thin parts and, until nothing is seen behind it,
 // once in an opaque peak: .05 + .13. Float32's rounding is far below.
-TEST_F(Parts, AreExact) {
+TEST_P(Parts, AreExact) {
     const std::vector<glm::dvec3> eyes{{.5, .5, 3}, {2, 1.7, 1.4}, {-1.2, .4, .3}, {.42, .37, .55}};
     for (const double height : {3.0, 1000.0}) {
         for (const glm::dvec3& eye : eyes) {
@@ -69,7 +69,7 @@ TEST_F(Parts, AreExact) {
 
 // The scalar at the eye is exactly a point of the transfer function: that point's surface is seen
 // edge-on from within.
-TEST_F(Parts, EyeOnASurfaceOfThePoints) {
+TEST_P(Parts, EyeOnASurfaceOfThePoints) {
     MeshData data = test::kuhn_box({cells, cells, cells}, [](const glm::dvec3& p) { return p.x; });
     const SceneMesh mesh = scene_mesh(std::move(data));
     Scene wanted = scene(TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(4, {0, 1, 0}, 0),
@@ -83,7 +83,7 @@ TEST_F(Parts, EyeOnASurfaceOfThePoints) {
 }
 
 // Labels: what has the last one is constant there, and the later side of the step counts.
-TEST_F(Parts, StepAtTheLargestValue) {
+TEST_P(Parts, StepAtTheLargestValue) {
     MeshData data =
         test::kuhn_box({4, 4, 4}, [](const glm::dvec3& p) { return p.x < 2 ? 0. : 1.; });
     const SceneMesh mesh = scene_mesh(std::move(data));
@@ -100,7 +100,7 @@ TEST_F(Parts, StepAtTheLargestValue) {
     }
 }
 
-TEST_F(Parts, WhatShowsNothingIsNotListed) {
+TEST_P(Parts, WhatShowsNothingIsNotListed) {
     const TransferFunction peak = TransferFunction::linear(
         {knot(.6, {1, 1, 1}, 0), knot(.65, {1, 1, 1}, 1), knot(.7, {1, 1, 1}, 0)});
     const TetPieces pieces(peak, {0, 1});
@@ -122,6 +122,8 @@ TEST_F(Parts, WhatShowsNothingIsNotListed) {
     EXPECT_EQ(parts.count(), expected);
     for (const TetPart& part : list) EXPECT_TRUE(part.piece == 1 || part.piece == 2);
 }
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, Parts, both_engines, engine_name);
 
 }  // namespace
 }  // namespace lamina

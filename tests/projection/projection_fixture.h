@@ -1,21 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a mesh and a scene to the projected picture and to the exact one.
+// From a mesh and a scene to the projected picture, by OpenGL or by the native engine, and to the
+// exact one.
 #pragma once
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <random>
 #include <string>
 
 #include "gl/gl_fixture.h"
 #include "image/metrics.h"
 #include "projection/gl_project_renderer.h"
+#include "projection/tile_project_renderer.h"
 #include "reference/mesh_tracer.h"
 #include "scene/plan.h"
 #include "support/transfer_functions.h"
+#include "tiles/tile_capabilities.h"
 
 namespace lamina {
 
-using ProjectionTest = gl::GlTest;
+enum class Engine { opengl, tiles };
+
+inline std::string engine_name(const testing::TestParamInfo<Engine>& info) {
+    return info.param == Engine::opengl ? "opengl" : "tiles";
+}
+
+inline const auto both_engines = testing::Values(Engine::opengl, Engine::tiles);
+
+// For INSTANTIATE_TEST_SUITE_P(..., both_engines, engine_name): once with each.
+class ProjectionTest : public gl::ContextTest<testing::TestWithParam<Engine>> {
+  protected:
+    void SetUp() override {
+        if (GetParam() == Engine::opengl) make_context(gl::ContextKind::osmesa);
+    }
+    Capabilities capabilities() const {
+        return GetParam() == Engine::opengl ? ContextTest::capabilities() : tile_capabilities();
+    }
+};
 
 inline SceneMesh scene_mesh(MeshData data) {
     MeshScalar scalar = data.point_scalars.front();
@@ -39,13 +61,24 @@ inline Plan plan_of(const SceneMesh& mesh, const Scene& scene, const Capabilitie
     return make_plan(scene, measure(scene, mesh), capabilities, omissions);
 }
 
+// By the engine whose capabilities these are. The mesh must outlive it.
+inline std::unique_ptr<ProjectRenderer> make_renderer(const SceneMesh& mesh, const Scene& scene,
+                                                      const Capabilities& capabilities,
+                                                      const OmissionSwitch& omissions = {}) {
+    const Plan plan = plan_of(mesh, scene, capabilities, omissions);
+    if (capabilities.tiles) {
+        return std::make_unique<TileProjectRenderer>(mesh, scene.transfer_function, plan.project,
+                                                     scene.width, scene.height);
+    }
+    return std::make_unique<GlProjectRenderer>(mesh, scene.transfer_function, plan.project,
+                                               capabilities, scene.width, scene.height);
+}
+
 inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabilities& capabilities,
                      const OmissionSwitch& omissions = {}) {
-    const Plan plan = plan_of(mesh, scene, capabilities, omissions);
-    GlProjectRenderer renderer(mesh, scene.transfer_function, plan.project, capabilities,
-                               scene.width, scene.height);
-    renderer.draw(View(scene.camera, scene.width, scene.height));
-    return renderer.read();
+    const auto renderer = make_renderer(mesh, scene, capabilities, omissions);
+    renderer->draw(View(scene.camera, scene.width, scene.height));
+    return renderer->read();
 }
 
 inline Image trace(const SceneMesh& mesh, const Scene& scene) {

@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-using ProjectionShaders = ProjectionTest;
+using ProjectionShaders = gl::GlTest;
 
 std::vector<ProjectPlan> geometry_plans() {
     std::vector<ProjectPlan> plans;

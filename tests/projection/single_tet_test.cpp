@@ -56,7 +56,7 @@ class SingleTet : public ProjectionTest {
     }
 };
 
-TEST_F(SingleTet, RandomPosesFillingTheView) {
+TEST_P(SingleTet, RandomPosesFillingTheView) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (int pose = 0; pose < 150; ++pose) {
@@ -88,7 +88,7 @@ TEST_F(SingleTet, RandomPosesFillingTheView) {
 }
 
 // NUMERICS section 7, with points, edges and faces exactly on pixel centres and between them.
-TEST_F(SingleTet, DegeneratePoses) {
+TEST_P(SingleTet, DegeneratePoses) {
     const std::array<double, 4> scalars{0, 1, .5, .25};
     const SceneMesh corner =
         scene_mesh(tet({glm::dvec3(0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, scalars));
@@ -136,7 +136,7 @@ TEST_F(SingleTet, DegeneratePoses) {
 // Both geometries are exact, but that the triangles' corners are moved to the rasteriser's grid: by
 // 1/512 pixel in each direction, which shifts the picture of the tet by as much: up to
 // 1.5 / 512 of the change from pixel to pixel, which here is below 255 / 20.
-TEST_F(SingleTet, TrianglesAgree) {
+TEST_P(SingleTet, TrianglesAgree) {
     std::mt19937 random(7);
     for (int pose = 0; pose < 20; ++pose) {
         std::array<glm::dvec3, 4> points;
@@ -154,6 +154,8 @@ TEST_F(SingleTet, TrianglesAgree) {
         EXPECT_LE(error.l2, 0.04) << pose;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, SingleTet, both_engines, engine_name);
 
 }  // namespace
 }  // namespace lamina

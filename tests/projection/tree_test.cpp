@@ -42,7 +42,7 @@ class TetTree : public ProjectionTest {
 // most 64 D in leaves and 8 D in nodes; it and OVER round by .5 each. The root is off by at most
 //     F e / 64 e^((56 + 7) D) + 8 e^(7 D) + 8.
 // A leaf's error of F moves x by .004 (D = .02): another half percent of the first term.
-TEST_F(TetTree, IsAsPreciseAsItsNodes) {
+TEST_P(TetTree, IsAsPreciseAsItsNodes) {
     const double depth = .02;
     const Scene exact = scene(Target::float32, depth);
     for (const auto& [dither, rounding] :
@@ -62,7 +62,7 @@ TEST_F(TetTree, IsAsPreciseAsItsNodes) {
 
 // Native blending rounds opacity to nearest and fuses (NUMERICS section 2), as this emulation, but
 // for sums half-way between codes: both stay within the bound above, for e = 1.
-TEST_F(TetTree, EmulatedNodesAreAsNativeOnes) {
+TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
     const double depth = .02;
     Scene emulated = with_tree(scene(Target::emulated, depth), {8, 8});
     emulated.emulate = {16, AlphaRounding::nearest, OverRounding::fused, 1};
@@ -72,7 +72,7 @@ TEST_F(TetTree, EmulatedNodesAreAsNativeOnes) {
 }
 
 // One leaf holds everything, times 1; white is its own opacity.
-TEST_F(TetTree, OfOneLeafIsThePlainPicture) {
+TEST_P(TetTree, OfOneLeafIsThePlainPicture) {
     Scene plain = scene(Target::fixed8, 2);
     plain.project.order = ProjectOrder::exact;
     EXPECT_EQ(error(with_tree(plain, {1}), plain).linf, 0);
@@ -81,26 +81,27 @@ TEST_F(TetTree, OfOneLeafIsThePlainPicture) {
 // Tets of less than half a code vanish from a buffer of 8 bits and others become a whole one; in
 // leaves they are four times as dense. The bound above for one level, 72 / 4 e^(3 D) + 4, says less
 // than this: roundings of tets that differ average out.
-TEST_F(TetTree, PaysWhereTetsAreThin) {
+TEST_P(TetTree, PaysWhereTetsAreThin) {
     const Scene exact = scene(Target::float32, .1);
     const Scene plain = scene(Target::fixed8, .1);
     EXPECT_LE(error(with_tree(plain, {4}), exact).l2, .5 * error(plain, exact).l2);
 }
 
 // Buffers of one frame do not reach into the next.
-TEST_F(TetTree, FramesAreAlike) {
+TEST_P(TetTree, FramesAreAlike) {
     const Scene wanted = with_tree(scene(Target::fixed8, 1), {5, 3});
     const Plan plan = plan_of(mesh_, wanted, capabilities());
     EXPECT_TRUE(plan.project.scattered);
-    GlProjectRenderer renderer(mesh_, wanted.transfer_function, plan.project, capabilities(),
-                               wanted.width, wanted.height);
+    const auto renderer = make_renderer(mesh_, wanted, capabilities());
     const View view(wanted.camera, wanted.width, wanted.height);
-    renderer.draw(view);
-    const Image first = renderer.read();
-    renderer.draw(view);
-    EXPECT_EQ(renderer.read().rgba, first.rgba);
-    EXPECT_EQ(renderer.step_count(), 15);
+    renderer->draw(view);
+    const Image first = renderer->read();
+    renderer->draw(view);
+    EXPECT_EQ(renderer->read().rgba, first.rgba);
+    EXPECT_EQ(renderer->step_count(), 15);
 }
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, TetTree, both_engines, engine_name);
 
 }  // namespace
 }  // namespace lamina

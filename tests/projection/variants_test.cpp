@@ -36,7 +36,7 @@ class Variants : public ProjectionTest {
 
 // The weights' error, .005 / 255, times what the colour changes along a ray, some twice the way
 // from blue to red; opacities are good to float32's rounding.
-TEST_F(Variants, DefaultIsExact) {
+TEST_P(Variants, DefaultIsExact) {
     Scene wanted = scene();
     const ErrorNorms error =
         image_error(project(mesh_, wanted, capabilities()), trace(mesh_, wanted)).all;
@@ -44,26 +44,26 @@ TEST_F(Variants, DefaultIsExact) {
     EXPECT_LE(error.l2, 0.01);
 }
 
-TEST_F(Variants, AnalyticIsExact) {
+TEST_P(Variants, AnalyticIsExact) {
     Scene wanted = scene();
     wanted.project.coloring = Coloring::analytic;
     // 3e-6 a tet (shaders/optics/piece_weights.glsl), a hundred of them: .08 / 255 at most.
     EXPECT_LE(l2(wanted), 0.02);
 }
 
-TEST_F(Variants, LinearInterpolationIsWorse) {
+TEST_P(Variants, LinearInterpolationIsWorse) {
     Scene linear = scene();
     linear.project.interpolation = Interpolation::linear;
     EXPECT_GT(l2(linear), 5 * l2(scene()));
 }
 
-TEST_F(Variants, ThicknessFromDepthsIsWorse) {
+TEST_P(Variants, ThicknessFromDepthsIsWorse) {
     Scene dz = scene();
     dz.project.thickness = Thickness::dz;
     EXPECT_GT(l2(dz), 5 * l2(scene()));
 }
 
-TEST_F(Variants, EightBitTableIsWorse) {
+TEST_P(Variants, EightBitTableIsWorse) {
     Scene fixed16 = scene();
     fixed16.project.table = TableSettings{.store = TableStore::opacity};
     Scene fixed8 = fixed16;
@@ -71,7 +71,7 @@ TEST_F(Variants, EightBitTableIsWorse) {
     EXPECT_GT(l2(fixed8), l2(fixed16));
 }
 
-TEST_F(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
+TEST_P(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
     // Total opacity below .5, as the paper's pictures (dense ones hide what lies behind).
     Scene exact = scene(TransferFunction::linear(
         {knot(0, {.1, .2, .9}, .02), knot(.5, {.2, .9, .3}, .1), knot(1, {.9, .3, .1}, .2)}));
@@ -87,7 +87,7 @@ TEST_F(Variants, EightBitTargetIsWorseThanDitheredThanFloat) {
 }
 
 // Steps and narrow peaks; vertex and mean colouring are what they are: coarse.
-TEST_F(Variants, PeaksAreExactInParts) {
+TEST_P(Variants, PeaksAreExactInParts) {
     Scene peak = scene(TransferFunction::linear(
         {knot(.48, {1, 1, 1}, 0), knot(.5, {1, .8, .2}, 200), knot(.52, {1, .2, .1}, 0),
          knot(.7, {0, .2, 1}, 0), knot(.7, {0, .2, 1}, 4)}));
@@ -103,7 +103,7 @@ TEST_F(Variants, PeaksAreExactInParts) {
 
 // Stochastic rounding after the blend has no bias: N tets a pixel, each off by at most one code
 // with mean 0, average out over 96 * 96 pixels * 4 channels.
-TEST_F(Variants, AfterBlendIsUnbiased) {
+TEST_P(Variants, AfterBlendIsUnbiased) {
     Scene after = scene();
     after.target = Target::fixed8;
     after.project.dither = ProjectDither::after_blend;
@@ -114,7 +114,7 @@ TEST_F(Variants, AfterBlendIsUnbiased) {
 
 // Nothing that is left out changes the picture by more than float32's rounding of some hundred
 // OVERs and lengths: 100 * 1.2e-7 * 255 = .003.
-TEST_F(Variants, OmissionsKeepThePicture) {
+TEST_P(Variants, OmissionsKeepThePicture) {
     OmissionSwitch nothing;
     nothing.none = true;
     for (const auto& transfer_function :
@@ -132,7 +132,7 @@ TEST_F(Variants, OmissionsKeepThePicture) {
 
 // Native blending rounds alpha to nearest and fuses (NUMERICS section 2, llvmpipe), but it is given
 // associated colours, rounded once more: by less than a code of 65535 at each of some hundred tets.
-TEST_F(Variants, EmulatedAgreesWithFixed16) {
+TEST_P(Variants, EmulatedAgreesWithFixed16) {
     Scene native = scene();
     native.target = Target::fixed16;
     Scene emulated = scene();
@@ -143,6 +143,8 @@ TEST_F(Variants, EmulatedAgreesWithFixed16) {
                   .all.linf,
               0.5);
 }
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, Variants, both_engines, engine_name);
 
 }  // namespace
 }  // namespace lamina

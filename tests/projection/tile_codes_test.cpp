@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes of the native engine: those of OpenGL's programs and blending, pixel by pixel.
+#include <algorithm>
+
+#include "projection_fixture.h"
+#include "support/split_box.h"
+
+namespace lamina {
+namespace {
+
+// How many components of two pictures are not the same code. OpenGL multiplies codes by a rounded
+// 1 / M when it reads them back: 1.2e-7 of the value; codes lie 1.5e-5 apart or more.
+int differing(const Image& a, const Image& b) {
+    int count = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        count += std::abs(a.rgba[i] - b.rgba[i]) > 1e-6f ? 1 : 0;
+    return count;
+}
+
+class TileCodes : public gl::GlTest {
+  protected:
+    TileCodes()
+        : mesh_(scene_mesh(test::split_box(11, 1000, 1e-2, [](const glm::dvec3& p) {
+              return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
+          }))) {}
+
+    Scene scene(Target target) const {
+        Scene scene = projection_scene(
+            TransferFunction::linear(
+                {knot(0, {.1, .2, .9}, .3), knot(.5, {.2, .9, .3}, .5), knot(1, {.9, .3, .1}, 3)}),
+            101, 83);
+        scene.camera.eye = {1.4, -.5, 1.3};
+        scene.camera.center = {.5, .5, .5};
+        scene.camera.fov_y = 60;
+        scene.target = target;
+        return scene;
+    }
+    // Codes that are not the same, of 101 * 83 * 4.
+    int differing_of(const Scene& scene) const {
+        return differing(project(mesh_, scene, tile_capabilities()),
+                         project(mesh_, scene, capabilities()));
+    }
+
+    SceneMesh mesh_;
+};
+
+TEST_F(TileCodes, EmulatedTargets) {
+    for (const int bits : {3, 8, 13, 16}) {
+        for (const AlphaRounding alpha :
+             {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
+            for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
+                Scene wanted = scene(Target::emulated);
+                wanted.emulate = {bits, alpha, over, 99};
+                EXPECT_EQ(differing_of(wanted), 0)
+                    << bits << " bits, alpha " << name_of(alpha) << ", over " << name_of(over);
+            }
+        }
+    }
+}
+
+TEST_F(TileCodes, DitheredTargets) {
+    for (const Target target : {Target::fixed8, Target::fixed16, Target::emulated}) {
+        for (const ProjectDither dither : {ProjectDither::alpha, ProjectDither::after_blend}) {
+            Scene wanted = scene(target);
+            wanted.project.dither = dither;
+            wanted.emulate = {11, AlphaRounding::nearest, OverRounding::fused, 5};
+            EXPECT_EQ(differing_of(wanted), 0) << name_of(target) << ", " << name_of(dither);
+        }
+    }
+}
+
+TEST_F(TileCodes, NativeTargets) {
+    for (const Target target : {Target::fixed8, Target::fixed16, Target::float16})
+        EXPECT_EQ(differing_of(scene(target)), 0) << name_of(target);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of the native engine against OpenGL's, for every source of colours and opacities.
+#include <algorithm>
+
+#include "projection_fixture.h"
+#include "support/split_box.h"
+
+namespace lamina {
+namespace {
+
+double field(const glm::dvec3& p) {
+    return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
+}
+
+TransferFunction crooked() {
+    return TransferFunction::linear({knot(0, {0, .2, 1}, .2), knot(.3, {0, 1, .3}, 1),
+                                     knot(.4, {1, 1, 0}, 0), knot(.45, {1, 1, 0}, 0),
+                                     knot(.5, {1, .2, 1}, 9), knot(.55, {1, 0, 0}, .1),
+                                     knot(.7, {.3, 0, 1}, .1), knot(.7, {1, .6, 0}, 2)});
+}
+
+TransferFunction of_one_color() {
+    return TransferFunction::linear({knot(0, {.9, .5, .2}, .1), knot(.4, {.9, .5, .2}, 0),
+                                     knot(.5, {.9, .5, .2}, 4), knot(1, {.9, .5, .2}, 1)});
+}
+
+// Of the largest difference in each pixel, full scale 1.
+struct Difference {
+    double p999;
+    int above_thousandth;
+};
+
+Difference difference(const Image& a, const Image& b) {
+    std::vector<double> worst;
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+        double most = 0;
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            most = std::max(most, std::abs(double{a.rgba[i + channel]} - b.rgba[i + channel]));
+        worst.push_back(most);
+    }
+    std::ranges::sort(worst);
+    return {worst[worst.size() - 1 - worst.size() / 1000],
+            static_cast<int>(worst.end() - std::ranges::upper_bound(worst, 1e-3))};
+}
+
+class TilePicture : public gl::GlTest {
+  protected:
+    TilePicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, field))) {}
+
+    Scene scene(const TransferFunction& transfer_function) const {
+        Scene scene = projection_scene(transfer_function, 101, 83);
+        scene.camera.eye = {1.4, -.5, 1.3};
+        scene.camera.center = {.5, .5, .5};
+        scene.camera.fov_y = 60;
+        scene.camera.height = 1.6;
+        return scene;
+    }
+
+    // With the same plan.
+    void expect_same(const Scene& scene, const ProjectPlan& plan, const std::string& name) const {
+        const View view(scene.camera, scene.width, scene.height);
+        GlProjectRenderer shaders(mesh_, scene.transfer_function, plan, capabilities(), scene.width,
+                                  scene.height);
+        shaders.draw(view);
+        TileProjectRenderer tiles(mesh_, scene.transfer_function, plan, scene.width, scene.height);
+        tiles.draw(view);
+        const Difference found = difference(tiles.read(), shaders.read());
+        // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
+        EXPECT_LE(found.p999, 1e-5) << name;
+        // Rays along silhouettes, where one engine finds a run and the other none: these have no
+        // length but where a record's numbers are rounded in different ways.
+        EXPECT_EQ(found.above_thousandth, 0) << name;
+        EXPECT_EQ(tiles.tets_drawn() > 0, shaders.tets_drawn() > 0) << name;
+    }
+
+    // As the scene asks, both projections, both thicknesses, faces in float and in double.
+    void expect_same(Scene scene, SegmentSource source, const std::string& name) const {
+        for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+            for (const Thickness thickness : {Thickness::exact, Thickness::dz}) {
+                for (const bool plain : {false, true}) {
+                    scene.camera.projection = projection;
+                    scene.project.thickness = thickness;
+                    ProjectPlan plan = plan_of(mesh_, scene, tile_capabilities()).project;
+                    if (source == SegmentSource::cut_table) {
+                        plan.source = source;
+                        plan.aligned = {200, plan.single_color ? 1 : 8, 0.5, !plan.single_color};
+                    }
+                    plan.plain = plain;
+                    ASSERT_EQ(plan.source, source) << name;
+                    expect_same(scene, plan,
+                                name +
+                                    (projection == Projection::perspective ? ", perspective"
+                                                                           : ", orthographic") +
+                                    (thickness == Thickness::dz ? ", dz" : "") +
+                                    (plain ? ", plain" : ""));
+                }
+            }
+        }
+    }
+
+    SceneMesh mesh_;
+};
+
+TEST_F(TilePicture, Constant) {
+    expect_same(scene(TransferFunction::linear({knot(0, {1, .6, .2}, 1.5)})),
+                SegmentSource::constant, "constant");
+}
+
+TEST_F(TilePicture, Parts) {
+    expect_same(scene(crooked()), SegmentSource::parts, "coloured");
+    expect_same(scene(of_one_color()), SegmentSource::parts, "one colour");
+}
+
+TEST_F(TilePicture, Analytic) {
+    for (const TransferFunction& transfer_function : {crooked(), of_one_color()}) {
+        Scene wanted = scene(transfer_function);
+        wanted.project.coloring = Coloring::analytic;
+        expect_same(wanted, SegmentSource::analytic, "analytic");
+    }
+}
+
+TEST_F(TilePicture, CutTables) {
+    expect_same(scene(crooked()), SegmentSource::cut_table, "coloured");
+    expect_same(scene(of_one_color()), SegmentSource::cut_table, "one colour");
+}
+
+// Bilinear in 256 nodes: a cell's corner differs by some 1e-5 of its width where scalars do by
+// 4e-8, which changes what is looked up by as much of the change over the cell, at most 10 %.
+TEST_F(TilePicture, Tables) {
+    for (const bool colored : {true, false}) {
+        for (const LengthMapping mapping :
+             {LengthMapping::octave, LengthMapping::log2, LengthMapping::linear}) {
+            for (const TableStore store : {TableStore::mean_extinction, TableStore::opacity}) {
+                for (const int layers : {1, 2, 9}) {
+                    if (layers == 1 && store == TableStore::opacity) continue;
+                    Scene wanted = scene(colored ? crooked() : of_one_color());
+                    wanted.project.table = TableSettings{
+                        .scalar = 64, .length = layers, .mapping = mapping, .store = store};
+                    expect_same(wanted, SegmentSource::table,
+                                std::string(colored ? "coloured" : "one colour") + ", mapping " +
+                                    std::to_string(static_cast<int>(mapping)) + ", store " +
+                                    std::to_string(static_cast<int>(store)) + ", layers " +
+                                    std::to_string(layers));
+                }
+            }
+        }
+    }
+}
+
+TEST_F(TilePicture, TableFormats) {
+    for (const TableFormat format :
+         {TableFormat::fixed8, TableFormat::fixed16, TableFormat::float16, TableFormat::float32}) {
+        Scene wanted = scene(crooked());
+        wanted.project.table = TableSettings{.scalar = 64, .length = 4, .format = format};
+        const ProjectPlan plan = plan_of(mesh_, wanted, tile_capabilities()).project;
+        expect_same(wanted, plan, "format " + std::to_string(static_cast<int>(format)));
+    }
+}
+
+// Fragments are counted where a ray has a run, by OpenGL where the polygon around a tet covers a
+// pixel: up to 1/128 pixel more at each side of tets that are some pixels wide.
+TEST_F(TilePicture, CountsAreAlike) {
+    const Scene wanted = scene(crooked());
+    const View view(wanted.camera, wanted.width, wanted.height);
+    const ProjectPlan plan = plan_of(mesh_, wanted, tile_capabilities()).project;
+    GlProjectRenderer shaders(mesh_, wanted.transfer_function, plan, capabilities(), wanted.width,
+                              wanted.height);
+    shaders.draw(view);
+    TileProjectRenderer tiles(mesh_, wanted.transfer_function, plan, wanted.width, wanted.height);
+    tiles.draw(view);
+    EXPECT_NEAR(static_cast<double>(tiles.tets_drawn()), static_cast<double>(shaders.tets_drawn()),
+                0.02 * static_cast<double>(shaders.tets_drawn()));
+}
+
+}  // namespace
+}  // namespace lamina
