@@ -11,9 +11,6 @@
 namespace lamina {
 namespace {
 
-// A tet is cut by the near plane into at most three, each with five vertices and four triangles.
-constexpr std::size_t most_parts = 3, most_vertices = 5, most_triangles = 4;
-
 // The three tets of a prism with the triangles a0 a1 a2 and b0 b1 b2.
 constexpr std::array<std::array<std::size_t, 4>, 3> prism_tets{
     {{0, 1, 2, 3}, {1, 2, 3, 4}, {2, 3, 4, 5}}};
@@ -30,7 +27,7 @@ FanGeometry::FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer
       divided_(window_.perspective() && plan.interpolation == Interpolation::perspective) {}
 
 TetGeometry::Size FanGeometry::largest_size() {
-    return {sizeof(FanVertex), most_parts * most_vertices, most_parts * most_triangles * 3, false};
+    return {sizeof(FanVertex), most_vertices, most_indices, false};
 }
 
 FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {

@@ -33,6 +33,10 @@ struct FanVertex {
 // of Kraus 2004, Figure 3. Tets that cross the near plane are cut first.
 class FanGeometry : public TetGeometry {
   public:
+    // A tet is cut by the near plane into at most three, each with five vertices and four
+    // triangles.
+    static constexpr std::size_t most_vertices = 15, most_indices = 36;
+
     // All must outlive it.
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);

@@ -18,6 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+inline bool is_random(FragmentOutput output, const TargetBlend& target) {
+    return output == FragmentOutput::dithered || output == FragmentOutput::stochastic ||
+           (output == FragmentOutput::emulated &&
+            target.alpha_rounding == AlphaRounding::stochastic);
+}
+
 // Of the pixels of a tile from `place` on, and of the part that is drawn.
 template <class D>
 HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> random_of_fragments(D, const TetFragments& fragments,

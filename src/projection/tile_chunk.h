@@ -9,6 +9,7 @@
 
 #include "projection/fragment_kind.h"
 #include "projection/tet_record.h"
+#include "projection/triangle_record.h"
 
 namespace lamina {
 
@@ -30,7 +31,11 @@ class TileChunk {
     static constexpr std::size_t most_parts = 512;
     using Parts = std::array<std::uint64_t, most_parts / 64>;  // a set of parts, by their bits
 
-    explicit TileChunk(int tiles) : parts_of_tile_(static_cast<std::size_t>(tiles)) {}
+    // `triangles`: of these, each a part, instead of tets.
+    TileChunk(int tiles, bool triangles)
+        : records_(triangles ? 0 : most_parts),
+          triangles_(triangles ? most_parts : 0),
+          parts_of_tile_(static_cast<std::size_t>(tiles)) {}
 
     void clear() {
         count_ = 0;
@@ -40,6 +45,7 @@ class TileChunk {
     }
     // Where the next part goes; it stays there once add() is called.
     TetRecord& next() { return records_[count_]; }
+    TriangleRecord& next_triangle() { return triangles_[count_]; }
     void add(const PartArea& area, std::int32_t tet) {
         areas_[count_++] = area;
         if (tet != last_tet_) ++tets_;
@@ -54,18 +60,23 @@ class TileChunk {
     std::int64_t tets() const { return tets_; }  // that these are parts of
     std::int32_t first_tet() const { return first_tet_; }
     std::int32_t last_tet() const { return last_tet_; }
+    bool has_triangles() const { return !triangles_.empty(); }
     const TetRecord& record(std::size_t part) const { return records_[part]; }
+    const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
     const PartArea& area(std::size_t part) const { return areas_[part]; }
     const Parts& parts(std::size_t tile) const { return parts_of_tile_[tile]; }
     std::int64_t byte_count() const {
-        return static_cast<std::int64_t>(sizeof(*this) + parts_of_tile_.size() * sizeof(Parts));
+        return static_cast<std::int64_t>(sizeof(*this) + records_.size() * sizeof(TetRecord) +
+                                         triangles_.size() * sizeof(TriangleRecord) +
+                                         parts_of_tile_.size() * sizeof(Parts));
     }
 
   private:
     std::size_t count_ = 0;
     std::int64_t tets_ = 0;
     std::int32_t first_tet_ = -1, last_tet_ = -1;
-    std::array<TetRecord, most_parts> records_;
+    std::vector<TetRecord> records_;
+    std::vector<TriangleRecord> triangles_;
     std::array<PartArea, most_parts> areas_;
     std::vector<Parts> parts_of_tile_;
 };

@@ -60,7 +60,7 @@ std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile) {
     const bool known = fragments.source == SegmentSource::parts && fragments.colored &&
                        fragments.perspective && fragments.output == FragmentOutput::native &&
-                       fragments.blend.target == Target::float32;
+                       fragments.blend.target == Target::float32 && !chunk.has_triangles();
     if (!known) return draw_general_tets(fragments, chunk, parts, tile);
     return HWY_DYNAMIC_DISPATCH(draw_colored_parts)(fragments, chunk, parts, tile);
 }

@@ -29,6 +29,7 @@ enum class FragmentOutput {
 struct TetFragments {
     SegmentSource source;
     bool perspective, colored;
+    bool divided;  // of triangles: what they interpolate is over z
     FragmentOutput output;
     std::uint32_t seed;
     TargetBlend blend;

@@ -6,114 +6,118 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "projection/analytic_segment-inl.h"
-#include "projection/fragment_output-inl.h"
-#include "projection/tet_color-inl.h"
-#include "projection/tet_drawing-inl.h"
-#include "slicing/tile_preintegration-inl.h"
-#include "tiles/segment_table-inl.h"
+#include "projection/general_shading-inl.h"
+#include "projection/triangle_coverage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE Fragment<Vector> table_color(Tag d, const TetFragments& fragments,
-                                        const TetRun<Vector>& run) {
-    const auto entry =
-        integrate_segment(d, *fragments.table, fragments.inverse_first_length,
-                          fragments.single_color, run.front, run.back, run.world_length);
-    // A table of opacities may have one at length 0.
-    const auto met = hn::Gt(run.world_length, hn::Zero(d));
-    return {hn::IfThenElseZero(met, entry.color[0]), hn::IfThenElseZero(met, entry.color[1]),
-            hn::IfThenElseZero(met, entry.color[2]), hn::IfThenElseZero(met, entry.value)};
-}
+// What a pixel of the paper's triangles knows: shaders/projection/fan.glsl.
+class TriangleDrawing {
+  public:
+    TriangleDrawing(const TetFragments& fragments, const TetTile& tile)
+        : fragments_(fragments), tile_(tile) {
+        const Vector number = hn::Iota(d_, 0.0f),
+                     width = hn::Set(d_, static_cast<float>(TileGrid::block));
+        lane_rows_ = hn::Floor(hn::Div(number, width));
+        lane_columns_ = hn::Sub(number, hn::Mul(lane_rows_, width));
+    }
 
-HWY_INLINE Fragment<Vector> analytic_color(Tag d, const TetFragments& fragments,
-                                           const TetRun<Vector>& run) {
-    const AnalyticSum sum =
-        integrate_analytic(*fragments.transfer, fragments.colored, clamp01(d, run.front),
-                           clamp01(d, run.back), run.world_length);
-    const Vector opacity = opacity_from_depth(d, sum.depth);
-    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
-    return {sum.color[0], sum.color[1], sum.color[2], opacity};
-}
+    void draw(const TriangleRecord& triangle, const PartArea& area) {
+        const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / TileGrid::block;
+        for_each_block(blocks_of(area, tile_.area), [&](int column, int row_of_block) HWY_ATTR {
+            const Vector columns = hn::Add(
+                lane_columns_, hn::Set(d_, static_cast<float>(tile_.area.column + column) + 0.5f));
+            for (int step = 0; step < TileGrid::block; step += rows_a_vector) {
+                const int row = row_of_block + step;
+                const float first =
+                    static_cast<float>(fragments_.image_rows - tile_.area.row - row) - 0.5f;
+                const Vector rows = hn::Sub(hn::Set(d_, first), lane_rows_);
+                draw_at(triangle, columns, rows,
+                        static_cast<std::size_t>(TileGrid::place(column, row)));
+            }
+        });
+    }
+    std::int64_t fragments() const { return count_; }
 
-HWY_INLINE Fragment<Vector> cut_table_color(Tag d, const TetFragments& fragments,
-                                            const TetRun<Vector>& run) {
-    constexpr Lookup kind = Lookup::gather;
-    const TileTransfer& transfer = *fragments.transfer;
-    const Vector front = clamp01(d, run.front), back = clamp01(d, run.back);
-    const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
-    const auto node = [&](Vector scalar)
-                          HWY_ATTR { return table_place<kind>(transfer, scalar).node; };
-    const TableCell extremes =
-        table_cell(nodes, node(hn::Min(front, back)), node(hn::Max(front, back)));
-    const auto seen = hn::And(hn::Ne(table_extinction(*transfer.table, extremes), hn::Zero(d)),
-                              hn::Gt(run.world_length, hn::Zero(d)));
-    if (hn::AllFalse(d, seen)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    const RunSum sum =
-        integrate_run<kind>(transfer, fragments.colored, front, back, run.world_length, seen);
-    const Vector opacity = opacity_from_depth(d, sum.depth);
-    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
-    return {hn::Mul(sum.color[0], opacity), hn::Mul(sum.color[1], opacity),
-            hn::Mul(sum.color[2], opacity), opacity};
-}
+  private:
+    HWY_INLINE void draw_at(const TriangleRecord& triangle, Vector columns, Vector rows,
+                            std::size_t place) {
+        const auto weights = corner_weights_at(d_, triangle, columns, rows);
+        if (!weights.any) return;
+        const auto sum = hn::Add(weights.corner[0], hn::Add(weights.corner[1], weights.corner[2]));
+        const auto covered = hn::Gt(sum, hn::Zero(d_));
+        count_ += static_cast<std::int64_t>(hn::CountTrue(d_, covered));
+        const Fragment<Vector> color = color_of(triangle, weights, place);
+        const Fragment<Vector> seen{
+            hn::IfThenElseZero(covered, color.red), hn::IfThenElseZero(covered, color.green),
+            hn::IfThenElseZero(covered, color.blue), hn::IfThenElseZero(covered, color.alpha)};
+        put_fragments(d_, fragments_, triangle.number, seen, tile_, place);
+    }
 
-// Everything is asked at each vector of pixels.
-struct GeneralShading {
-    SegmentSource source;
-    bool cut, scalars, perspective, colored, random;
-    PartDepth depth;
-
-    GeneralShading(const TetFragments& fragments, PartDepth part_depth)
-        : source(fragments.source),
-          cut(source == SegmentSource::parts),
-          scalars(source != SegmentSource::constant),
-          perspective(fragments.perspective),
-          colored(fragments.colored),
-          random(is_random(fragments)),
-          depth(part_depth) {}
-
-    static bool is_random(const TetFragments& fragments) {
-        switch (fragments.output) {
-            case FragmentOutput::native:
-                return false;
-            case FragmentOutput::emulated:
-                return fragments.blend.alpha_rounding == AlphaRounding::stochastic;
-            default:
-                return true;
+    HWY_INLINE Fragment<Vector> color_of(const TriangleRecord& triangle,
+                                         const CornerWeights<Vector>& weights,
+                                         std::size_t place) const {
+        const auto& [a, b, c] = triangle.corners;
+        const auto front = [&](int channel) HWY_ATTR {
+            return interpolate(d_, weights, a.front[channel], b.front[channel], c.front[channel]);
+        };
+        const auto back = [&](int channel) HWY_ATTR {
+            return interpolate(d_, weights, a.back[channel], b.back[channel], c.back[channel]);
+        };
+        if (fragments_.source == SegmentSource::vertices)
+            return vertex_color(front(0), front(1), front(2), front(3));
+        Vector z_front = hn::Set(d_, 1.0f), z_back = z_front;
+        Vector length =
+            hn::Max(interpolate(d_, weights, a.inverse.y, b.inverse.y, c.inverse.y), hn::Zero(d_));
+        if (fragments_.divided) {
+            const Vector one = hn::Set(d_, 1.0f);
+            const Vector inverse = interpolate(d_, weights, a.inverse.x, b.inverse.x, c.inverse.x);
+            z_front = hn::Div(one, inverse);
+            z_back = hn::Div(one, hn::Sub(inverse, length));
+            length = hn::Mul(hn::Mul(length, z_front), z_back);
+            if (tile_.slants != nullptr)
+                length = hn::Mul(length, hn::Load(d_, tile_.slants + place));
         }
+        if (fragments_.source != SegmentSource::mean) {
+            return segment_color(d_, fragments_,
+                                 {hn::Mul(front(0), z_front), hn::Mul(back(0), z_back), length});
+        }
+        const auto mean = [&](int channel) HWY_ATTR {
+            return hn::Mul(hn::Set(d_, 0.5f), hn::Add(hn::Mul(front(channel), z_front),
+                                                      hn::Mul(back(channel), z_back)));
+        };
+        const Vector opacity = opacity_from_depth(d_, hn::Mul(mean(3), length));
+        return {hn::Mul(mean(0), opacity), hn::Mul(mean(1), opacity), hn::Mul(mean(2), opacity),
+                opacity};
     }
 
-    HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
-                                        const TetRecord& record, const TetRun<Vector>& run) const {
-        switch (source) {
-            case SegmentSource::constant:
-                return constant_color(d, fragments, run);
-            case SegmentSource::parts:
-                return part_color(d, colored, depth, fragments, record, run);
-            case SegmentSource::table:
-                return table_color(d, fragments, run);
-            case SegmentSource::analytic:
-                return analytic_color(d, fragments, run);
-            default:
-                return cut_table_color(d, fragments, run);
-        }
+    HWY_INLINE Fragment<Vector> vertex_color(Vector red, Vector green, Vector blue,
+                                             Vector opacity) const {
+        const Vector alpha = clamp01(d_, opacity);
+        return {hn::Mul(clamp01(d_, red), alpha), hn::Mul(clamp01(d_, green), alpha),
+                hn::Mul(clamp01(d_, blue), alpha), alpha};
     }
-    HWY_NOINLINE void put(Tag d, const TetFragments& fragments, const TetRecord& record,
-                          const Fragment<Vector>& fragment, const TetTile& tile,
-                          std::size_t place) const {
-        const auto bits = random
-                              ? random_of_fragments(d, fragments, tile.area, place, record.number)
-                              : hn::Zero(hn::RebindToUnsigned<Tag>());
-        Pixels<Vector> there = load_pixels(d, tile.pixels, place);
-        put_fragment(d, fragments, fragment, bits, there);
-        store_pixels(d, there, tile.pixels, place);
-    }
+
+    const TetFragments& fragments_;
+    const TetTile& tile_;
+    Tag d_;
+    Vector lane_columns_, lane_rows_;
+    std::int64_t count_ = 0;
 };
+
+std::int64_t draw_fans(const TetFragments& fragments, const TileChunk& chunk,
+                       const TileChunk::Parts& parts, const TetTile& tile) {
+    TriangleDrawing drawing(fragments, tile);
+    for_each_part(parts, [&](std::size_t part)
+                             HWY_ATTR { drawing.draw(chunk.triangle(part), chunk.area(part)); });
+    return drawing.fragments();
+}
 
 std::int64_t draw_any(const TetFragments& fragments, const TileChunk& chunk,
                       const TileChunk::Parts& parts, const TetTile& tile) {
+    if (chunk.has_triangles()) return draw_fans(fragments, chunk, parts, tile);
     TetDrawing drawing(fragments, tile);
     for_each_part(parts, [&](std::size_t part) HWY_ATTR {
         const PartArea& area = chunk.area(part);

@@ -21,8 +21,8 @@ constexpr double margin = 1e-3;
 
 // Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches,
 // and for two batches to take less memory than a fourth of the mesh's parts.
-std::size_t chunks_of_batch(std::size_t parts) {
-    return std::clamp<std::size_t>(parts / (8 * TileChunk::most_parts), 1, 32);
+std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
+    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 32);
 }
 
 double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {
@@ -42,6 +42,7 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
                                          const TransferFunction& transfer_function,
                                          const ProjectPlan& plan, int width, int height)
     : mesh_(mesh),
+      transfer_function_(transfer_function),
       plan_(plan),
       pieces_(transfer_function, plan.range),
       order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility),
@@ -52,22 +53,29 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     tables_->set(fragments_);
     fragments_.perspective = !plan_.orthographic;
     fragments_.colored = !plan_.single_color;
+    fragments_.divided =
+        fragments_.perspective && plan_.interpolation == Interpolation::perspective;
     fragments_.output = output_of(plan_);
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
-    const std::size_t chunks = chunks_of_batch(static_cast<std::size_t>(parts_->count()));
+    const std::size_t chunks =
+        chunks_of_batch(static_cast<std::size_t>(parts_->count()), parts_a_chunk());
     for (Chunks& batch : batches_) {
         for (std::size_t i = 0; i < chunks; ++i)
-            batch.push_back(std::make_unique<TileChunk>(image_.grid().count()));
+            batch.push_back(std::make_unique<TileChunk>(image_.grid().count(), is_fan()));
     }
+}
+
+// As many as fit whatever the view is.
+std::size_t TileProjectRenderer::parts_a_chunk() const {
+    return is_fan() ? 3 * TileChunk::most_parts / FanGeometry::most_indices : TileChunk::most_parts;
 }
 
 std::size_t TileProjectRenderer::batch_count() const {
     if (!parts_) return 0;
-    const std::size_t parts_a_batch = batches_[0].size() * TileChunk::most_parts;
-    return (static_cast<std::size_t>(parts_->count()) + parts_a_batch - 1) / parts_a_batch;
+    return (static_cast<std::size_t>(parts_->count()) + parts_a_batch() - 1) / parts_a_batch();
 }
 
 std::int64_t TileProjectRenderer::fragments() const {
@@ -95,12 +103,13 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     set_view(view);
     const Projectors projectors{
         {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
-        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin}};
-    const std::size_t parts_a_batch = batches_[0].size() * TileChunk::most_parts;
+        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
+        {mesh_, transfer_function_, plan_, view}};
     const auto project_batch = [&](std::size_t batch) {
-        const std::size_t first = batch * parts_a_batch;
+        const std::size_t first = batch * parts_a_batch();
         if (first < parts.size())
-            project(projectors, parts.subspan(first, std::min(parts_a_batch, parts.size() - first)),
+            project(projectors,
+                    parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
                     batches_[batch % 2]);
     };
     last_tet_ = -1;
@@ -157,9 +166,9 @@ void TileProjectRenderer::project(const Projectors& projectors, std::span<const 
                                   Chunks& chunks) const {
     parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t number) {
         const std::size_t first =
-            std::min(static_cast<std::size_t>(number) * TileChunk::most_parts, parts.size());
+            std::min(static_cast<std::size_t>(number) * parts_a_chunk(), parts.size());
         project_chunk(projectors,
-                      parts.subspan(first, std::min(TileChunk::most_parts, parts.size() - first)),
+                      parts.subspan(first, std::min(parts_a_chunk(), parts.size() - first)),
                       *chunks[static_cast<std::size_t>(number)]);
     });
 }
@@ -167,6 +176,10 @@ void TileProjectRenderer::project(const Projectors& projectors, std::span<const 
 void TileProjectRenderer::project_chunk(const Projectors& projectors,
                                         std::span<const TetPart> parts, TileChunk& chunk) const {
     chunk.clear();
+    if (is_fan()) {
+        for (const TetPart& part : parts) project_fan(projectors.fans, part, chunk);
+        return;
+    }
     if (!plan_.plain) {
         for (const TetPart& part : parts) project_doubtful(projectors.careful, part, chunk);
         return;
@@ -198,6 +211,28 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
          grid.height() - 1 - bounds.first_row, !plan_.plain || *kind == FragmentKind::careful,
          *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
         part.tet, chunk);
+}
+
+void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
+                                      TileChunk& chunk) const {
+    std::array<FanVertex, FanGeometry::most_vertices> vertices;
+    std::array<std::uint32_t, FanGeometry::most_indices> indices;
+    const TetGeometry::Written written = fans.write(
+        part, {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, 0});
+    const TileGrid& grid = image_.grid();
+    for (std::size_t i = 0; i < written.indices; i += 3) {
+        const std::array<const FanVertex*, 3> corners{
+            &vertices[indices[i]], &vertices[indices[i + 1]], &vertices[indices[i + 2]]};
+        if (!make_triangle(corners, chunk.next_triangle())) continue;
+        const std::array places{rounded_to_grid(corners[0]->position),
+                                rounded_to_grid(corners[1]->position),
+                                rounded_to_grid(corners[2]->position)};
+        const PixelBounds bounds = pixel_bounds(places, 0, grid.width(), grid.height());
+        if (bounds.empty()) continue;
+        add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
+             grid.height() - 1 - bounds.first_row, false, PartDepth::any},
+            part.tet, chunk);
+    }
 }
 
 void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const {

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "image/image.h"
 #include "mesh/visibility_order.h"
+#include "projection/fan_geometry.h"
 #include "projection/project_renderer.h"
 #include "projection/tet_projector.h"
 #include "projection/tet_setup.h"
@@ -28,7 +29,7 @@ namespace lamina {
 // depend on the number of threads.
 class TileProjectRenderer : public ProjectRenderer {
   public:
-    // Builds order and tables. The mesh must outlive it.
+    // Builds order and tables. Mesh and transfer function must outlive it.
     TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                         const ProjectPlan& plan, int width, int height);
     TileProjectRenderer(const TileProjectRenderer&) = delete;
@@ -56,9 +57,13 @@ class TileProjectRenderer : public ProjectRenderer {
     struct Projectors {
         TetSetup setup;
         TetProjector careful;
+        FanGeometry fans;
     };
     using Chunks = std::vector<std::unique_ptr<TileChunk>>;
 
+    bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
+    std::size_t parts_a_chunk() const;
+    std::size_t parts_a_batch() const { return batches_[0].size() * parts_a_chunk(); }
     std::size_t batch_count() const;
     std::span<const TetPart> list_parts(const View& view);
     void set_view(const View& view);
@@ -69,12 +74,14 @@ class TileProjectRenderer : public ProjectRenderer {
                        TileChunk& chunk) const;
     void project_doubtful(const TetProjector& projector, const TetPart& part,
                           TileChunk& chunk) const;
+    void project_fan(const FanGeometry& fans, const TetPart& part, TileChunk& chunk) const;
     void add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const;
     void count_tets(const Chunks& chunks);
     void draw(const Chunks& chunks);
     void draw_tile(const Chunks& chunks, std::size_t tile);
 
     const SceneMesh& mesh_;
+    const TransferFunction& transfer_function_;
     ProjectPlan plan_;
     TetPieces pieces_;
     VisibilityOrder order_;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that a plan may ask of fragments, asked at each vector of pixels.
+#if defined(LAMINA_PROJECTION_GENERAL_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
+#undef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
+#else
+#define LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "projection/analytic_segment-inl.h"
+#include "projection/fragment_output-inl.h"
+#include "projection/tet_color-inl.h"
+#include "projection/tet_drawing-inl.h"
+#include "slicing/tile_preintegration-inl.h"
+#include "tiles/segment_table-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+HWY_INLINE Fragment<Vector> table_color(Tag d, const TetFragments& fragments,
+                                        const TetRun<Vector>& run) {
+    const auto entry =
+        integrate_segment(d, *fragments.table, fragments.inverse_first_length,
+                          fragments.single_color, run.front, run.back, run.world_length);
+    // A table of opacities may have one at length 0.
+    const auto met = hn::Gt(run.world_length, hn::Zero(d));
+    return {hn::IfThenElseZero(met, entry.color[0]), hn::IfThenElseZero(met, entry.color[1]),
+            hn::IfThenElseZero(met, entry.color[2]), hn::IfThenElseZero(met, entry.value)};
+}
+
+HWY_INLINE Fragment<Vector> analytic_color(Tag d, const TetFragments& fragments,
+                                           const TetRun<Vector>& run) {
+    const AnalyticSum sum =
+        integrate_analytic(*fragments.transfer, fragments.colored, clamp01(d, run.front),
+                           clamp01(d, run.back), run.world_length);
+    const Vector opacity = opacity_from_depth(d, sum.depth);
+    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
+    return {sum.color[0], sum.color[1], sum.color[2], opacity};
+}
+
+HWY_INLINE Fragment<Vector> cut_table_color(Tag d, const TetFragments& fragments,
+                                            const TetRun<Vector>& run) {
+    constexpr Lookup kind = Lookup::gather;
+    const TileTransfer& transfer = *fragments.transfer;
+    const Vector front = clamp01(d, run.front), back = clamp01(d, run.back);
+    const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
+    const auto node = [&](Vector scalar)
+                          HWY_ATTR { return table_place<kind>(transfer, scalar).node; };
+    const TableCell extremes =
+        table_cell(nodes, node(hn::Min(front, back)), node(hn::Max(front, back)));
+    const auto seen = hn::And(hn::Ne(table_extinction(*transfer.table, extremes), hn::Zero(d)),
+                              hn::Gt(run.world_length, hn::Zero(d)));
+    if (hn::AllFalse(d, seen)) return {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const RunSum sum =
+        integrate_run<kind>(transfer, fragments.colored, front, back, run.world_length, seen);
+    const Vector opacity = opacity_from_depth(d, sum.depth);
+    if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
+    return {hn::Mul(sum.color[0], opacity), hn::Mul(sum.color[1], opacity),
+            hn::Mul(sum.color[2], opacity), opacity};
+}
+
+// Of segments whose ends are given by their scalars.
+HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fragments,
+                                                   const TetRun<Vector>& run) {
+    switch (fragments.source) {
+        case SegmentSource::constant:
+            return constant_color(d, fragments, run);
+        case SegmentSource::table:
+            return table_color(d, fragments, run);
+        case SegmentSource::analytic:
+            return analytic_color(d, fragments, run);
+        default:
+            return cut_table_color(d, fragments, run);
+    }
+}
+
+// Puts fragments of the part or tet `number` over the pixels from `place` on.
+HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std::uint32_t number,
+                                       const Fragment<Vector>& fragment, const TetTile& tile,
+                                       std::size_t place) {
+    const bool random = is_random(fragments.output, fragments.blend);
+    const auto bits = random ? random_of_fragments(d, fragments, tile.area, place, number)
+                             : hn::Zero(hn::RebindToUnsigned<Tag>());
+    Pixels<Vector> there = load_pixels(d, tile.pixels, place);
+    put_fragment(d, fragments, fragment, bits, there);
+    store_pixels(d, there, tile.pixels, place);
+}
+
+struct GeneralShading {
+    bool cut, scalars, perspective, colored;
+    PartDepth depth;
+
+    GeneralShading(const TetFragments& fragments, PartDepth part_depth)
+        : cut(fragments.source == SegmentSource::parts),
+          scalars(fragments.source != SegmentSource::constant),
+          perspective(fragments.perspective),
+          colored(fragments.colored),
+          depth(part_depth) {}
+
+    HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
+                                        const TetRecord& record, const TetRun<Vector>& run) const {
+        return cut ? part_color(d, colored, depth, fragments, record, run)
+                   : segment_color(d, fragments, run);
+    }
+    HWY_INLINE void put(Tag d, const TetFragments& fragments, const TetRecord& record,
+                        const Fragment<Vector>& fragment, const TetTile& tile,
+                        std::size_t place) const {
+        put_fragments(d, fragments, record.number, fragment, tile, place);
+    }
+};
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

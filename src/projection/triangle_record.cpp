@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/triangle_record.h"
+
+#include <cmath>
+
+#include "projection/window_view.h"
+
+namespace lamina {
+namespace {
+
+constexpr double grid_steps = 256;  // a pixel: GL_SUBPIXEL_BITS of 8, as most rasterisers have
+
+// From its lesser corner on, for both triangles alike. The top-left rule of rasterisers whose rows
+// run upwards: what lies on an edge is of the triangle to the right, on horizontal ones above.
+TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& inside) {
+    if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+    const glm::dvec2 along = b - a;
+    const bool left = cross(along, inside - a) > 0;
+    const double sign = left ? 1 : -1;
+    return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
+}
+
+}  // namespace
+
+// Exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
+glm::dvec2 rounded_to_grid(const glm::vec2& window) {
+    const auto rounded = [](float v) {
+        return std::floor(static_cast<double>(v) * grid_steps + 0.5) / grid_steps;
+    };
+    return {rounded(window.x), rounded(window.y)};
+}
+
+bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleRecord& record) {
+    std::array<glm::dvec2, 3> places;
+    for (std::size_t i = 0; i < 3; ++i) places[i] = rounded_to_grid(vertices[i]->position);
+    const double area = std::abs(cross(places[1] - places[0], places[2] - places[0]));
+    if (!(area > 0) || !std::isfinite(area)) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        record.edges[i] = edge_of(places[(i + 1) % 3], places[(i + 2) % 3], places[i]);
+        record.corners[i] = {vertices[i]->inverse, vertices[i]->front, vertices[i]->back};
+    }
+    record.inverse_area = 1 / area;
+    record.number = vertices[0]->tet;
+    return true;
+}
+
+}  // namespace lamina
