@@ -26,31 +26,32 @@ using Vector = hn::Vec<Tag>;
 // Vectors of 4 x 1, 4 x 2 or 4 x 4 pixels of a tile whose rays meet a part.
 class CoveredPixels {
   public:
-    HWY_INLINE void add(Tag d, int place, Vector columns, Vector rows,
-                        const InsideSpan<Vector>& span) {
+    // Of the first pixel of a vector: TileGrid::place(), column and row from the record's center.
+    struct Place {
+        int place;
+        float column, row;
+    };
+
+    // Kept where `any`: no branch, which nothing could predict.
+    HWY_INLINE void add(Tag d, const Place& place, const InsideSpan<Vector>& span, bool any) {
         places_[count_] = place;
-        hn::Store(columns, d, columns_ + count_ * lanes);
-        hn::Store(rows, d, rows_ + count_ * lanes);
         hn::Store(span.enter, d, enter_ + count_ * lanes);
         hn::Store(span.leave, d, leave_ + count_ * lanes);
-        ++count_;
+        count_ += any ? 1 : 0;
     }
     std::size_t count() const { return count_; }
-    std::size_t place(std::size_t i) const { return static_cast<std::size_t>(places_[i]); }
-    HWY_INLINE Vector columns(Tag d, std::size_t i) const {
-        return hn::Load(d, columns_ + i * lanes);
-    }
-    HWY_INLINE Vector rows(Tag d, std::size_t i) const { return hn::Load(d, rows_ + i * lanes); }
+    const Place& at(std::size_t i) const { return places_[i]; }
+    std::size_t place(std::size_t i) const { return static_cast<std::size_t>(places_[i].place); }
     HWY_INLINE InsideSpan<Vector> span(Tag d, std::size_t i) const {
         return {hn::Load(d, enter_ + i * lanes), hn::Load(d, leave_ + i * lanes)};
     }
 
   private:
-    static constexpr std::size_t lanes = hn::MaxLanes(Tag()), most = TileGrid::pixels / lanes;
+    static constexpr std::size_t lanes = hn::MaxLanes(Tag()), most = TileGrid::pixels / lanes + 1;
     std::size_t count_ = 0;
-    int places_[most];
-    HWY_ALIGN float columns_[TileGrid::pixels], rows_[TileGrid::pixels], enter_[TileGrid::pixels],
-        leave_[TileGrid::pixels];
+    Place places_[most];
+    HWY_ALIGN float enter_[most * lanes];
+    HWY_ALIGN float leave_[most * lanes];
 };
 
 // The blocks of a tile that an area of the picture touches, a bit each, row by row.
@@ -88,6 +89,17 @@ class TetCoverage {
                      width = hn::Set(d_, static_cast<float>(TileGrid::block));
         lane_rows_ = hn::Floor(hn::Div(number, width));
         lane_columns_ = hn::Sub(number, hn::Mul(lane_rows_, width));
+        const Vector a_row = hn::Set(d_, static_cast<float>(blocks_a_row)),
+                     half = hn::Set(d_, 0.5f * (block - 1));
+        const Vector row = hn::Floor(hn::Div(number, a_row));
+        block_rows_ = hn::Add(hn::Mul(row, width), half);
+        block_columns_ = hn::Add(hn::Mul(hn::Sub(number, hn::Mul(row, a_row)), width), half);
+    }
+    Vector columns(const CoveredPixels::Place& place) const {
+        return hn::Add(lane_columns_, hn::Set(d_, place.column));
+    }
+    Vector rows(const CoveredPixels::Place& place) const {
+        return hn::Sub(hn::Set(d_, place.row), lane_rows_);
     }
 
     // `cut`: between the part's planes of constant scalar.
@@ -118,41 +130,38 @@ class TetCoverage {
     // Blocks without those no ray of which can meet the tet: at a block's centre depths on faces
     // differ from those elsewhere in it by at most 1.5 pixels' worth.
     HWY_INLINE std::uint64_t drop_missed(const TetRecord& record, std::uint64_t blocks) const {
-        const Vector half = hn::Set(d_, 0.5f * (block - 1)),
-                     edge = hn::Set(d_, static_cast<float>(block));
-        std::uint64_t kept = 0;
         constexpr std::size_t lanes = hn::MaxLanes(Tag());
+        if constexpr (lanes < blocks_a_row) return blocks;
+        // More than all roundings of the depths: what is dropped must not depend on the lanes.
+        constexpr float rounding = 1e-6f;
+        const float pixels_of_rounding =
+            0.01f + rounding * (std::abs(from_column(record)) + std::abs(from_row(record)));
+        const std::uint32_t fronts = record.fronts & 7u;
+        const Vector columns = hn::Add(block_columns_, hn::Set(d_, from_column(record)));
+        const auto start = [&](std::uint32_t face) HWY_ATTR {
+            const float per_column = record.depth_per_column.high[face],
+                        per_row = record.depth_per_row.high[face];
+            const float reach = (0.5f * (block - 1) + pixels_of_rounding) *
+                                    (std::abs(per_column) + std::abs(per_row)) +
+                                rounding * std::abs(record.depth.high[face]);
+            return at_column(d_, record.depth.high[face] + (face < fronts ? -reach : reach),
+                             per_column, columns);
+        };
+        const Vector d0 = start(0), d1 = start(1), d2 = start(2), d3 = start(3);
+        const auto& per_row = record.depth_per_row.high;
+        std::uint64_t kept = 0;
         for (std::size_t first = 0; first < 64; first += lanes) {
             const std::uint64_t group = (~0ull >> (64 - lanes)) << first;
             if ((blocks & group) == 0) continue;
-            const Vector number = hn::Iota(d_, static_cast<float>(first)),
-                         row_number = hn::Floor(hn::Mul(number, hn::Set(d_, 1.0f / blocks_a_row)));
-            const Vector column_number =
-                hn::Sub(number, hn::Mul(row_number, hn::Set(d_, static_cast<float>(blocks_a_row))));
-            const Vector columns = hn::Add(hn::Set(d_, from_column(record)),
-                                           hn::Add(hn::Mul(column_number, edge), half));
-            const Vector rows =
-                hn::Sub(hn::Set(d_, from_row(record)), hn::Add(hn::Mul(row_number, edge), half));
-            const auto farthest = [&](std::size_t face, float sign) HWY_ATTR {
-                const float per_column = record.depth_per_column.high[face],
-                            per_row = record.depth_per_row.high[face];
-                const float reach = sign * (0.5f * (block - 1) + 0.01f) *
-                                    (std::abs(per_column) + std::abs(per_row));
-                return hn::Add(
-                    at_row(d_, at_column(d_, record.depth.high[face], per_column, columns), per_row,
-                           rows),
-                    hn::Set(d_, reach));
-            };
-            const std::uint32_t fronts = record.fronts & 7u;
-            const auto sign = [&](std::uint32_t face) { return face < fronts ? -1.0f : 1.0f; };
-            const InsideSpan<Vector> span =
-                order_depths(fronts, farthest(0, sign(0)), farthest(1, sign(1)),
-                             farthest(2, sign(2)), farthest(3, sign(3)));
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d_, hn::Gt(span.leave, span.enter), bits);
-            std::uint64_t met = 0;
-            std::memcpy(&met, bits, sizeof(met));
-            kept |= (met << first) & group;
+            const float row = from_row(record) - static_cast<float>(first / blocks_a_row * block);
+            const Vector rows = hn::Sub(hn::Set(d_, row), block_rows_);
+            const InsideSpan<Vector> span = order_depths(
+                fronts, at_row(d_, d0, per_row[0], rows), at_row(d_, d1, per_row[1], rows),
+                at_row(d_, d2, per_row[2], rows), at_row(d_, d3, per_row[3], rows));
+            std::uint8_t bits[8];
+            const std::size_t bytes = hn::StoreMaskBits(d_, hn::Gt(span.leave, span.enter), bits);
+            for (std::size_t i = 0; i < bytes; ++i)
+                kept |= (std::uint64_t{bits[i]} << (first + 8 * i)) & group;
         }
         return kept & blocks;
     }
@@ -161,29 +170,34 @@ class TetCoverage {
     HWY_INLINE void find_in(const TetRecord& record, std::uint64_t blocks, CoveredPixels& covered) {
         const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / block;
         const float first_column = from_column(record), first_row = from_row(record);
-        for_each_block(blocks, [&](int column, int row_of_block) HWY_ATTR {
-            const Vector columns =
-                hn::Add(lane_columns_, hn::Set(d_, first_column + static_cast<float>(column)));
+        for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
+            const int number = std::countr_zero(left);
+            const float column = first_column + static_cast<float>(number % blocks_a_row * block);
+            const float row_of_block =
+                first_row - static_cast<float>(number / blocks_a_row * block);
+            const Vector columns = hn::Add(lane_columns_, hn::Set(d_, column));
             const Depths depths(d_, fragments_, record, columns);
-            for (int row = row_of_block; row < row_of_block + block; row += rows_a_vector) {
-                const Vector rows =
-                    hn::Sub(hn::Set(d_, first_row - static_cast<float>(row)), lane_rows_);
+            for (int y = 0; y < block; y += rows_a_vector) {
+                const float row = row_of_block - static_cast<float>(y);
+                const Vector rows = hn::Sub(hn::Set(d_, row), lane_rows_);
                 InsideSpan<Vector> span = depths.at(d_, rows);
                 if constexpr (cut) span = cut_depths(d_, record, span, columns, rows);
                 const auto inside = hn::Gt(span.leave, span.enter);
-                if (hn::AllFalse(d_, inside)) continue;
-                count_ += static_cast<std::int64_t>(hn::CountTrue(d_, inside));
-                covered.add(d_, TileGrid::place(column, row), columns, rows,
+                const std::size_t pixels = hn::CountTrue(d_, inside);
+                count_ += static_cast<std::int64_t>(pixels);
+                covered.add(d_, {number * block * block + y * block, column, row},
                             {hn::IfThenElseZero(inside, span.enter),
-                             hn::IfThenElseZero(inside, span.leave)});
+                             hn::IfThenElseZero(inside, span.leave)},
+                            pixels > 0);
             }
-        });
+        }
     }
 
     const TetFragments& fragments_;
     const TileGrid::Tile& area_;
     Tag d_;
-    Vector lane_columns_, lane_rows_;
+    Vector lane_columns_, lane_rows_;    // of a vector, from its first pixel
+    Vector block_columns_, block_rows_;  // centres of the first blocks, from the tile's first pixel
     std::int64_t count_ = 0;
 };
 

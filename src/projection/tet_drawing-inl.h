@@ -65,8 +65,9 @@ class TetDrawing {
                                          const CoveredPixels& covered, std::size_t i) const {
         const Vector slant = tile_.slants != nullptr ? hn::Load(d_, tile_.slants + covered.place(i))
                                                      : hn::Set(d_, 1.0f);
-        const auto run = find_run(d_, shading, fragments_, record, covered.span(d_, i),
-                                  covered.columns(d_, i), covered.rows(d_, i), slant);
+        const auto run =
+            find_run(d_, shading, fragments_, record, covered.span(d_, i),
+                     coverage_.columns(covered.at(i)), coverage_.rows(covered.at(i)), slant);
         return shading.color(d_, fragments_, record, run);
     }
 
