@@ -93,12 +93,19 @@ struct GeneralShading {
     bool cut, scalars, perspective, colored;
     PartDepth depth;
 
-    GeneralShading(const TetFragments& fragments, PartDepth part_depth)
+    GeneralShading(const TetFragments& fragments, const PartArea& area)
         : cut(fragments.source == SegmentSource::parts),
           scalars(fragments.source != SegmentSource::constant),
           perspective(fragments.perspective),
           colored(fragments.colored),
-          depth(part_depth) {}
+          depth(depth_of(fragments, area)) {}
+
+    // Codes are those of OpenGL's programs, which know no faint parts, and careful ones as any.
+    static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
+        if (!is_fixed_point(fragments.blend.target)) return area.depth;
+        if (area.careful) return PartDepth::any;
+        return area.depth == PartDepth::faint ? PartDepth::thin : area.depth;
+    }
 
     HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
                                         const TetRecord& record, const TetRun<Vector>& run) const {

@@ -185,7 +185,7 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFra
         // Differences of z from differences of depth, so that far eyes cost no digits.
         const V center = hn::Set(d, record.center_depth);
         const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
-        if (fragments.squares_in_range) {  // one division for both
+        if (fragments.one_division) {
             const V product = hn::Div(hn::Set(d, 1.0f), hn::Mul(depth_front, depth_back));
             z_front = hn::Neg(hn::Mul(depth_back, product));
             z_back = hn::Neg(hn::Mul(depth_front, product));

@@ -37,7 +37,9 @@ struct TetFragments {
     int image_rows;
     float pixel_size;
     float near_depth;
-    bool squares_in_range;  // of all depths, in floats
+    // For both ends of a run: squares of all depths are floats. Not for codes, which are those of
+    // OpenGL's programs.
+    bool one_division;
     glm::dvec3 tie_shift;
     glm::vec4 constant_optics;               // SegmentSource::constant
     glm::vec3 single_color;                  // where not colored

@@ -121,7 +121,7 @@ std::int64_t draw_any(const TetFragments& fragments, const TileChunk& chunk,
     TetDrawing drawing(fragments, tile);
     for_each_part(parts, [&](std::size_t part) HWY_ATTR {
         const PartArea& area = chunk.area(part);
-        drawing.draw(GeneralShading(fragments, area.depth), chunk.record(part), area);
+        drawing.draw(GeneralShading(fragments, area), chunk.record(part), area);
     });
     return drawing.fragments();
 }
