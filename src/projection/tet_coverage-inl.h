@@ -107,11 +107,11 @@ class TetCoverage {
     HWY_INLINE void find(const TetRecord& record, const PartArea& area, CoveredPixels& covered) {
         const std::uint64_t blocks = blocks_of(area, area_);
         if (area.careful) {
-            find_in<cut, CarefulDepths<Tag>>(record, blocks, covered);
+            find_in<cut, CarefulDepths<Tag>>(record, area.farthest, blocks, covered);
         } else {
             const bool many = hwy::PopCount(blocks) > few_blocks;
-            find_in<cut, PlainDepths<Tag>>(record, many ? drop_missed(record, blocks) : blocks,
-                                           covered);
+            find_in<cut, PlainDepths<Tag>>(record, area.farthest,
+                                           many ? drop_missed(record, blocks) : blocks, covered);
         }
     }
     std::int64_t fragments() const { return count_; }
@@ -167,7 +167,8 @@ class TetCoverage {
     }
 
     template <bool cut, class Depths>
-    HWY_INLINE void find_in(const TetRecord& record, std::uint64_t blocks, CoveredPixels& covered) {
+    HWY_INLINE void find_in(const TetRecord& record, float farthest, std::uint64_t blocks,
+                            CoveredPixels& covered) {
         const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / block;
         const float first_column = from_column(record), first_row = from_row(record);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
@@ -181,6 +182,7 @@ class TetCoverage {
                 const float row = row_of_block - static_cast<float>(y);
                 const Vector rows = hn::Sub(hn::Set(d_, row), lane_rows_);
                 InsideSpan<Vector> span = depths.at(d_, rows);
+                span.leave = hn::Min(span.leave, hn::Set(d_, farthest));
                 if constexpr (cut) span = cut_depths(d_, record, span, columns, rows);
                 const auto inside = hn::Gt(span.leave, span.enter);
                 const std::size_t pixels = hn::CountTrue(d_, inside);

@@ -192,6 +192,8 @@ class TetVectors {
         const VD thickness = hn::Sub(farthest_, nearest_);
         const VD range =
             view_.perspective ? hn::Div(thickness, hn::Mul(farthest_, farthest_)) : thickness;
+        store(lanes_.farthest, hn::Add(hn::Sub(inverted(farthest_), center_depth_),
+                                       hn::Mul(set(float_tolerance), range)));
         good = hn::And(good, hn::Le(hn::Mul(rounding, set(float_epsilon)),
                                     hn::Mul(set(float_tolerance), range)));
         return hn::And(good, hn::And(hn::Gt(fronts, hn::Zero(d_)), hn::Lt(fronts, set(4))));

@@ -117,7 +117,8 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& 
                               false,
                               depth <= faint_depth  ? PartDepth::faint
                               : depth <= thin_depth ? PartDepth::thin
-                                                    : PartDepth::any};
+                                                    : PartDepth::any,
+                              to_float(lanes.farthest, lane)};
         TetRecord& record = result.records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};

@@ -22,6 +22,7 @@ struct TetSetup::Lanes {
     Row good, visible;                                   // out: 1 or 0
     Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
     Row center_column, center_row, center_depth, center_z;
+    Row farthest;                                          // PartArea::farthest
     std::array<Row, 4> front, depth, per_column, per_row;  // of the face opposite each corner
     Row scalar, scalar_per_z, scalar_per_column, scalar_per_row;
     std::array<Row, 2> limits;

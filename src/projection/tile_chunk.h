@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "projection/fragment_kind.h"
@@ -22,6 +23,9 @@ struct PartArea {
     std::int32_t first_column, last_column, first_row, last_row;
     bool careful;     // its depths are found in double (FragmentKind::careful)
     PartDepth depth;  // of any run through it
+    // No run ends beyond this depth, less the record's center: far outside a tet its planes meet at
+    // any depth, and rounding alone makes runs there.
+    float farthest = std::numeric_limits<float>::infinity();
 };
 
 // Some parts that follow each other in visibility order, projected, and which of them each tile of

@@ -207,8 +207,9 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     const auto kind = projector.project(part, chunk.next(), outline);
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
+    // Careful, whatever the kind: right for all, and few parts are doubtful where others are not.
     add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
-         grid.height() - 1 - bounds.first_row, !plan_.plain || *kind == FragmentKind::careful,
+         grid.height() - 1 - bounds.first_row, true,
          *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
         part.tet, chunk);
 }
