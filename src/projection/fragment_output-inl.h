@@ -99,6 +99,33 @@ HWY_INLINE void put_fragment(D d, const TetFragments& fragments,
     }
 }
 
+// Opacity alone, onto `there`.
+template <class D>
+HWY_INLINE hn::Vec<D> put_opacity(D d, const TetFragments& fragments, hn::Vec<D> opacity,
+                                  hn::Vec<hn::RebindToUnsigned<D>> random, hn::Vec<D> there) {
+    const TargetBlend& target = fragments.blend;
+    switch (fragments.output) {
+        case FragmentOutput::emulated:
+            composite_opacity(d, target, alpha_code(d, target, to_doubles(d, opacity), random),
+                              there);
+            return there;
+        case FragmentOutput::stochastic: {
+            Pixels<hn::Vec<D>> pixels{there, there, there, there};
+            composite_stochastic(d, target,
+                                 Fragment<hn::Vec<D>>{opacity, opacity, opacity, opacity}, random,
+                                 pixels);
+            return pixels.alpha;
+        }
+        case FragmentOutput::dithered:
+            blend_opacity(d, target, dithered(d, target.largest, opacity, as_share(d, random)),
+                          there);
+            return there;
+        default:
+            blend_opacity(d, target, opacity, there);
+            return there;
+    }
+}
+
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -84,13 +84,18 @@ HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std
     const bool random = is_random(fragments.output, fragments.blend);
     const auto bits = random ? random_of_fragments(d, fragments, tile.area, place, number)
                              : hn::Zero(hn::RebindToUnsigned<Tag>());
-    Pixels<Vector> there = load_pixels(d, tile.pixels, place);
+    if (fragments.opacity_only) {
+        float* const plane = tile.opacity->data() + place;
+        hn::Store(put_opacity(d, fragments, fragment.alpha, bits, hn::Load(d, plane)), d, plane);
+        return;
+    }
+    Pixels<Vector> there = load_pixels(d, *tile.pixels, place);
     put_fragment(d, fragments, fragment, bits, there);
-    store_pixels(d, there, tile.pixels, place);
+    store_pixels(d, there, *tile.pixels, place);
 }
 
 struct GeneralShading {
-    bool cut, scalars, perspective, colored;
+    bool cut, scalars, perspective, colored, opacity_only;
     PartDepth depth;
 
     GeneralShading(const TetFragments& fragments, const PartArea& area)
@@ -98,6 +103,7 @@ struct GeneralShading {
           scalars(fragments.source != SegmentSource::constant),
           perspective(fragments.perspective),
           colored(fragments.colored),
+          opacity_only(fragments.opacity_only),
           depth(depth_of(fragments, area)) {}
 
     // Codes are those of OpenGL's programs, which know no faint parts, and careful ones as any.

@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
+#include "projection/scatter.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
 #include "slicing/gl_compositing.h"

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/gl_tet_leaves.h"
 
-#include <utility>
-
-#include "compositing/random_bits.h"
 #include "slicing/gl_compositing.h"
 
 namespace lamina {
-
-void scatter(std::span<TetPart> parts) {
-    SplitMix64 random(1);
-    for (std::size_t left = parts.size(); left > 1; --left)
-        std::swap(parts[left - 1], parts[random.next() % left]);
-}
 
 GlTetLeaves::GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream,
                          const TetGeometry& geometry, std::span<const TetPart> parts,

@@ -11,9 +11,6 @@
 
 namespace lamina {
 
-// A random order, always the same: parts of one region come to lie in different leaves.
-void scatter(std::span<TetPart> parts);
-
 // The tets of one frame, or their parts, as leaves of a tree: each is a sample.
 class GlTetLeaves : public TreeLeaves {
   public:

@@ -199,6 +199,8 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFra
         front = hn::Mul(hn::Mul(front, z_front), z_center);
         back = hn::Mul(hn::Mul(back, z_back), z_center);
     }
+    if (shading.opacity_only)
+        run.world_length = hn::Mul(run.world_length, hn::Set(d, fragments.depth_scale));
     if (!shading.scalars) return run;
     const V least = hn::Set(d, shading.cut ? 0.0f : record.limits[0]),
             largest = hn::Set(d, shading.cut ? 1.0f : record.limits[1]);

@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Coloured parts in perspective, put over a float32 target.
 template <PartDepth depth>
 struct PartShading {
-    static constexpr bool cut = true, scalars = true, perspective = true;
+    static constexpr bool cut = true, scalars = true, perspective = true, opacity_only = false;
 
     HWY_INLINE Fragment<Vector> color(Tag d, const TetFragments& fragments, const TetRecord& record,
                                       const TetRun<Vector>& run) const {
@@ -25,9 +25,9 @@ struct PartShading {
     HWY_INLINE void put(Tag d, const TetFragments&, const TetRecord&,
                         const Fragment<Vector>& fragment, const TetTile& tile,
                         std::size_t place) const {
-        Pixels<Vector> there = load_pixels(d, tile.pixels, place);
+        Pixels<Vector> there = load_pixels(d, *tile.pixels, place);
         blend(d, TargetBlend{}, fragment, there);
-        store_pixels(d, there, tile.pixels, place);
+        store_pixels(d, there, *tile.pixels, place);
     }
 };
 
@@ -60,7 +60,8 @@ std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile) {
     const bool known = fragments.source == SegmentSource::parts && fragments.colored &&
                        fragments.perspective && fragments.output == FragmentOutput::native &&
-                       fragments.blend.target == Target::float32 && !chunk.has_triangles();
+                       fragments.blend.target == Target::float32 && !fragments.opacity_only &&
+                       !chunk.has_triangles();
     if (!known) return draw_general_tets(fragments, chunk, parts, tile);
     return HWY_DYNAMIC_DISPATCH(draw_colored_parts)(fragments, chunk, parts, tile);
 }

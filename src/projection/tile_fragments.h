@@ -33,7 +33,9 @@ struct TetFragments {
     FragmentOutput output;
     std::uint32_t seed;
     TargetBlend blend;
-    glm::vec2 image_middle;  // window coordinates
+    bool opacity_only = false;  // for a node of a tree (shaders/projection/tet.frag)
+    float depth_scale = 1;      // of it: all parts over those of the leaf
+    glm::vec2 image_middle;     // window coordinates
     int image_rows;
     float pixel_size;
     float near_depth;
@@ -54,7 +56,8 @@ struct TetFragments {
 struct TetTile {
     TileGrid::Tile area;
     const float* slants;
-    TilePixels& pixels;
+    TilePixels* pixels;
+    TilePlane* opacity;  // where opacity_only: instead of the pixels
 };
 
 // Puts the parts of one chunk that the tile is to draw over its pixels; returns the number of

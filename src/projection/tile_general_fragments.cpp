@@ -80,6 +80,7 @@ class TriangleDrawing {
             if (tile_.slants != nullptr)
                 length = hn::Mul(length, hn::Load(d_, tile_.slants + place));
         }
+        if (fragments_.opacity_only) length = hn::Mul(length, hn::Set(d_, fragments_.depth_scale));
         if (fragments_.source != SegmentSource::mean) {
             return segment_color(d_, fragments_,
                                  {hn::Mul(front(0), z_front), hn::Mul(back(0), z_back), length});

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "projection/scatter.h"
 #include "projection/tie_shift.h"
 
 namespace lamina {
@@ -60,6 +61,12 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     fragments_.blend = target_blend(plan_);
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
+    if (!plan_.tree.empty() && parts_->count() > 0) {
+        const glm::vec3& color = fragments_.single_color;
+        fragments_.opacity_only = true;
+        tree_.emplace(plan_, TreeShape(plan_.tree, static_cast<int>(parts_->count())),
+                      std::array{color.r, color.g, color.b}, image_.grid());
+    }
     const std::size_t chunks =
         chunks_of_batch(static_cast<std::size_t>(parts_->count()), parts_a_chunk());
     for (Chunks& batch : batches_) {
@@ -73,9 +80,13 @@ std::size_t TileProjectRenderer::parts_a_chunk() const {
     return is_fan() ? 3 * TileChunk::most_parts / FanGeometry::most_indices : TileChunk::most_parts;
 }
 
-std::size_t TileProjectRenderer::batch_count() const {
-    if (!parts_) return 0;
-    return (static_cast<std::size_t>(parts_->count()) + parts_a_batch() - 1) / parts_a_batch();
+std::size_t TileProjectRenderer::batch_count(std::size_t parts) const {
+    return (parts + parts_a_batch() - 1) / parts_a_batch();
+}
+
+int TileProjectRenderer::step_count() const {
+    if (tree_) return tree_->step_count();
+    return parts_ ? static_cast<int>(batch_count(static_cast<std::size_t>(parts_->count()))) : 0;
 }
 
 std::int64_t TileProjectRenderer::fragments() const {
@@ -105,6 +116,16 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
         {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
         {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
         {mesh_, transfer_function_, plan_, view}};
+    if (tree_) {
+        draw_tree(projectors, parts, progress);
+    } else {
+        draw_parts(projectors, parts, nullptr, progress);
+    }
+    draw_ms_ = draw_watch.milliseconds();
+}
+
+void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
+                                     TileTetTree::Node* leaf, Progress* progress) {
     const auto project_batch = [&](std::size_t batch) {
         const std::size_t first = batch * parts_a_batch();
         if (first < parts.size())
@@ -114,17 +135,35 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     };
     last_tet_ = -1;
     project_batch(0);
-    for (std::size_t batch = 0; batch < batch_count(); ++batch) {
-        count_tets(batches_[batch % 2]);
-        tbb::parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(batches_[batch % 2]); });
+    for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
+        const Chunks& chunks = batches_[batch % 2];
+        count_tets(chunks);
+        tbb::parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(chunks, leaf); });
         if (progress != nullptr) progress->advance();
     }
-    draw_ms_ = draw_watch.milliseconds();
+}
+
+// Samples are the parts, the last one the farthest.
+void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
+                                    Progress* progress) {
+    const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
+                               TileTetTree::Node& leaf) {
+        fragments_.depth_scale = static_cast<float>(depth_scale);
+        const auto first = static_cast<std::size_t>(static_cast<int>(parts.size()) - span.end());
+        draw_parts(projectors, parts.subspan(first, static_cast<std::size_t>(span.count)), &leaf,
+                   nullptr);
+    };
+    tree_->draw(std::ref(draw_leaf), image_, progress);
 }
 
 std::span<const TetPart> TileProjectRenderer::list_parts(const View& view) {
+    if (!scattered_.empty()) return scattered_;
     const Eye eye = eye_of(view);
-    return parts_->list(order_.sort(eye), eye);
+    const auto parts = parts_->list(order_.sort(eye), eye);
+    if (!plan_.scattered) return parts;
+    scattered_.assign(parts.begin(), parts.end());
+    scatter(scattered_);
+    return scattered_;
 }
 
 void TileProjectRenderer::set_view(const View& view) {
@@ -255,19 +294,23 @@ void TileProjectRenderer::count_tets(const Chunks& chunks) {
     }
 }
 
-void TileProjectRenderer::draw(const Chunks& chunks) {
-    parallel_for(image_.grid().count(), 1,
-                 [&](std::int64_t tile) { draw_tile(chunks, static_cast<std::size_t>(tile)); });
+void TileProjectRenderer::draw(const Chunks& chunks, TileTetTree::Node* leaf) {
+    parallel_for(image_.grid().count(), 1, [&](std::int64_t tile) {
+        draw_tile(chunks, static_cast<std::size_t>(tile), leaf);
+    });
 }
 
-void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile) {
+void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile,
+                                    TileTetTree::Node* leaf) {
     const int number = static_cast<int>(tile);
     const TetTile target{image_.grid().tile(number),
-                         slants_.empty() ? nullptr : slants_[tile].data(), image_.tile(number)};
+                         slants_.empty() ? nullptr : slants_[tile].data(), &image_.tile(number),
+                         leaf != nullptr ? &leaf->opacity[tile] : nullptr};
     for (const auto& chunk : chunks) {
         const TileChunk::Parts& parts = chunk->parts(tile);
-        if (chunk->count() > 0 && parts != TileChunk::Parts{})
-            fragment_counts_[tile] += draw_tets(fragments_, *chunk, parts, target);
+        if (chunk->count() == 0 || parts == TileChunk::Parts{}) continue;
+        if (leaf != nullptr) leaf->touched[tile] = 1;
+        fragment_counts_[tile] += draw_tets(fragments_, *chunk, parts, target);
     }
 }
 

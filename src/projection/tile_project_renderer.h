@@ -17,6 +17,7 @@
 #include "projection/tile_chunk.h"
 #include "projection/tile_fragments.h"
 #include "projection/tile_project_tables.h"
+#include "projection/tile_tet_tree.h"
 #include "projection/visible_parts.h"
 #include "scene/plan.h"
 #include "scene/scene_mesh.h"
@@ -37,7 +38,7 @@ class TileProjectRenderer : public ProjectRenderer {
 
     // Steps are batches.
     void draw(const View& view, Progress* progress = nullptr) override;
-    int step_count() const override { return static_cast<int>(batch_count()); }
+    int step_count() const override;
     Image read() const override;
     std::map<std::string, double> stages_ms() const override;
 
@@ -64,10 +65,14 @@ class TileProjectRenderer : public ProjectRenderer {
     bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
     std::size_t parts_a_chunk() const;
     std::size_t parts_a_batch() const { return batches_[0].size() * parts_a_chunk(); }
-    std::size_t batch_count() const;
+    std::size_t batch_count(std::size_t parts) const;
     std::span<const TetPart> list_parts(const View& view);
     void set_view(const View& view);
     void clear();
+    void draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
+                    TileTetTree::Node* leaf, Progress* progress);
+    void draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
+                   Progress* progress);
     void project(const Projectors& projectors, std::span<const TetPart> parts,
                  Chunks& chunks) const;
     void project_chunk(const Projectors& projectors, std::span<const TetPart> parts,
@@ -77,8 +82,8 @@ class TileProjectRenderer : public ProjectRenderer {
     void project_fan(const FanGeometry& fans, const TetPart& part, TileChunk& chunk) const;
     void add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const;
     void count_tets(const Chunks& chunks);
-    void draw(const Chunks& chunks);
-    void draw_tile(const Chunks& chunks, std::size_t tile);
+    void draw(const Chunks& chunks, TileTetTree::Node* leaf);
+    void draw_tile(const Chunks& chunks, std::size_t tile, TileTetTree::Node* leaf);
 
     const SceneMesh& mesh_;
     const TransferFunction& transfer_function_;
@@ -87,6 +92,8 @@ class TileProjectRenderer : public ProjectRenderer {
     VisibilityOrder order_;
     std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
     std::optional<VisibleParts> parts_;
+    std::optional<TileTetTree> tree_;  // where the plan has one
+    std::vector<TetPart> scattered_;   // of every frame, where the plan says so
     TetFragments fragments_{};
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;      // of tiles; empty where all are 1

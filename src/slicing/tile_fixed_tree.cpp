@@ -49,7 +49,20 @@ void TileFixedTree::make_swizzles(int level, const SampleSpan& node) {
 void TileFixedTree::draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const {
     Evaluation evaluation{area, leaves, 0, {}};
     evaluate(0, shape_.root(), evaluation);
-    colorize_tile(blend_, emulated_, single_color_, evaluation.planes[0], pixels);
+    colorize(evaluation.planes[0], pixels);
+}
+
+void TileFixedTree::colorize(const TilePixels::Plane& root, TilePixels& pixels) const {
+    colorize_tile(blend_, emulated_, single_color_, root, pixels);
+}
+
+void TileFixedTree::put_into_parent(const SampleSpan& child, const SampleSpan& node,
+                                    std::uint32_t number, const TileGrid::Tile& area,
+                                    const TilePixels::Plane& from, TilePixels::Plane& to) const {
+    const Swizzle& swizzle = swizzles_.at({child.count, node.count});
+    const auto samples = static_cast<std::uint32_t>(shape_.samples());
+    swizzle_tile({blend_, emulated_, swizzle.whole.data(), swizzle.rest.data(), samples + number},
+                 area, from, to);
 }
 
 void TileFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& evaluation) const {
@@ -66,12 +79,8 @@ void TileFixedTree::evaluate(int level, const SampleSpan& node, Evaluation& eval
         const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
         if (child.count == 0) continue;
         evaluate(level + 1, child, evaluation);
-        const Swizzle& swizzle = swizzles_.at({child.count, node.count});
-        const auto samples = static_cast<std::uint32_t>(shape_.samples());
-        swizzle_tile({blend_, emulated_, swizzle.whole.data(), swizzle.rest.data(),
-                      samples + evaluation.swizzled++},
-                     evaluation.area, evaluation.planes[static_cast<std::size_t>(level) + 1],
-                     plane);
+        put_into_parent(child, node, evaluation.swizzled++, evaluation.area,
+                        evaluation.planes[static_cast<std::size_t>(level) + 1], plane);
     }
 }
 

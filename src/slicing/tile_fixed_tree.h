@@ -36,6 +36,13 @@ class TileFixedTree {
     // Replaces a tile by the picture of the leaves. Safe from several threads at a time.
     void draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const;
 
+    // Its steps by themselves, for those who evaluate the tree: puts a child's opacity into that of
+    // its node, the `number`th one to do so in the frame; replaces pixels by what the root shows.
+    void put_into_parent(const SampleSpan& child, const SampleSpan& node, std::uint32_t number,
+                         const TileGrid::Tile& area, const TilePixels::Plane& from,
+                         TilePixels::Plane& to) const;
+    void colorize(const TilePixels::Plane& root, TilePixels& pixels) const;
+
     std::int64_t byte_count() const;
 
   private:

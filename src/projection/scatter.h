@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "projection/tet_part.h"
+
+namespace lamina {
+
+// A random order, always the same: parts of one region come to lie in different leaves of a tree.
+void scatter(std::span<TetPart> parts);
+
+}  // namespace lamina
