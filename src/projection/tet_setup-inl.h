@@ -157,10 +157,17 @@ class TetVectors {
     // True where the signs are certain and float32 is good enough.
     MD find_faces() {
         VD reach = hn::Zero(d_), rounding = hn::Zero(d_), fronts = hn::Zero(d_);
-        for (const Point& p : seen_) reach = hn::Max(reach, largest_of(p));
+        VD size = hn::Zero(d_);
+        for (const Point& p : seen_) {
+            reach = hn::Max(reach, largest_of(p));
+            size = hn::Max(size, largest_of(p - seen_[0]));
+        }
         const VD doubt = set(doubtful_sign);
         const VD least_divisor =
             hn::Mul(doubt, hn::Mul(hn::Mul(reach, reach), view_.perspective ? reach : one()));
+        // The rounding of points at `reach` is that of edges, of which slivers' normals are small
+        // differences of products.
+        const VD least_across = hn::Mul(doubt, hn::Mul(reach, hn::Mul(size, size)));
         MD good = hn::Gt(nearest_, set(view_.near_depth));
         for (std::size_t face = 0; face < 4; ++face) {
             const Point &a = seen_[face == 0 ? 1 : 0], &b = seen_[face <= 1 ? 2 : 1],
@@ -168,10 +175,8 @@ class TetVectors {
             const Point normal = cross(b - a, c - a);
             const VD distance = dot(normal, a), across = dot(normal, seen_[face] - a);
             const VD divisor = view_.perspective ? distance : normal.z;
-            good =
-                hn::And(good, hn::And(hn::Gt(hn::Abs(divisor), least_divisor),
-                                      hn::Gt(hn::Abs(across),
-                                             hn::Mul(doubt, hn::Mul(reach, largest_of(normal))))));
+            good = hn::And(good, hn::And(hn::Gt(hn::Abs(divisor), least_divisor),
+                                         hn::Gt(hn::Abs(across), least_across)));
             const VD front =
                 hn::IfThenElseZero(hn::Gt(hn::Mul(divisor, across), hn::Zero(d_)), one());
             const VD per_pixel = hn::Div(set(-view_.view.pixel), divisor);
