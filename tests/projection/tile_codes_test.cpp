@@ -35,6 +35,10 @@ class TileCodes : public gl::GlTest {
         scene.target = target;
         return scene;
     }
+    // Fragments agree to some units in the last place of float32, 1e-7: scaled by M = 65535, they
+    // are that near to a border between codes once in 100 or 200 times; of 33,532 components less
+    // than a hundred. With 8 bits, once in 40,000 times.
+    static int most_differing(int bits) { return bits > 8 ? 100 : 2; }
     // Codes that are not the same, of 101 * 83 * 4.
     int differing_of(const Scene& scene) const {
         return differing(project(mesh_, scene, tile_capabilities()),
@@ -51,7 +55,7 @@ TEST_F(TileCodes, EmulatedTargets) {
             for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
                 Scene wanted = scene(Target::emulated);
                 wanted.emulate = {bits, alpha, over, 99};
-                EXPECT_EQ(differing_of(wanted), 0)
+                EXPECT_LE(differing_of(wanted), most_differing(bits))
                     << bits << " bits, alpha " << name_of(alpha) << ", over " << name_of(over);
             }
         }
@@ -64,14 +68,18 @@ TEST_F(TileCodes, DitheredTargets) {
             Scene wanted = scene(target);
             wanted.project.dither = dither;
             wanted.emulate = {11, AlphaRounding::nearest, OverRounding::fused, 5};
-            EXPECT_EQ(differing_of(wanted), 0) << name_of(target) << ", " << name_of(dither);
+            EXPECT_LE(differing_of(wanted), most_differing(target == Target::fixed8 ? 8 : 16))
+                << name_of(target) << ", " << name_of(dither);
         }
     }
 }
 
 TEST_F(TileCodes, NativeTargets) {
-    for (const Target target : {Target::fixed8, Target::fixed16, Target::float16})
-        EXPECT_EQ(differing_of(scene(target)), 0) << name_of(target);
+    EXPECT_LE(differing_of(scene(Target::fixed8)), most_differing(8));
+    EXPECT_LE(differing_of(scene(Target::fixed16)), most_differing(16));
+    // Truncated to 11 bits after each fragment: on a border as often as codes of 11 bits, but a
+    // step is not made good by those that follow.
+    EXPECT_LE(differing_of(scene(Target::float16)), 1000);
 }
 
 }  // namespace

@@ -66,7 +66,11 @@ class TilePicture : public gl::GlTest {
         tiles.draw(view);
         const Difference found = difference(tiles.read(), shaders.read());
         // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
-        EXPECT_LE(found.p999, 1e-5) << name;
+        // But for the weights of coloured parts, good to 3e-5 as polynomials (front_weights.h):
+        // OpenGL chooses between these and the table for 64 parts at a time.
+        const bool weights =
+            plan.source == SegmentSource::parts && !plan.single_color && plan.plain;
+        EXPECT_LE(found.p999, weights ? 6e-5 : 1e-5) << name;
         // Rays along silhouettes, where one engine finds a run and the other none: these have no
         // length but where a record's numbers are rounded in different ways.
         EXPECT_EQ(found.above_thousandth, 0) << name;
