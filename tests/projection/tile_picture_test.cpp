@@ -68,8 +68,7 @@ class TilePicture : public gl::GlTest {
         // A hundred fragments, each good to float32's rounding of a sum or two: the same formulas.
         // But for the weights of coloured parts, good to 3e-5 as polynomials (front_weights.h):
         // OpenGL chooses between these and the table for 64 parts at a time.
-        const bool weights =
-            plan.source == SegmentSource::parts && !plan.single_color && plan.plain;
+        const bool weights = plan.source == SegmentSource::parts && !plan.single_color;
         EXPECT_LE(found.p999, weights ? 6e-5 : 1e-5) << name;
         // Rays along silhouettes, where one engine finds a run and the other none: these have no
         // length but where a record's numbers are rounded in different ways.
