@@ -164,10 +164,12 @@ class SlabBlender {
     Floats code_of_alpha(int slab) const {
         const FloatTag d;
         const DoubleTag dd;
-        const TwoDoubles depth = load_doubles(block_.precise_depths + at(slab));
         const auto scale = hn::Set(dd, depth_scale_);
-        const Doubles<FloatTag> opacity{opacity_from_depth(dd, hn::Mul(depth.half[0], scale)),
-                                        opacity_from_depth(dd, hn::Mul(depth.half[1], scale))};
+        const auto opacity_of_depth = [&](HalfDoubles depth) HWY_ATTR {
+            return opacity_from_depth(dd, hn::Mul(depth, scale));
+        };
+        const TwoDoubles opacity =
+            each_half<FloatTag>(opacity_of_depth, load_doubles(block_.precise_depths + at(slab)));
         const int number = block_.first_slab + slab;
         if (plan_.dither) {
             const int place = number % plan_.dither->period;

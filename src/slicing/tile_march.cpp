@@ -133,15 +133,15 @@ class Marcher {
             }
         }
         for (std::size_t p = 0; p < group_packets; ++p) {
-            sums[p].depth = narrow(leaves[p].depth);
+            sums[p].depth = to_floats(FloatTag(), leaves[p].depth);
             for (int channel = 0; channel < 3; ++channel)
-                sums[p].color[channel] = narrow(leaves[p].color[channel]);
+                sums[p].color[channel] = to_floats(FloatTag(), leaves[p].color[channel]);
         }
     }
 
     static HWY_INLINE void add(TwoDoubles& sum, Floats v) {
-        const TwoDoubles wide = widen(v);
-        for (int h = 0; h < 2; ++h) sum.half[h] = hn::Add(sum.half[h], wide.half[h]);
+        const auto plus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Add(a, b); };
+        sum = each_half<FloatTag>(plus, sum, to_doubles(FloatTag(), v));
     }
 
     Floats block_depth() const {
@@ -170,19 +170,18 @@ class Marcher {
             opacity = hn::Add(opacity, weight);
             sum = hn::Add(sum, segment);
         }
+        const auto behind = [](HalfDoubles transmittance, HalfDoubles part, HalfDoubles there)
+                                HWY_ATTR { return mul_add(transmittance, part, there); };
         const Floats parts[3] = {red, green, blue};
         for (int channel = 0; channel < 3; ++channel) {
-            const TwoDoubles part = widen(parts[channel]);
-            for (int h = 0; h < 2; ++h) {
-                leaf.color[channel].half[h] =
-                    mul_add(leaf.transmittance.half[h], part.half[h], leaf.color[channel].half[h]);
-            }
+            leaf.color[channel] = each_half<FloatTag>(
+                behind, leaf.transmittance, to_doubles(d, parts[channel]), leaf.color[channel]);
         }
-        const TwoDoubles hidden = widen(opacity);
-        for (int h = 0; h < 2; ++h) {
-            leaf.transmittance.half[h] =
-                hn::Mul(leaf.transmittance.half[h], hn::Sub(hn::Set(dd, 1.0), hidden.half[h]));
-        }
+        const auto attenuate = [&](HalfDoubles transmittance, HalfDoubles hidden) HWY_ATTR {
+            return hn::Mul(transmittance, hn::Sub(hn::Set(dd, 1.0), hidden));
+        };
+        leaf.transmittance =
+            each_half<FloatTag>(attenuate, leaf.transmittance, to_doubles(d, opacity));
         add(leaf.depth, sum);
     }
 

@@ -92,19 +92,16 @@ HWY_INLINE Floats optics_at(const TileTransfer& transfer, std::size_t channel, I
 template <Lookup kind>
 HWY_INLINE TwoDoubles precise_extinction_at(const TileTransfer& transfer, Ints interval,
                                             Floats share) {
-    const auto sum = [&](const std::vector<float>& value, const std::vector<float>& rest) {
-        const TwoDoubles a = widen(look_up<kind>(value, interval));
-        const TwoDoubles b = widen(look_up<kind>(rest, interval));
-        return TwoDoubles{{hn::Add(a.half[0], b.half[0]), hn::Add(a.half[1], b.half[1])}};
+    const auto sum = [&](const std::vector<float>& value, const std::vector<float>& rest) HWY_ATTR {
+        const auto add = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Add(a, b); };
+        return each_half<FloatTag>(add, to_doubles(FloatTag(), look_up<kind>(value, interval)),
+                                   to_doubles(FloatTag(), look_up<kind>(rest, interval)));
     };
-    TwoDoubles result = sum(transfer.left[3], transfer.left_rest);
-    const TwoDoubles right = sum(transfer.right_extinction, transfer.right_rest);
-    const TwoDoubles at = widen(share);
-    for (int h = 0; h < 2; ++h) {
-        const auto change = hn::Sub(right.half[h], result.half[h]);
-        result.half[h] = hn::Add(result.half[h], hn::Mul(at.half[h], change));
-    }
-    return result;
+    const auto between = [](HalfDoubles left, HalfDoubles right, HalfDoubles at)
+                             HWY_ATTR { return hn::Add(left, hn::Mul(at, hn::Sub(right, left))); };
+    return each_half<FloatTag>(between, sum(transfer.left[3], transfer.left_rest),
+                               sum(transfer.right_extinction, transfer.right_rest),
+                               to_doubles(FloatTag(), share));
 }
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -18,33 +18,30 @@ namespace lamina::HWY_NAMESPACE {
 
 HWY_INLINE TwoDoubles load_doubles(const double* from) {
     const DoubleTag d;
-    return {{hn::Load(d, from), hn::Load(d, from + hn::Lanes(d))}};
+    return {hn::Load(d, from), hn::Load(d, from + hn::Lanes(d))};
 }
 
 HWY_INLINE void store_doubles(const TwoDoubles& v, double* to) {
     const DoubleTag d;
-    hn::Store(v.half[0], d, to);
-    hn::Store(v.half[1], d, to + hn::Lanes(d));
+    hn::Store(v.low, d, to);
+    hn::Store(v.high, d, to + hn::Lanes(d));
 }
 
 // Depth of the boundary in front of a slab, inside the box.
 HWY_INLINE TwoDoubles boundary(const TileRays& frame, const PacketRays& rays, int slab) {
     const auto depth = hn::Set(DoubleTag(), slab * frame.slab_thickness);
-    TwoDoubles result;
-    for (int h = 0; h < 2; ++h)
-        result.half[h] = hn::Min(hn::Max(depth, rays.enter.half[h]), rays.leave.half[h]);
-    return result;
+    const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
+                           HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
+    return each_half<FloatTag>(clamp, rays.enter, rays.leave);
 }
 
 HWY_INLINE Points precise_point(const PacketRays& rays, const TwoDoubles& depth) {
+    const auto place = [](HalfDoubles origin, HalfDoubles there, HalfDoubles direction)
+                           HWY_ATTR { return hn::Add(origin, hn::Mul(there, direction)); };
     Floats point[3];
     for (int axis = 0; axis < 3; ++axis) {
-        TwoDoubles place;
-        for (int h = 0; h < 2; ++h) {
-            place.half[h] = hn::Add(rays.origin[axis].half[h],
-                                    hn::Mul(depth.half[h], rays.direction[axis].half[h]));
-        }
-        point[axis] = narrow(place);
+        point[axis] = to_floats(
+            FloatTag(), each_half<FloatTag>(place, rays.origin[axis], depth, rays.direction[axis]));
     }
     return {point[0], point[1], point[2]};
 }
@@ -53,17 +50,15 @@ HWY_INLINE Points precise_point(const PacketRays& rays, const TwoDoubles& depth)
 HWY_INLINE std::int64_t set_precise_lengths(const TileRays& frame, const PacketRays& rays,
                                             SlabBlock& block) {
     const FloatTag d;
+    const auto between = [](HalfDoubles front, HalfDoubles back, HalfDoubles per_depth)
+                             HWY_ATTR { return hn::Mul(hn::Sub(back, front), per_depth); };
     std::int64_t segments = 0;
     TwoDoubles front = boundary(frame, rays, block.first_slab + block.from);
     for (int i = block.from; i < block.end; ++i) {
         const TwoDoubles back = boundary(frame, rays, block.first_slab + i + 1);
-        TwoDoubles length;
-        for (int h = 0; h < 2; ++h) {
-            length.half[h] =
-                hn::Mul(hn::Sub(back.half[h], front.half[h]), rays.length_per_depth.half[h]);
-        }
+        const TwoDoubles length = each_half<FloatTag>(between, front, back, rays.length_per_depth);
         store_doubles(length, block.precise_depths + at(i));
-        const Floats rounded = narrow(length);
+        const Floats rounded = to_floats(d, length);
         segments += static_cast<std::int64_t>(hn::CountTrue(d, hn::Gt(rounded, hn::Zero(d))));
         hn::Store(rounded, d, block.lengths + at(i));
         front = back;
@@ -78,12 +73,10 @@ HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& bri
     const auto middle = [&](int i) HWY_ATTR {
         const TwoDoubles front = boundary(frame, rays, block.first_slab + i);
         const TwoDoubles back = boundary(frame, rays, block.first_slab + i + 1);
-        TwoDoubles depth;
-        for (int h = 0; h < 2; ++h) {
-            depth.half[h] =
-                hn::Mul(hn::Set(DoubleTag(), 0.5), hn::Add(front.half[h], back.half[h]));
-        }
-        return precise_point(rays, depth);
+        const auto mean = [](HalfDoubles a, HalfDoubles b) HWY_ATTR {
+            return hn::Mul(hn::Set(DoubleTag(), 0.5), hn::Add(a, b));
+        };
+        return precise_point(rays, each_half<FloatTag>(mean, front, back));
     };
     sample_points<PointKind::exact>(brick, hardware, block.from, block.end, middle, block.scalars);
     if (!slabs.plan->uses_table()) return;
@@ -94,10 +87,14 @@ HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& bri
                                     block.edge_scalars);
 }
 
+HWY_INLINE HalfDoubles product(HalfDoubles a, HalfDoubles b) {
+    return hn::Mul(a, b);
+}
+
 HWY_INLINE void scale_precise_depth(const TwoDoubles& extinction, int slab, SlabBlock& block) {
-    TwoDoubles depth = load_doubles(block.precise_depths + at(slab));
-    for (int h = 0; h < 2; ++h) depth.half[h] = hn::Mul(extinction.half[h], depth.half[h]);
-    store_doubles(depth, block.precise_depths + at(slab));
+    const TwoDoubles length = load_doubles(block.precise_depths + at(slab));
+    store_doubles(each_half<FloatTag>(product, extinction, length),
+                  block.precise_depths + at(slab));
 }
 
 template <Lookup kind>
@@ -113,9 +110,8 @@ HWY_INLINE void classify_precisely(const TileTransfer& transfer, bool colored, b
         const Floats share = share_of_interval<kind>(transfer, interval, scalar);
         TwoDoubles extinction = precise_extinction_at<kind>(transfer, interval, share);
         if (nan_transparent) {
-            const TwoDoubles seen = widen(hn::IfThenElseZero(number, hn::Set(d, 1.0f)));
-            for (int h = 0; h < 2; ++h)
-                extinction.half[h] = hn::Mul(extinction.half[h], seen.half[h]);
+            const TwoDoubles seen = to_doubles(d, hn::IfThenElseZero(number, hn::Set(d, 1.0f)));
+            extinction = each_half<FloatTag>(product, extinction, seen);
         }
         scale_precise_depth(extinction, i, block);
         if (!colored) continue;
@@ -150,7 +146,7 @@ inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrick
         if (plan.uses_table()) {
             integrate_runs<lookup>(transfer, colored, plan.nan_transparent, block);
             for (int i = block.from; i < block.end; ++i) {
-                store_doubles(widen(hn::Load(d, block.depths + at(i))),
+                store_doubles(to_doubles(d, hn::Load(d, block.depths + at(i))),
                               block.precise_depths + at(i));
             }
         } else {

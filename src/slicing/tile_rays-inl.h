@@ -14,6 +14,7 @@
 
 #include "slicing/tile_slabs.h"
 #include "tiles/arithmetic-inl.h"
+#include "tiles/doubles-inl.h"
 #include "tiles/tile_grid.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,24 +25,11 @@ using DoubleTag = hn::Repartition<double, FloatTag>;
 using Floats = hn::Vec<FloatTag>;
 constexpr std::size_t most_lanes = TileGrid::block * TileGrid::block;
 
-// A vector of doubles for each half of a vector of floats.
-struct TwoDoubles {
-    hn::Vec<DoubleTag> half[2];
-};
+using TwoDoubles = Doubles<FloatTag>;
+using HalfDoubles = hn::Vec<DoubleTag>;
 
 HWY_INLINE TwoDoubles all(double value) {
-    return {{hn::Set(DoubleTag(), value), hn::Set(DoubleTag(), value)}};
-}
-
-HWY_INLINE TwoDoubles widen(Floats v) {
-    const hn::Half<FloatTag> dh;
-    const DoubleTag dd;
-    return {{hn::PromoteTo(dd, hn::LowerHalf(dh, v)), hn::PromoteTo(dd, hn::UpperHalf(dh, v))}};
-}
-
-HWY_INLINE Floats narrow(const TwoDoubles& v) {
-    const hn::Half<FloatTag> dh;
-    return hn::Combine(FloatTag(), hn::DemoteTo(dh, v.half[1]), hn::DemoteTo(dh, v.half[0]));
+    return {hn::Set(DoubleTag(), value), hn::Set(DoubleTag(), value)};
 }
 
 // Depths between which a ray is in a box; enter > leave where it never is.
@@ -62,16 +50,18 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSp
     const DoubleTag d;
     const auto least = hn::Set(d, 1e-20);  // a ray that runs along a face never crosses it
     for (int axis = 0; axis < 3; ++axis) {
-        for (int h = 0; h < 2; ++h) {
-            const auto there = rays.direction[axis].half[h];
+        const auto clip = [&](HalfDoubles origin, HalfDoubles there, HalfDoubles& enter,
+                              HalfDoubles& leave) HWY_ATTR {
             const auto direction = hn::IfThenElse(hn::Lt(hn::Abs(there), least), least, there);
             const auto inverse = hn::Div(hn::Set(d, 1.0), direction);
-            const auto origin = rays.origin[axis].half[h];
             const auto one = hn::Mul(hn::Sub(hn::Set(d, box.min[axis]), origin), inverse);
             const auto other = hn::Mul(hn::Sub(hn::Set(d, box.max[axis]), origin), inverse);
-            span.enter.half[h] = hn::Max(span.enter.half[h], hn::Min(one, other));
-            span.leave.half[h] = hn::Min(span.leave.half[h], hn::Max(one, other));
-        }
+            enter = hn::Max(enter, hn::Min(one, other));
+            leave = hn::Min(leave, hn::Max(one, other));
+        };
+        const TwoDoubles &origin = rays.origin[axis], &direction = rays.direction[axis];
+        clip(origin.low, direction.low, span.enter.low, span.leave.low);
+        clip(origin.high, direction.high, span.enter.high, span.leave.high);
     }
 }
 
@@ -80,11 +70,13 @@ HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     const DoubleTag d;
     const auto far = hn::Set(d, 1e300);
     auto least = far, most = hn::Neg(far);
-    for (int h = 0; h < 2; ++h) {
-        const auto hit = hn::Gt(span.leave.half[h], span.enter.half[h]);
-        least = hn::Min(least, hn::IfThenElse(hit, span.enter.half[h], far));
-        most = hn::Max(most, hn::IfThenElse(hit, span.leave.half[h], hn::Neg(far)));
-    }
+    const auto include = [&](HalfDoubles enter, HalfDoubles leave) HWY_ATTR {
+        const auto hit = hn::Gt(leave, enter);
+        least = hn::Min(least, hn::IfThenElse(hit, enter, far));
+        most = hn::Max(most, hn::IfThenElse(hit, leave, hn::Neg(far)));
+    };
+    include(span.enter.low, span.leave.low);
+    include(span.enter.high, span.leave.high);
     first = hn::GetLane(hn::MinOfLanes(d, least));
     last = hn::GetLane(hn::MaxOfLanes(d, most));
     return last > first;
@@ -99,31 +91,41 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
                                                             2, 2, 2, 2, 3, 3, 3, 3};
     const DoubleTag d;
     PacketRays rays;
-    const double left = column + 0.5 - frame.middle_column, top = row + 0.5 - frame.middle_row;
-    for (std::size_t h = 0; h < 2; ++h) {
-        const auto x = hn::Add(hn::Set(d, left), hn::LoadU(d, columns + h * hn::Lanes(d)));
-        const auto y = hn::Add(hn::Set(d, top), hn::LoadU(d, rows + h * hn::Lanes(d)));
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto along = [&](double middle, double by_column, double by_row) {
-                return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(x, hn::Set(d, by_column))),
-                               hn::Mul(y, hn::Set(d, by_row)));
-            };
-            rays.origin[axis].half[h] =
-                along(brick.origin_middle[axis], frame.origin_column[axis], frame.origin_row[axis]);
-            rays.direction[axis].half[h] =
-                along(frame.direction_middle[axis], frame.direction_column[axis],
-                      frame.direction_row[axis]);
-        }
-        const auto in_image = hn::And(hn::Lt(x, hn::Set(d, frame.middle_column)),
-                                      hn::Lt(y, hn::Set(d, frame.middle_row)));
-        rays.box.enter.half[h] = hn::Zero(d);
-        rays.box.leave.half[h] = hn::IfThenElse(in_image, hn::Set(d, 1e300), hn::Set(d, -1.0));
-        const auto size = hn::Set(d, frame.pixel_size);
-        const auto square = hn::Mul(hn::Mul(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), size), size);
-        rays.length_per_depth.half[h] = hn::Sqrt(hn::Add(hn::Set(d, 1.0), square));
+    const auto from = [&](double first, const double* steps) HWY_ATTR {
+        const auto start = hn::Set(d, first);
+        return TwoDoubles{hn::Add(start, hn::LoadU(d, steps)),
+                          hn::Add(start, hn::LoadU(d, steps + hn::Lanes(d)))};
+    };
+    const TwoDoubles x = from(column + 0.5 - frame.middle_column, columns);
+    const TwoDoubles y = from(row + 0.5 - frame.middle_row, rows);
+    const auto along = [&](double middle, double by_column, double by_row) HWY_ATTR {
+        const auto at_pixel = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(across, hn::Set(d, by_column))),
+                           hn::Mul(down, hn::Set(d, by_row)));
+        };
+        return each_half<FloatTag>(at_pixel, x, y);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        rays.origin[axis] =
+            along(brick.origin_middle[axis], frame.origin_column[axis], frame.origin_row[axis]);
+        rays.direction[axis] = along(frame.direction_middle[axis], frame.direction_column[axis],
+                                     frame.direction_row[axis]);
+        rays.direction_float[axis] = to_floats(FloatTag(), rays.direction[axis]);
     }
-    for (int axis = 0; axis < 3; ++axis) rays.direction_float[axis] = narrow(rays.direction[axis]);
-    rays.length_float = narrow(rays.length_per_depth);
+    rays.box.enter = all(0);
+    const auto leave_of = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
+        const auto in_image = hn::And(hn::Lt(across, hn::Set(d, frame.middle_column)),
+                                      hn::Lt(down, hn::Set(d, frame.middle_row)));
+        return hn::IfThenElse(in_image, hn::Set(d, 1e300), hn::Set(d, -1.0));
+    };
+    rays.box.leave = each_half<FloatTag>(leave_of, x, y);
+    const auto length_of = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
+        const auto size = hn::Set(d, frame.pixel_size);
+        const auto square = hn::Add(hn::Mul(across, across), hn::Mul(down, down));
+        return hn::Sqrt(hn::Add(hn::Set(d, 1.0), hn::Mul(hn::Mul(square, size), size)));
+    };
+    rays.length_per_depth = each_half<FloatTag>(length_of, x, y);
+    rays.length_float = to_floats(FloatTag(), rays.length_per_depth);
     rays.drawn = rays.box;
     clip_to_box(rays, brick.box, rays.box);
     clip_to_box(rays, brick.drawn, rays.drawn);
@@ -136,16 +138,16 @@ HWY_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& 
     const DoubleTag d;
     const auto front = hn::Set(d, first * frame.slab_thickness);
     const auto back = hn::Set(d, end * frame.slab_thickness);
-    DepthSpan seen;
-    for (int h = 0; h < 2; ++h) {
-        seen.enter.half[h] = hn::Max(front, rays.drawn.enter.half[h]);
-        seen.leave.half[h] = hn::Min(back, rays.drawn.leave.half[h]);
-        const auto enter = hn::Max(front, rays.box.enter.half[h]);
-        const auto leave = hn::Min(back, rays.box.leave.half[h]);
-        const auto hit = hn::Gt(leave, enter);
-        rays.enter.half[h] = hn::IfThenElseZero(hit, enter);
-        rays.leave.half[h] = hn::IfThenElseZero(hit, leave);
-    }
+    const auto behind_front = [&](HalfDoubles v) HWY_ATTR { return hn::Max(front, v); };
+    const auto before_back = [&](HalfDoubles v) HWY_ATTR { return hn::Min(back, v); };
+    const auto where_hit = [&](HalfDoubles v, HalfDoubles enter, HalfDoubles leave)
+                               HWY_ATTR { return hn::IfThenElseZero(hn::Gt(leave, enter), v); };
+    const DepthSpan seen{each_half<FloatTag>(behind_front, rays.drawn.enter),
+                         each_half<FloatTag>(before_back, rays.drawn.leave)};
+    const TwoDoubles enter = each_half<FloatTag>(behind_front, rays.box.enter);
+    const TwoDoubles leave = each_half<FloatTag>(before_back, rays.box.leave);
+    rays.enter = each_half<FloatTag>(where_hit, enter, enter, leave);
+    rays.leave = each_half<FloatTag>(where_hit, leave, enter, leave);
     double nearest = 0, farthest = 0;
     rays.first_slab = rays.end_slab = first;
     if (!depth_hull(seen, nearest, farthest)) return;

@@ -26,22 +26,16 @@ struct BlockRays {
 HWY_INLINE BlockRays block_rays(const PacketRays& rays, double front) {
     const DoubleTag d;
     const auto depth = hn::Set(d, front);
+    const auto place = [&](HalfDoubles origin, HalfDoubles direction)
+                           HWY_ATTR { return hn::Add(origin, hn::Mul(depth, direction)); };
+    const auto from_front = [&](HalfDoubles v) HWY_ATTR { return hn::Sub(v, depth); };
     BlockRays block;
-    TwoDoubles point;
     for (int axis = 0; axis < 3; ++axis) {
-        for (int h = 0; h < 2; ++h) {
-            point.half[h] =
-                hn::Add(rays.origin[axis].half[h], hn::Mul(depth, rays.direction[axis].half[h]));
-        }
-        block.base[axis] = narrow(point);
+        block.base[axis] = to_floats(
+            FloatTag(), each_half<FloatTag>(place, rays.origin[axis], rays.direction[axis]));
     }
-    TwoDoubles enter, leave;
-    for (int h = 0; h < 2; ++h) {
-        enter.half[h] = hn::Sub(rays.enter.half[h], depth);
-        leave.half[h] = hn::Sub(rays.leave.half[h], depth);
-    }
-    block.enter = narrow(enter);
-    block.leave = narrow(leave);
+    block.enter = to_floats(FloatTag(), each_half<FloatTag>(from_front, rays.enter));
+    block.leave = to_floats(FloatTag(), each_half<FloatTag>(from_front, rays.leave));
     return block;
 }
 
