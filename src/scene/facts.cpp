@@ -12,9 +12,18 @@
 namespace lamina {
 namespace {
 
-// Interpolated and rescaled values may leave a brick's range by a rounding of float32: part of the
-// range that is kept on both sides when asking whether a brick can be seen.
+// Interpolated and rescaled values may leave a brick's range by roundings of float32: part of the
+// range that is kept on both sides when asking whether a brick can be seen. Integers are rescaled
+// as they are interpolated, codes from the type's least value on: also a part of the largest.
 constexpr double range_margin = 1e-6;
+
+double margin_of(const Facts& facts) {
+    const ValueRange& range = facts.range;
+    double largest = 0;
+    if (facts.type != SampleType::float32)
+        largest = range.hi + (facts.type == SampleType::int16 ? 32768 : 0);
+    return range_margin * (range.hi - range.lo + largest);
+}
 
 void check_finite(const Scene& scene, const Facts& facts) {
     const std::string name = scene.volume_file.empty() ? "volume" : scene.volume_file.string();
@@ -68,16 +77,19 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
 
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                       Facts& facts) {
-    const double margin = range_margin * (facts.range.hi - facts.range.lo);
+    const double margin = margin_of(facts);
+    OccupiedBricks& occupied = facts.occupied_bricks;
+    occupied = {bricks.count, {}};
     std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
     std::int64_t seen = 0;
     for (std::int64_t z = 0; z < bricks.count[2]; ++z) {
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
             for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
                 const ValueRange& range = bricks.at(x, y, z);
-                if (range.empty() ||
-                    transfer_function.transparent(range.lo - margin, range.hi + margin))
-                    continue;
+                const bool shown = !range.empty() && !transfer_function.transparent(
+                                                         range.lo - margin, range.hi + margin);
+                occupied.shown.push_back(shown ? 1 : 0);
+                if (!shown) continue;
                 ++seen;
                 const std::array<std::int64_t, 3> brick{x, y, z};
                 for (std::size_t axis = 0; axis < 3; ++axis) {

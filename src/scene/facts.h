@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "scene/camera.h"
+#include "scene/occupied_bricks.h"
 #include "scene/scene.h"
 #include "volume/min_max_bricks.h"
 #include "volume/volume.h"
@@ -47,6 +48,7 @@ struct Facts {
     // The smallest box, made of whole min/max bricks, outside which the transfer function shows
     // nothing.
     IndexBox occupied;
+    OccupiedBricks occupied_bricks;
     double occupied_share = 0;  // of the volume's box, by its bricks
     DepthRange occupied_depth;  // eye-space depths of `occupied`
     // Half, nine tenths and all of the bricks have at most this extinction, per world unit.

@@ -171,12 +171,22 @@ class SlicePlanner {
                                     : "the volume lies behind the eye");
         if (slice.nothing_visible) return;
         const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
-        if (leave_out(smaller && !facts_.occupied.empty(), "empty_space",
-                      fmt::format("only {} of the bricks can be seen: slabs are drawn where the "
-                                  "box around them is",
-                                  percent(facts_.occupied_share)))) {
+        const bool by_brick = skips_bricks();
+        if (leave_out((smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
+                      fmt::format("only {} of the bricks can be seen: slabs are drawn where {}",
+                                  percent(facts_.occupied_share),
+                                  by_brick ? "rays come near them" : "the box around them is"))) {
             slice.drawn = facts_.occupied;
+            slice.occupied_only = by_brick;
         }
+    }
+
+    // Between two bricks that show nothing scalars may jump over what can be seen where NaN parts
+    // them: a segment from one into the other would show it.
+    bool skips_bricks() const {
+        const bool jumps =
+            facts_.non_finite > 0 && plan_.slice.classification == Classification::preintegrated;
+        return capabilities_.tiles && facts_.occupied_share < 1 && !jumps;
     }
 
     void choose_sampling() {

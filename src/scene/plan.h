@@ -52,6 +52,7 @@ struct SlicePlan : CompositingPlan {
     bool nothing_visible = false;  // no slab is drawn
     TablePlan table;               // for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
+    bool occupied_only = false;  // tiles: slabs that come near no occupied brick are not evaluated
     std::vector<TextureBrick> bricks;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }

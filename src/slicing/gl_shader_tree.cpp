@@ -164,7 +164,7 @@ void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
     slabs_ = slabs;
     triangles_.clear();
     leaf_draws_.clear();
-    bricks_ = visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back);
+    set_visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back, bricks_);
     add_leaves(0, shape_.root());
     upload_vertices(triangles_, vertices_, vertex_array_);
     source_.set_view(images_.empty() ? *root_leaf_ : *leaf_, view, slabs);

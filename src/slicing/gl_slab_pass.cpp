@@ -73,7 +73,7 @@ void GlSlabPass::set_view(const View& view, const Slabs& slabs) {
     slabs_ = slabs;
     triangles_.clear();
     starts_.clear();
-    bricks_ = visibility_order(plan_.bricks, source_.grid(), view, plan_.order);
+    set_visibility_order(plan_.bricks, source_.grid(), view, plan_.order, bricks_);
     std::erase_if(bricks_, [&](std::size_t brick) { return source_.drawn_box(brick).empty(); });
     for (const std::size_t brick : bricks_) {
         append_slab_polygons(view, source_.grid(), source_.drawn_box(brick), slabs, plan_.order,

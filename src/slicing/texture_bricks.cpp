@@ -17,34 +17,36 @@ IndexBox box_of(const TextureBrick& brick, const Grid& grid) {
     return box;
 }
 
-// Along a ray no brick number ever goes back towards the eye's own on any axis, and each step into
-// another brick changes one of them: so the sum over the axes of the distances in bricks orders
-// them. For parallel rays the distance along an axis counts in the direction of the view.
-std::vector<std::size_t> visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
-                                          const View& view, Order order) {
+void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
+                          const View& view, Order order, std::vector<std::size_t>& numbers) {
     const glm::dvec3 eye = grid.to_index(view.eye);
     const glm::dvec3 forward = grid.direction_to_index(view.forward);
-    std::vector<double> distance(bricks.size());
-    for (std::size_t i = 0; i < bricks.size(); ++i) {
+    // Along a ray no brick number ever goes back towards the eye's own on any axis, and each step
+    // into another brick changes one of them: so the sum over the axes of the distances in bricks
+    // orders them. For parallel rays the distance along an axis counts in the direction of the
+    // view.
+    const auto distance_of = [&](std::size_t i) {
+        double distance = 0;
         for (int axis = 0; axis < 3; ++axis) {
             // The first brick has the full size; all begin at multiples of its cells.
             const double cells =
                 std::max<double>(1, static_cast<double>(bricks.front().size[axis] - 1));
             const double number = static_cast<double>(bricks[i].first[axis]) / cells;
             if (view.projection == Projection::perspective) {
-                distance[i] += std::abs(number - std::floor(eye[axis] / cells));
+                distance += std::abs(number - std::floor(eye[axis] / cells));
             } else {
-                distance[i] += forward[axis] >= 0 ? number : -number;
+                distance += forward[axis] >= 0 ? number : -number;
             }
         }
-    }
-    std::vector<std::size_t> sorted(bricks.size());
-    std::iota(sorted.begin(), sorted.end(), std::size_t{0});
-    std::stable_sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
-        return order == Order::front_to_back ? distance[a] < distance[b]
-                                             : distance[a] > distance[b];
+        return order == Order::front_to_back ? distance : -distance;
+    };
+    numbers.resize(bricks.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    // std::stable_sort would take memory.
+    std::sort(numbers.begin(), numbers.end(), [&](std::size_t a, std::size_t b) {
+        const double one = distance_of(a), other = distance_of(b);
+        return one < other || (one == other && a < b);
     });
-    return sorted;
 }
 
 }  // namespace lamina

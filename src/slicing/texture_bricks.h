@@ -14,8 +14,9 @@ namespace lamina {
 // beyond them.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
 
-// Numbers of the bricks of plan.bricks, so that along every ray they come in the plan's order.
-std::vector<std::size_t> visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
-                                          const View& view, Order order);
+// Sets the numbers of the bricks of plan.bricks, so that along every ray they come in the plan's
+// order. Takes memory only where `numbers` does not yet hold so many.
+void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
+                          const View& view, Order order, std::vector<std::size_t>& numbers);
 
 }  // namespace lamina

@@ -51,12 +51,13 @@ class SlabBlender {
             for (int k = 0; k <= last - first; ++k) {
                 const int number = behind_ ? first + k : last - k;
                 block_.first_slab = span_.first + number * tile_block_slabs;
+                const SampleSpan shown = rays_.shown(slabs_, block_.first_slab);
                 for (std::size_t p = 0; p < group_packets; ++p) {
                     const TileGrid::Place at =
                         TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
                     column_ = area.column + at.column;
                     row_ = area.row + at.row;
-                    composite_packet(brick, rays_.packets[p], pixels[p]);
+                    composite_packet(brick, rays_.packets[p], shown, pixels[p]);
                 }
             }
         }
@@ -66,8 +67,8 @@ class SlabBlender {
 
   private:
     HWY_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
-                                     Pixel& pixel) {
-        if (!block_.set_slabs(rays)) return;
+                                     const SampleSpan& shown, Pixel& pixel) {
+        if (!block_.set_slabs(rays, shown)) return;
         const bool colored = !plan_.single_color && !opacity_only_;
         segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
                                : set_segments(slabs_, brick, rays, colored, block_);

@@ -28,10 +28,10 @@ struct SlabBlock {
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
 
-    // The slabs of the block that a packet wants; false where there are none.
-    bool set_slabs(const PacketRays& rays) {
-        from = std::max(rays.first_slab - first_slab, 0);
-        end = std::min(rays.end_slab - first_slab, tile_block_slabs);
+    // The slabs among `shown`, all of the block, that a packet wants; false where there are none.
+    bool set_slabs(const PacketRays& rays, const SampleSpan& shown) {
+        from = std::max(rays.first_slab, shown.first) - first_slab;
+        end = std::min(rays.end_slab, shown.end()) - first_slab;
         return from < end;
     }
 };

@@ -124,8 +124,9 @@ class Marcher {
             const int skipped = (rays_.first_slab - leaf.first) / tile_block_slabs;
             block_.first_slab = leaf.first + skipped * tile_block_slabs;
             for (; block_.first_slab < rays_.end_slab; block_.first_slab += tile_block_slabs) {
+                const SampleSpan shown = rays_.shown(slabs_, block_.first_slab);
                 for (std::size_t p = 0; p < group_packets; ++p) {
-                    if (!block_.set_slabs(rays_.packets[p])) continue;
+                    if (!block_.set_slabs(rays_.packets[p], shown)) continue;
                     segments_ +=
                         set_segments(slabs_, brick, rays_.packets[p], !single_color_, block_);
                     add_block(leaves[p]);

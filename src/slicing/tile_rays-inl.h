@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "slicing/tile_bounds.h"
 #include "slicing/tile_slabs.h"
 #include "tiles/arithmetic-inl.h"
 #include "tiles/doubles-inl.h"
@@ -176,10 +178,14 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 // The rays of a group through one brick. Packets outside the image want no slabs.
 struct GroupRays {
     PacketRays packets[group_packets];
+    std::optional<TileBounds> bounds;
     int first_slab, end_slab;  // of all of them
 
     HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
                                const TileGrid::Tile& area, std::size_t group) {
+        const TileGrid::Place corner = TileGrid::pixel_at(static_cast<int>(packet_place(group, 0)));
+        bounds.emplace(frame, brick, area.column + corner.column, area.row + corner.row,
+                       2 * TileGrid::block);
         for (std::size_t p = 0; p < group_packets; ++p) {
             const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
             packets[p] = packet_rays(frame, brick, area.column + at.column, area.row + at.row);
@@ -195,6 +201,14 @@ struct GroupRays {
             first_slab = std::min(first_slab, rays.first_slab);
             end_slab = std::max(end_slab, rays.end_slab);
         }
+    }
+
+    // The slabs of a block that may show something.
+    SampleSpan shown(const TileSlabs& slabs, int block_first) const {
+        const int first = std::max(first_slab, block_first);
+        const int end = std::min(end_slab, block_first + tile_block_slabs);
+        if (slabs.occupied == nullptr) return {first, end - first};
+        return bounds->shown(slabs, first, end);
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "base/stopwatch.h"
 #include "optics/linear_pieces.h"
@@ -11,6 +12,20 @@
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
+namespace {
+
+// A quarter of a brick's edge: smaller parts would leave out little more.
+constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
+
+// Four roundings to float32 of points that lie at most five times the brick's size from its first
+// sample, where a block of slabs begins before the box: 1.2e-6 of it. Cells are found by these.
+double point_margin(const TextureBrick& part) {
+    const std::int64_t size = *std::ranges::max_element(part.size);
+    return 0.01 + 2e-6 * static_cast<double>(size);
+}
+
+}  // namespace
+
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                                const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy)
     : plan_(plan), grid_(facts.grid) {
@@ -23,6 +38,10 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         slabs_.single_color[static_cast<std::size_t>(channel)] = static_cast<float>(color[channel]);
     slabs_.constant_extinction = std::min(constant.extinction, max_shader_extinction);
     slabs_.plan = &plan_;
+    if (plan_.occupied_only) {
+        occupied_ = facts.occupied_bricks;
+        slabs_.occupied = &occupied_;
+    }
     slabs_.bricks.reserve(plan_.bricks.size());
     if (plan_.dither) {
         slabs_.alpha_ranks = dither_ranks(plan_.dither->period, plan_.dither->seed);
@@ -49,8 +68,8 @@ void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     }
     // A node that a program computes marches from the front, whatever the order of slabs is.
     const Order order = plan_.has_tree(NodeArithmetic::shader) ? Order::front_to_back : plan_.order;
-    for (const std::size_t number : visibility_order(plan_.bricks, grid_, view, order))
-        add_brick(number, view, slabs);
+    set_visibility_order(plan_.bricks, grid_, view, order, order_);
+    for (const std::size_t number : order_) add_brick(number, view, slabs);
 }
 
 void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
@@ -68,6 +87,9 @@ void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
     rays.middle_row = 0.5 * view.height;
     rays.pixel_size = perspective ? static_cast<double>(static_cast<float>(view.pixel)) : 0.0;
     rays.slab_thickness = (slabs.far - slabs.near) / slabs.count;
+    const double voxels = rays.slab_thickness * glm::length(rays.direction_middle);
+    rays.tested_slabs =
+        static_cast<int>(std::clamp(tested_voxels / voxels, 1.0, double{tile_block_slabs}));
     for (std::size_t i = 0; i < rays.edges.size(); ++i)
         rays.edges[i] = static_cast<float>(static_cast<double>(i) * rays.slab_thickness);
     for (std::size_t i = 0; i < rays.middles.size(); ++i)
@@ -83,6 +105,8 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     if (brick.drawn.empty()) return;
     if (volume_) brick.brick = volume_->bricks()[number];
     brick.origin_middle = grid_.to_index(view.eye + slabs.near * view.forward) - first;
+    brick.first = first;
+    brick.margin = point_margin(part);
     // Shaders get the box in float.
     brick.box = {glm::dvec3(glm::vec3(box.min - first)), glm::dvec3(glm::vec3(box.max - first))};
     brick.drawn.min -= first;
@@ -91,7 +115,8 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
 }
 
 std::int64_t TileSlabSource::byte_count() const {
-    return (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
+    return static_cast<std::int64_t>(occupied_.shown.size()) +
+           (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
 }
 
 }  // namespace lamina

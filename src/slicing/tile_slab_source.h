@@ -30,9 +30,11 @@ class TileSlabSource {
 
     const SlicePlan& plan_;
     Grid grid_;
+    OccupiedBricks occupied_;
     std::optional<TileTransfer> transfer_;
     std::optional<TileVolume> volume_;
     TileSlabs slabs_;
+    std::vector<std::size_t> order_;  // of the bricks
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

@@ -26,6 +26,7 @@ struct TileRays {
     double middle_column = 0, middle_row = 0;  // of the image, in pixels
     double pixel_size = 0;                     // at depth 1; 0 where rays are parallel
     double slab_thickness = 0;
+    int tested_slabs = 1;  // so many at a time are asked whether they show something
     // Boundaries of a block's slabs and the middles between them, from the block's front on.
     std::array<float, tile_block_slabs + 1> edges{};
     std::array<float, tile_block_slabs> middles{};
@@ -35,12 +36,15 @@ struct TileBrickView {
     TileBrick brick;
     glm::dvec3 origin_middle{0};  // of the ray through the image's middle
     IndexBox box, drawn;          // in the brick's index space
+    glm::dvec3 first{0};          // sample of the volume
+    double margin = 0;            // points may be wrong by so many voxels, in float
 };
 
 // Everything that fragments of slabs depend on.
 struct TileSlabs {
     const SlicePlan* plan = nullptr;
-    const TileTransfer* transfer = nullptr;  // null where no scalar is fetched
+    const TileTransfer* transfer = nullptr;    // null where no scalar is fetched
+    const OccupiedBricks* occupied = nullptr;  // null where all slabs are evaluated
     TileRays rays;
     std::vector<TileBrickView> bricks;  // that show something, in the plan's order
     std::array<float, 3> single_color{};

@@ -2,10 +2,13 @@
 #include "scene/facts.h"
 
 #include <cmath>
+#include <memory>
 
 #include "reference/fixtures.h"
 #include "scene_fixture.h"
 #include "support/expect_error.h"
+#include "support/transfer_functions.h"
+#include "support/volume_of.h"
 
 namespace lamina {
 namespace {
@@ -46,6 +49,40 @@ TEST(Facts, TransferFunctionIsJudgedOverTheVolumesRangeOnly) {
     EXPECT_TRUE(facts.single_color);
     EXPECT_EQ(facts.max_extinction, 1);
     EXPECT_EQ(facts.occupied_share, 1);
+}
+
+// A step in x: bricks 0, 1 of three have what is seen from .5 on, at their common border sample.
+TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
+    const Volume volume =
+        test::volume_of<float>(test::grid_of({49, 17, 33}, Centering::node),
+                               [](double i, double, double) { return i == 16 ? 1 : 0; });
+    Scene scene = read_scene(minimal_scene(), "s");
+    scene.transfer_function =
+        TransferFunction::linear({test::knot(.5, {1, 1, 1}, 0), test::knot(1, {1, 1, 1}, 1)});
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const OccupiedBricks& bricks = facts.occupied_bricks;
+    EXPECT_EQ(bricks.count, (std::array<std::int64_t, 3>{3, 1, 2}));
+    EXPECT_EQ(bricks.shown, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 0}));
+    EXPECT_DOUBLE_EQ(facts.occupied_share, 2. / 3);
+    EXPECT_TRUE(bricks.any_in({31.9, 3, 40}, {70, 3, 40}));
+    EXPECT_FALSE(bricks.any_in({32, -2, 0}, {70, 20, 40}));
+    EXPECT_TRUE(bricks.any_in({-7, -2, 0}, {-6, 20, 40}));
+}
+
+// In float32 codes of 16 bits, from 32768 on, are good to 2^-24 of them, .002 each rounding.
+TEST(Facts, IntegersKeepAMarginOfTheirCodes) {
+    const auto samples = std::make_shared<std::vector<std::int16_t>>(33 * 2 * 2);
+    for (std::size_t i = 0; i < samples->size(); ++i) (*samples)[i] = i % 33 > 16 ? 100 : 40;
+    const Volume volume(test::grid_of({33, 2, 2}, Centering::node), SampleType::int16,
+                        std::shared_ptr<const void>(samples, samples->data()));
+    Scene scene = read_scene(minimal_scene(), "s");
+    const auto share_from = [&](double value) {
+        scene.transfer_function = TransferFunction::linear(
+            {test::knot(value, {1, 1, 1}, 0), test::knot(100, {1, 1, 1}, 1)});
+        return measure(scene, volume, measure_bricks(volume)).occupied_share;
+    };
+    EXPECT_EQ(share_from(40.004), 1);
+    EXPECT_EQ(share_from(41), .5);
 }
 
 TEST(Facts, NonFiniteSamplesAreCountedAndNeedAWord) {

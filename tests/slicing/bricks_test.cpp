@@ -59,7 +59,8 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
         const View view(scene.camera, scene.width, scene.height);
         const auto bricks = bricks_of(volume, scene, with_small_textures(capabilities(), 4 * 4000));
         ASSERT_GT(bricks.size(), 10u);
-        const auto order = visibility_order(bricks, grid, view, Order::front_to_back);
+        std::vector<std::size_t> order;
+        set_visibility_order(bricks, grid, view, Order::front_to_back, order);
         for (int row = 0; row < 16; ++row) {
             const View::Ray ray = view.ray(row, (row * 5) % 16);
             double last = 0;

@@ -2,7 +2,10 @@
 // What a picture of the native engine must not depend on, and what a frame must not take.
 #include <tbb/global_control.h>
 
+#include <random>
+
 #include "support/allocation_count.h"
+#include "support/volume_of.h"
 #include "tile_fixture.h"
 #include "tiles/instruction_set.h"
 
@@ -15,8 +18,9 @@ struct Case {
     OmissionSwitch omissions;
 };
 
-std::vector<Case> cases() {
-    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 75, 53);
+std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_function(),
+                        double seen_from = 0) {
+    Scene scene = unit_box_scene(colored, Projection::perspective, 75, 53);
     scene.slice.samples = 100;
     std::vector<Case> all{{"post", scene, {}}, {"blended", scene, leave_nothing_out()}};
     scene.slice.classification = Classification::preintegrated;
@@ -30,7 +34,7 @@ std::vector<Case> cases() {
     scene.slice.dither = DitherSettings{.period = 7, .color = true};
     all.push_back({"dithered", scene, {}});
     scene.transfer_function =
-        TransferFunction::linear({knot(0, {.3, .6, .9}, 0), knot(1, {.3, .6, .9}, 5)});
+        TransferFunction::linear({knot(seen_from, {.3, .6, .9}, 0), knot(1, {.3, .6, .9}, 5)});
     scene.slice.tree = TreeSettings{.factors = {4, 6}, .nodes = NodeArithmetic::fixed};
     all.push_back({"fixed nodes", scene, {}});
     scene.target = Target::fixed8;
@@ -73,6 +77,109 @@ TEST(TileFramesTest, FramesAfterTheFirstTakeNoMemory) {
         EXPECT_EQ(test::allocation_count(), before) << each.name;
         EXPECT_GT(renderer->samples(), 0);
     }
+}
+
+// Of at most 25^3 samples in float; the image needs as much.
+Capabilities small_bricks() {
+    Capabilities small = tile_capabilities();
+    small.max_texture_bytes = 16 * 75 * 53;
+    return small;
+}
+
+TEST(TileFramesTest, FramesOfSeveralBricksTakeNoMemory) {
+    const Volume volume = gaussians(30);
+    for (const Case& each : cases()) {
+        const auto renderer = tile_renderer(volume, each.scene, each.omissions, small_bricks());
+        renderer->draw(View(each.scene.camera, 75, 53));
+        const View turned_by_70(turned(each.scene.camera, 70), 75, 53);
+        const std::int64_t before = test::allocation_count();
+        renderer->draw(turned_by_70);
+        EXPECT_EQ(test::allocation_count(), before) << each.name;
+    }
+}
+
+// Of 5^3 bricks of 16^3 cells about one in twenty has scalars above .2.
+Volume lumps() {
+    std::mt19937 random(5);
+    std::array<float, 125> heights{};
+    for (float& height : heights) height = random() % 20 == 0 ? 1.f : .19f;
+    const auto height_at = [&](double i, double j, double k) {
+        const auto brick = [](double at) { return static_cast<std::size_t>(at / 16); };
+        const double wave = std::sin(1.3 * i) * std::cos(1.1 * j) * std::sin(.9 * k + .5);
+        return heights[(brick(k) * 5 + brick(j)) * 5 + brick(i)] * static_cast<float>(wave * wave);
+    };
+    return test::volume_of<float>(
+        reference_test::make_grid({70, 70, 70}, Centering::cell, glm::dvec3(1. / 70)), height_at);
+}
+
+// Slabs that come near no brick with something in it would add zeros.
+TEST(TileFramesTest, EmptySpaceIsSkippedBitForBit) {
+    const Volume volume = lumps();
+    const TransferFunction top = TransferFunction::linear(
+        {knot(.2, {.1, .5, .9}, 0), knot(.5, {.9, .5, .1}, 20), knot(1, {1, 1, 1}, 30)});
+    OmissionSwitch keep_space;
+    keep_space.kept = {"empty_space"};
+    for (const Case& each : cases(top, .2)) {
+        if (each.omissions.none) continue;
+        for (const Capabilities& capabilities : {tile_capabilities(), small_bricks()}) {
+            const auto drawn = [&](const OmissionSwitch& omissions, std::int64_t& samples) {
+                const auto renderer = tile_renderer(volume, each.scene, omissions, capabilities);
+                renderer->draw(View(each.scene.camera, 75, 53));
+                samples = renderer->samples();
+                return renderer->read().rgba;
+            };
+            std::int64_t some = 0, all = 0;
+            EXPECT_EQ(drawn({}, some), drawn(keep_space, all)) << each.name;
+            EXPECT_LT(some, .8 * static_cast<double>(all)) << each.name;
+        }
+    }
+}
+
+// From all sides, from inside, and for slabs of many cells.
+TEST(TileFramesTest, EmptySpaceIsSkippedInEveryView) {
+    const Volume volume = lumps();
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(.2, {.1, .5, .9}, 0), knot(1, {1, .2, 1}, 30)}),
+        Projection::perspective, 41, 43);
+    OmissionSwitch keep_space;
+    keep_space.kept = {"empty_space"};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> place(-.4, 1.4);
+    for (int trial = 0; trial < 8; ++trial) {
+        scene.camera.projection =
+            trial % 3 == 0 ? Projection::orthographic : Projection::perspective;
+        scene.camera.eye = {place(random), place(random), place(random)};
+        scene.slice.classification =
+            trial % 2 == 0 ? Classification::preintegrated : Classification::post;
+        for (const int slabs : {3, 40, 333}) {
+            scene.slice.samples = slabs;
+            EXPECT_EQ(render_tiles(volume, scene).rgba,
+                      render_tiles(volume, scene, keep_space).rgba)
+                << trial << " " << slabs;
+        }
+    }
+}
+
+// A segment from scalars below what can be seen to scalars above it shows what lies between, though
+// where NaN parts the two no brick does.
+TEST(TileFramesTest, PreintegratedSegmentsAcrossNanAreNotSkipped) {
+    const Volume volume = test::volume_of<float>(
+        reference_test::make_grid({129, 17, 17}, Centering::node, glm::dvec3(1. / 128)),
+        [](double i, double, double) {
+            return i > 100 ? .5f : i > 32 ? 1.f : i < 32 ? 0.f : std::nanf("");
+        });
+    const OpticalProperties nothing{{1, 1, 1}, 0}, something{{1, 1, 1}, 9};
+    Scene scene =
+        unit_box_scene(TransferFunction::linear({{.3, nothing}, {.5, something}, {.7, nothing}}),
+                       Projection::orthographic);
+    scene.nan = NanPolicy::transparent;
+    const auto skips = [&](Classification classification) {
+        scene.slice.classification = classification;
+        const Facts facts = measure(scene, volume, measure_bricks(volume));
+        return make_plan(scene, facts, tile_capabilities(), {}).slice.occupied_only;
+    };
+    EXPECT_TRUE(skips(Classification::post));
+    EXPECT_FALSE(skips(Classification::preintegrated));
 }
 
 }  // namespace
