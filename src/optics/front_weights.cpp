@@ -20,10 +20,11 @@ std::size_t texel_index(int column, int row) {
 
 }  // namespace
 
-// Minimax over the triangle p, q >= 0, p + q <= 2 faint_depth, of degree 2 (as below).
+// Minimax over the triangle p, q >= 0, p + q <= 2 faint_depth, of degree 3 (as below).
 double faint_front_weight(double p, double q) {
-    const double of_p = 0.33272117 - 0.06162436 * p - 0.07001289 * q;
-    const double of_q = 0.16649824 - 0.02334885 * q;
+    const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
+    const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;
+    const double of_q = 0.166663 + q * (-0.02493882 + q * 0.00273092);
     return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
 }
 

@@ -14,7 +14,7 @@ namespace lamina {
 inline constexpr double thin_depth = 1.5;
 double thin_front_weight(double p, double q);
 
-// A shorter one, for optical depths up to faint_depth: off by at most 2.2e-5 there.
+// A shorter one, for optical depths up to faint_depth: off by at most 3e-7 there.
 inline constexpr double faint_depth = 0.2;
 double faint_front_weight(double p, double q);
 

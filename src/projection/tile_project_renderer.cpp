@@ -247,9 +247,10 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     // Careful, whatever the kind: right for all, and few parts are doubtful where others are not.
+    // Where all are drawn so, by the table (the plan's weight_error).
     add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
          grid.height() - 1 - bounds.first_row, true,
-         *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
+         plan_.plain && *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
         part.tet, chunk);
 }
 

@@ -23,27 +23,23 @@ struct CornerWeights {
     bool any = false;
 };
 
-// Of a half of the pixels, in double; what is not covered is negative.
-template <class DD>
-HWY_INLINE hn::Vec<DD> edge_weight(DD dd, const TriangleRecord::Edge& edge, hn::Vec<DD> column,
-                                   hn::Vec<DD> row) {
-    const auto zero = hn::Zero(dd), none = hn::Set(dd, -1.0);
-    const auto across =
-        hn::Mul(hn::Set(dd, edge.per_column), hn::Sub(column, hn::Set(dd, edge.column)));
-    const auto up = hn::Mul(hn::Set(dd, edge.per_row), hn::Sub(row, hn::Set(dd, edge.row)));
-    const auto weight = hn::Add(across, up);
-    if (edge.has_zeros) return weight;
-    return hn::IfThenElse(hn::Gt(weight, zero), weight, none);
-}
-
+// Of a half of the pixels, in double.
 template <class DD>
 HWY_INLINE void corner_weights(DD dd, const TriangleRecord& triangle, hn::Vec<DD> column,
                                hn::Vec<DD> row, hn::Vec<DD> (&weights)[3]) {
-    const auto zero = hn::Zero(dd), scale = hn::Set(dd, triangle.inverse_area);
+    const auto linear = [&](const auto& function) HWY_ATTR {
+        const auto across = hn::Mul(hn::Set(dd, function.per_column),
+                                    hn::Sub(column, hn::Set(dd, function.column)));
+        return hn::Add(across, hn::Mul(hn::Set(dd, function.per_row),
+                                       hn::Sub(row, hn::Set(dd, function.row))));
+    };
+    auto inside = hn::Ge(column, column);
+    for (const TriangleRecord::Edge& edge : triangle.edges) {
+        const auto area = linear(edge), zero = hn::Zero(dd);
+        inside = hn::And(inside, edge.has_zeros ? hn::Ge(area, zero) : hn::Gt(area, zero));
+    }
     for (std::size_t i = 0; i < 3; ++i)
-        weights[i] = edge_weight(dd, triangle.edges[i], column, row);
-    const auto covered = hn::Ge(hn::Min(weights[0], hn::Min(weights[1], weights[2])), zero);
-    for (auto& weight : weights) weight = hn::IfThenElseZero(covered, hn::Mul(weight, scale));
+        weights[i] = hn::IfThenElseZero(inside, linear(triangle.shares[i]));
 }
 
 // Window coordinates of pixel centres.

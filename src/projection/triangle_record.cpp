@@ -20,6 +20,12 @@ TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& insid
     return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
 }
 
+// Of a triangle with twice the area `area`, which may be negative.
+TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double area) {
+    const glm::dvec2 along = (b - a) / area;
+    return {a.x, a.y, -along.y, along.x};
+}
+
 }  // namespace
 
 // Exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
@@ -31,15 +37,25 @@ glm::dvec2 rounded_to_grid(const glm::vec2& window) {
 }
 
 bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleRecord& record) {
-    std::array<glm::dvec2, 3> places;
-    for (std::size_t i = 0; i < 3; ++i) places[i] = rounded_to_grid(vertices[i]->position);
-    const double area = std::abs(cross(places[1] - places[0], places[2] - places[0]));
-    if (!(area > 0) || !std::isfinite(area)) return false;
+    std::array<glm::dvec2, 3> places, exact;
+    for (std::size_t i = 0; i < 3; ++i) {
+        places[i] = rounded_to_grid(vertices[i]->position);
+        exact[i] = glm::dvec2(vertices[i]->position);
+    }
+    const auto area_of = [](const std::array<glm::dvec2, 3>& p) {
+        return cross(p[1] - p[0], p[2] - p[0]);
+    };
+    const double rounded_area = area_of(places);
+    if (!(std::abs(rounded_area) > 0) || !std::isfinite(rounded_area)) return false;
+    // Rounding may turn slivers over: then what is interpolated lies between rounded corners, too.
+    const bool turned = area_of(exact) * rounded_area <= 0;
+    const std::array<glm::dvec2, 3>& between = turned ? places : exact;
+    const double area = area_of(between);
     for (std::size_t i = 0; i < 3; ++i) {
         record.edges[i] = edge_of(places[(i + 1) % 3], places[(i + 2) % 3], places[i]);
+        record.shares[i] = share_of(between[(i + 1) % 3], between[(i + 2) % 3], area);
         record.corners[i] = {vertices[i]->inverse, vertices[i]->front, vertices[i]->back};
     }
-    record.inverse_area = 1 / area;
     record.number = vertices[0]->tet;
     return true;
 }

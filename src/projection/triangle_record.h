@@ -25,9 +25,15 @@ struct TriangleRecord {
         glm::vec2 inverse;  // as in FanVertex
         glm::vec4 front, back;
     };
-    std::array<Edge, 3> edges;  // opposite the corners
+    std::array<Edge, 3> edges;  // opposite the corners, which are rounded to the grid
+    // A corner's share of what is interpolated: linear in the pixel, between corners that are not
+    // rounded, as rasterisers do it.
+    struct Share {
+        double column, row;  // where it is 0
+        double per_column, per_row;
+    };
+    std::array<Share, 3> shares;
     std::array<Corner, 3> corners;
-    double inverse_area;   // 1 / twice the area
     std::uint32_t number;  // of the tet, for dithering
 };
 

@@ -108,8 +108,9 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
     row("target", name_of(project.target));
     row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
                              facts.convexity == Convexity::none ? "not " : ""));
-    row("geometry",
-        tiles ? "where a ray enters and leaves a tet, pixel by pixel" : name_of(project.geometry));
+    row("geometry", tiles && project.geometry == ProjectGeometry::silhouette
+                        ? "where a ray enters and leaves a tet, pixel by pixel"
+                        : name_of(project.geometry));
     row("interpolation", fmt::format("{}, thickness {}", name_of(project.interpolation),
                                      name_of(project.thickness)));
     row("edges", fmt::format("from {:.3g} to {:.3g}: optical depth of a tet at most {:.3g}",

@@ -28,9 +28,14 @@ HWY_INLINE hn::Vec<D> faint_opacity(D d, hn::Vec<D> depth) {
 template <class D>
 HWY_INLINE hn::Vec<D> faint_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     const auto set = [d](float c) HWY_ATTR { return hn::Set(d, c); };
-    const auto of_p = hn::Add(hn::Add(set(0.33272117f), hn::Mul(p, set(-0.06162436f))),
-                              hn::Mul(q, set(-0.07001289f)));
-    const auto of_q = hn::Add(set(0.16649824f), hn::Mul(q, set(-0.02334885f)));
+    const auto pq = hn::Add(hn::Add(set(-0.07483143f), hn::Mul(p, set(0.01593537f))),
+                            hn::Mul(q, set(0.01098378f)));
+    const auto of_p =
+        hn::Add(hn::Add(set(0.33332185f),
+                        hn::Mul(p, hn::Add(set(-0.06649057f), hn::Mul(p, set(0.00875053f))))),
+                hn::Mul(q, pq));
+    const auto of_q = hn::Add(set(0.166663f),
+                              hn::Mul(q, hn::Add(set(-0.02493882f), hn::Mul(q, set(0.00273092f)))));
     return hn::Add(hn::Mul(p, of_p), hn::Mul(q, of_q));
 }
 

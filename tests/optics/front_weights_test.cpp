@@ -43,7 +43,7 @@ double worst_below(double depth, const Weight& weight) {
 
 // The header's promises.
 TEST(ThinFrontWeight, IsAsGoodAsPromised) {
-    EXPECT_LE(worst_below(faint_depth, faint_front_weight), 2.2e-5);
+    EXPECT_LE(worst_below(faint_depth, faint_front_weight), 3e-7);
     const double worst = worst_below(thin_depth, thin_front_weight);
     EXPECT_LE(worst, 3e-5);
     EXPECT_EQ(thin_front_weight(0, 0), 0);

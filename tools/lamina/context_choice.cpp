@@ -34,7 +34,7 @@ gl::ContextKind opengl_kind(const std::string& word) {
 
 void restrict_instructions_as_asked() {
     const char* const name = std::getenv("LAMINA_INSTRUCTIONS");
-    if (name == nullptr) return;
+    if (name == nullptr || *name == '\0') return;
     try {
         restrict_instructions(name);
     } catch (const UsageError& error) {
