@@ -107,11 +107,15 @@ class TetCoverage {
     HWY_INLINE void find(const TetRecord& record, const PartArea& area, CoveredPixels& covered) {
         const std::uint64_t blocks = blocks_of(area, area_);
         if (area.careful) {
-            find_in<cut, CarefulDepths<Tag>>(record, area, blocks, covered);
+            find_in<cut, true, CarefulDepths<Tag>>(record, area, blocks, covered);
+            return;
+        }
+        const bool many = hwy::PopCount(blocks) > few_blocks;
+        const std::uint64_t kept = many ? drop_missed(record, blocks) : blocks;
+        if (area.bounded) {
+            find_in<cut, true, PlainDepths<Tag>>(record, area, kept, covered);
         } else {
-            const bool many = hwy::PopCount(blocks) > few_blocks;
-            find_in<cut, PlainDepths<Tag>>(record, area,
-                                           many ? drop_missed(record, blocks) : blocks, covered);
+            find_in<cut, false, PlainDepths<Tag>>(record, area, kept, covered);
         }
     }
     std::int64_t fragments() const { return count_; }
@@ -166,16 +170,15 @@ class TetCoverage {
         return kept & blocks;
     }
 
-    template <bool cut, class Depths>
+    template <bool cut, bool bounded, class Depths>
     HWY_INLINE void find_in(const TetRecord& record, const PartArea& area, std::uint64_t blocks,
                             CoveredPixels& covered) {
         const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / block;
         const float first_column = from_column(record), first_row = from_row(record);
-        // Beyond the part's bounds roundings alone make runs.
-        const auto column_of = [&](int pixel) {
+        const auto column_of = [&](int pixel) HWY_ATTR {
             return hn::Set(d_, first_column + static_cast<float>(pixel - area_.column));
         };
-        const auto row_of = [&](int pixel) {
+        const auto row_of = [&](int pixel) HWY_ATTR {
             return hn::Set(d_, first_row - static_cast<float>(pixel - area_.row));
         };
         const Vector first_in = column_of(area.first_column), last_in = column_of(area.last_column);
@@ -186,17 +189,20 @@ class TetCoverage {
             const float row_of_block =
                 first_row - static_cast<float>(number / blocks_a_row * block);
             const Vector columns = hn::Add(lane_columns_, hn::Set(d_, column));
-            const auto in_columns = hn::And(hn::Ge(columns, first_in), hn::Le(columns, last_in));
             const Depths depths(d_, fragments_, record, columns);
             for (int y = 0; y < block; y += rows_a_vector) {
                 const float row = row_of_block - static_cast<float>(y);
                 const Vector rows = hn::Sub(hn::Set(d_, row), lane_rows_);
                 InsideSpan<Vector> span = depths.at(d_, rows);
-                span.leave = hn::Min(span.leave, hn::Set(d_, area.farthest));
+                if constexpr (bounded) span.leave = hn::Min(span.leave, hn::Set(d_, area.farthest));
                 if constexpr (cut) span = cut_depths(d_, record, span, columns, rows);
-                const auto in_rows = hn::And(hn::Ge(rows, lowest), hn::Le(rows, highest));
-                const auto inside =
-                    hn::And(hn::Gt(span.leave, span.enter), hn::And(in_columns, in_rows));
+                auto inside = hn::Gt(span.leave, span.enter);
+                if constexpr (bounded) {
+                    const auto in_columns =
+                        hn::And(hn::Ge(columns, first_in), hn::Le(columns, last_in));
+                    const auto in_rows = hn::And(hn::Ge(rows, lowest), hn::Le(rows, highest));
+                    inside = hn::And(inside, hn::And(in_columns, in_rows));
+                }
                 const std::size_t pixels = hn::CountTrue(d_, inside);
                 count_ += static_cast<std::int64_t>(pixels);
                 covered.add(d_, {number * block * block + y * block, column, row},

@@ -157,7 +157,7 @@ class TetVectors {
     // True where the signs are certain and float32 is good enough.
     MD find_faces() {
         VD reach = hn::Zero(d_), rounding = hn::Zero(d_), fronts = hn::Zero(d_);
-        VD size = hn::Zero(d_);
+        VD size = hn::Zero(d_), steepest = size;
         for (const Point& p : seen_) {
             reach = hn::Max(reach, largest_of(p));
             size = hn::Max(size, largest_of(p - seen_[0]));
@@ -190,6 +190,7 @@ class TetVectors {
             store(lanes_.per_column[face], per_column);
             store(lanes_.per_row[face], per_row);
             fronts = hn::Add(fronts, front);
+            steepest = hn::Max(steepest, hn::Add(hn::Abs(per_column), hn::Abs(per_row)));
             rounding = hn::Max(
                 rounding, hn::Add(hn::Add(hn::Abs(depth), hn::Mul(columns_, hn::Abs(per_column))),
                                   hn::Mul(rows_, hn::Abs(per_row))));
@@ -199,8 +200,14 @@ class TetVectors {
             view_.perspective ? hn::Div(thickness, hn::Mul(farthest_, farthest_)) : thickness;
         store(lanes_.farthest, hn::Add(hn::Sub(inverted(farthest_), center_depth_),
                                        hn::Mul(set(float_tolerance), range)));
-        good = hn::And(good, hn::Le(hn::Mul(rounding, set(float_epsilon)),
-                                    hn::Mul(set(float_tolerance), range)));
+        const VD float_rounding = hn::Mul(rounding, set(float_epsilon)),
+                 tolerance = hn::Mul(set(float_tolerance), range);
+        good = hn::And(good, hn::Le(float_rounding, tolerance));
+        // Runs by rounding alone: where it is not small in depth, or the horizon (depth 0) is near.
+        MD bounded = hn::Gt(hn::Mul(set(100), float_rounding), tolerance);
+        if (view_.perspective)
+            bounded = hn::Or(bounded, hn::Gt(hn::Mul(set(16), steepest), hn::Abs(center_depth_)));
+        store(lanes_.bounded, hn::IfThenElseZero(bounded, one()));
         return hn::And(good, hn::And(hn::Gt(fronts, hn::Zero(d_)), hn::Lt(fronts, set(4))));
     }
 

@@ -118,6 +118,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& 
                               depth <= faint_depth  ? PartDepth::faint
                               : depth <= thin_depth ? PartDepth::thin
                                                     : PartDepth::any,
+                              lanes.bounded[lane] != 0,
                               to_float(lanes.farthest, lane)};
         TetRecord& record = result.records[lane];
         store_faces(lanes, lane, record);

@@ -19,7 +19,7 @@ struct TetSetup::Lanes {
     std::array<Row, 4> x, y, z, value;                   // in
     Row piece_from, piece_to;                            // scalars at the ends of the part's piece
     std::array<Row, 4> at_from, at_to;                   // colour and extinction there
-    Row good, visible;                                   // out: 1 or 0
+    Row good, visible, bounded;                          // out: 1 or 0
     Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
     Row center_column, center_row, center_depth, center_z;
     Row farthest;                                          // PartArea::farthest

@@ -23,8 +23,10 @@ struct PartArea {
     std::int32_t first_column, last_column, first_row, last_row;
     bool careful;     // its depths are found in double (FragmentKind::careful)
     PartDepth depth;  // of any run through it
-    // No run ends beyond this depth, less the record's center: far outside a tet its planes meet at
-    // any depth, and rounding alone makes runs there.
+    // Outside a tet its planes meet at any depth, and rounding alone may make runs there that are
+    // seen: then no pixel outside these columns and rows counts, and no run ends beyond `farthest`,
+    // a depth less the record's center.
+    bool bounded = true;
     float farthest = std::numeric_limits<float>::infinity();
 };
 
