@@ -41,5 +41,9 @@ function(lamina_vector_room name)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
         target_compile_options(lamina_${name} PUBLIC -msse4.2)
         target_compile_definitions(lamina_${name} PUBLIC HWY_DISABLE_PCLMUL_AES)
+    elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+        # Vectors are members of classes, which those of SVE cannot be.
+        target_compile_definitions(lamina_${name} PUBLIC
+            "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
     endif()
 endfunction()

@@ -7,7 +7,8 @@
 
 namespace lamina {
 
-// A random order, always the same: parts of one region come to lie in different leaves of a tree.
+// A random order, the same whatever the order before: parts of one region come to lie in different
+// leaves of a tree.
 void scatter(std::span<TetPart> parts);
 
 }  // namespace lamina

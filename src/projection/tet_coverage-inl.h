@@ -112,7 +112,9 @@ class TetCoverage {
         }
         const bool many = hwy::PopCount(blocks) > few_blocks;
         const std::uint64_t kept = many ? drop_missed(record, blocks) : blocks;
-        if (area.bounded) {
+        // Blocks at the picture's right and lower edge may stick out of it.
+        const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
+        if (area.bounded || !whole_blocks) {
             find_in<cut, true, PlainDepths<Tag>>(record, area, kept, covered);
         } else {
             find_in<cut, false, PlainDepths<Tag>>(record, area, kept, covered);

@@ -186,9 +186,12 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFra
         const V center = hn::Set(d, record.center_depth);
         const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
         if (fragments.one_division) {
-            const V product = hn::Div(hn::Set(d, 1.0f), hn::Mul(depth_front, depth_back));
-            z_front = hn::Neg(hn::Mul(depth_back, product));
-            z_back = hn::Neg(hn::Mul(depth_front, product));
+            // All depths that are seen are less; at the horizon roundings may reach 0.
+            const V most = hn::Set(d, -1e-18f);
+            const V near = hn::Min(depth_front, most), far = hn::Min(depth_back, most);
+            const V product = hn::Div(hn::Set(d, 1.0f), hn::Mul(near, far));
+            z_front = hn::Neg(hn::Mul(far, product));
+            z_back = hn::Neg(hn::Mul(near, product));
         } else {
             const V minus_one = hn::Set(d, -1.0f), most = hn::Set(d, -1e-30f);
             z_front = hn::Div(minus_one, hn::Min(depth_front, most));

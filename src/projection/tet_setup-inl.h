@@ -262,6 +262,7 @@ class TetVectors {
         set_cut(low, hn::Gt(from, least_), true, lanes_.lower_cut);
         set_cut(high, hn::Lt(to, largest_), false, lanes_.upper_cut);
         const VD width = hn::Sub(to, from);
+        constexpr std::size_t extinction = 3;
         VD most = hn::Zero(d_);
         for (std::size_t channel = 0; channel < 4; ++channel) {
             const VD at_from = load(lanes_.at_from[channel]), at_to = load(lanes_.at_to[channel]);
@@ -273,7 +274,7 @@ class TetVectors {
             const VD at_low = at(low), at_high = at(high);
             store(lanes_.low[channel], at_low);
             store(lanes_.high[channel], at_high);
-            most = hn::Max(at_low, at_high);  // in the end of the extinction
+            if (channel == extinction) most = hn::Max(at_low, at_high);
         }
         VD longest = hn::Zero(d_);
         for (std::size_t i = 0; i < 4; ++i) {

@@ -44,6 +44,7 @@ class TileChunk {
           parts_of_tile_(static_cast<std::size_t>(tiles)) {}
 
     void clear() {
+        if (count_ == 0) return;  // no tile has parts of it
         count_ = 0;
         tets_ = 0;
         first_tet_ = last_tet_ = -1;

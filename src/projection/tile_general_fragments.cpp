@@ -76,7 +76,7 @@ class TriangleDrawing {
             const Vector inverse = interpolate(d_, weights, a.inverse.x, b.inverse.x, c.inverse.x);
             z_front = hn::Div(one, inverse);
             z_back = hn::Div(one, hn::Sub(inverse, length));
-            length = hn::Mul(hn::Mul(length, z_front), z_back);
+            length = hn::Max(hn::Mul(hn::Mul(length, z_front), z_back), hn::Zero(d_));
             if (tile_.slants != nullptr)
                 length = hn::Mul(length, hn::Load(d_, tile_.slants + place));
         }

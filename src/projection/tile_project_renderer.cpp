@@ -99,12 +99,16 @@ std::int64_t TileProjectRenderer::byte_count() const {
     for (const Chunks& batch : batches_) {
         for (const auto& chunk : batch) bytes += chunk->byte_count();
     }
+    bytes += static_cast<std::int64_t>(scattered_.capacity() * sizeof(TetPart));
+    if (tables_) bytes += tables_->byte_count();
+    if (tree_) bytes += tree_->byte_count();
     return bytes;
 }
 
 void TileProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = draw_ms_ = 0;
     tets_drawn_ = 0;
+    last_tet_ = -1;
     clear();
     if (!parts_) return;
     const Stopwatch order_watch;
@@ -133,7 +137,6 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<con
                     parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
                     batches_[batch % 2]);
     };
-    last_tet_ = -1;
     project_batch(0);
     for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
         const Chunks& chunks = batches_[batch % 2];

@@ -47,9 +47,10 @@ bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleReco
     };
     const double rounded_area = area_of(places);
     if (!(std::abs(rounded_area) > 0) || !std::isfinite(rounded_area)) return false;
-    // Rounding may turn slivers over: then what is interpolated lies between rounded corners, too.
-    const bool turned = area_of(exact) * rounded_area <= 0;
-    const std::array<glm::dvec2, 3>& between = turned ? places : exact;
+    // Rounding widens slivers and may turn them over: far outside their exact corners nothing can
+    // be interpolated, and it is done between the rounded ones.
+    const bool is_sliver = area_of(exact) * rounded_area <= 0.01 * rounded_area * rounded_area;
+    const std::array<glm::dvec2, 3>& between = is_sliver ? places : exact;
     const double area = area_of(between);
     for (std::size_t i = 0; i < 3; ++i) {
         record.edges[i] = edge_of(places[(i + 1) % 3], places[(i + 2) % 3], places[i]);

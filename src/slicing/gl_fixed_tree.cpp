@@ -6,9 +6,9 @@
 #include <span>
 
 #include "base/interrupt.h"
-#include "compositing/unit_opacity.h"
 #include "gl/full_screen.h"
 #include "slicing/gl_compositing.h"
+#include "slicing/swizzle.h"
 
 namespace lamina {
 namespace {
@@ -17,15 +17,13 @@ constexpr int child_unit = 6, swizzle_unit = 7;
 constexpr int swizzle_width = 256;  // shaders/slicing/swizzle.frag
 
 // For each code of a child's image its opacity in the node, as a scaled value.
-gl::Texture make_swizzle(int bits, double share) {
-    const std::uint32_t largest = largest_code(bits);
-    const int rows = static_cast<int>(largest / swizzle_width) + 1;
+gl::Texture upload_swizzle(const Swizzle& swizzle) {
+    const std::size_t codes = swizzle.whole.size();
+    const int rows = static_cast<int>((codes + swizzle_width - 1) / swizzle_width);
     std::vector<float> texels(2 * static_cast<std::size_t>(rows) * swizzle_width);
-    for (std::uint32_t code = 0; code <= largest; ++code) {
-        const double phi = static_cast<double>(code) / largest;
-        const ScaledValue scaled = split_scaled(largest * opacity_over(phi, share));
-        texels[2 * code] = static_cast<float>(scaled.whole);
-        texels[2 * code + 1] = static_cast<float>(scaled.rest);
+    for (std::size_t code = 0; code < codes; ++code) {
+        texels[2 * code] = swizzle.whole[code];
+        texels[2 * code + 1] = swizzle.rest[code];
     }
     gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::rg32f, swizzle_width, rows);
     texture.upload({0, 0, 0, swizzle_width, rows, 1}, std::span<const float>(texels));
@@ -56,7 +54,8 @@ GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
     for (int level = 0; level < shape_.levels(); ++level) {
         buffers_.emplace_back(gl::Texture::make_2d(opacity_format(plan), width, height));
     }
-    make_swizzles(0, shape_.root());
+    for (const auto& [sizes, swizzle] : make_swizzles(shape_, plan.code_bits()))
+        swizzles_.emplace(sizes, upload_swizzle(swizzle));
     swizzle_.set("child", child_unit);
     swizzle_.set("swizzle", swizzle_unit);
     if (plan_.blending == Blending::barrier) swizzle_.set("target", target_unit);
@@ -66,23 +65,6 @@ GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
     }
     colorize_.set("root", child_unit);
     colorize_.set("single_color", single_color);
-}
-
-// Nodes of a level have one of few sizes: each once.
-void GlFixedTree::make_swizzles(int level, const SampleSpan& node) {
-    if (shape_.is_leaf(level, node)) return;
-    int last_size = 0;
-    for (int i = 0; i < shape_.factor(level); ++i) {
-        const SampleSpan child = child_span(node, i, shape_.factor(level));
-        if (child.count == 0 || child.count == last_size) continue;
-        last_size = child.count;
-        const auto [place, made] = swizzles_.try_emplace({child.count, node.count});
-        if (made) {
-            place->second =
-                make_swizzle(plan_.code_bits(), static_cast<double>(child.count) / node.count);
-        }
-        if (made || child.count == node.count) make_swizzles(level + 1, child);
-    }
 }
 
 void GlFixedTree::draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress) {

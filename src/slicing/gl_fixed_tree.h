@@ -32,7 +32,6 @@ class GlFixedTree {
     void draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress);
 
   private:
-    void make_swizzles(int level, const SampleSpan& node);
     void evaluate(int level, const SampleSpan& node, TreeLeaves& leaves, Progress* progress);
     void put_into_parent(int level, const SampleSpan& child, const SampleSpan& node);
 

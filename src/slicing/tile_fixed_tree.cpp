@@ -2,7 +2,6 @@
 #include "slicing/tile_fixed_tree.h"
 
 #include "base/interrupt.h"
-#include "compositing/unit_opacity.h"
 
 namespace lamina {
 
@@ -19,32 +18,8 @@ TileFixedTree::TileFixedTree(const CompositingPlan& plan, const TreeShape& shape
     : blend_(target_blend(plan)),
       emulated_(plan.emulation.has_value()),
       shape_(shape),
-      single_color_(single_color) {
-    make_swizzles(0, shape_.root());
-}
-
-// Nodes of a level have one of few sizes: each once.
-void TileFixedTree::make_swizzles(int level, const SampleSpan& node) {
-    if (shape_.is_leaf(level, node)) return;
-    int last_size = 0;
-    for (int i = 0; i < shape_.factor(level); ++i) {
-        const SampleSpan child = child_span(node, i, shape_.factor(level));
-        if (child.count == 0 || child.count == last_size) continue;
-        last_size = child.count;
-        const auto [place, made] = swizzles_.try_emplace({child.count, node.count});
-        if (made) {
-            const double share = static_cast<double>(child.count) / node.count;
-            const std::uint32_t largest = largest_code(blend_.bits);
-            for (std::uint32_t code = 0; code <= largest; ++code) {
-                const double phi = static_cast<double>(code) / largest;
-                const ScaledValue scaled = split_scaled(largest * opacity_over(phi, share));
-                place->second.whole.push_back(static_cast<float>(scaled.whole));
-                place->second.rest.push_back(static_cast<float>(scaled.rest));
-            }
-        }
-        if (made || child.count == node.count) make_swizzles(level + 1, child);
-    }
-}
+      single_color_(single_color),
+      swizzles_(make_swizzles(shape, blend_.bits)) {}
 
 void TileFixedTree::draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const {
     Evaluation evaluation{area, leaves, 0, {}};

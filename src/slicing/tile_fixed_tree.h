@@ -3,11 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
-#include <utility>
-#include <vector>
 
 #include "compositing/tree_shape.h"
+#include "slicing/swizzle.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_image.h"
 
@@ -46,20 +44,15 @@ class TileFixedTree {
     std::int64_t byte_count() const;
 
   private:
-    // For each code of a child its opacity in the node, times the largest code, in two parts.
-    struct Swizzle {
-        std::vector<float> whole, rest;
-    };
     struct Evaluation;
 
-    void make_swizzles(int level, const SampleSpan& node);
     void evaluate(int level, const SampleSpan& node, Evaluation& evaluation) const;
 
     TargetBlend blend_;
     bool emulated_;
     TreeShape shape_;
     std::array<float, 3> single_color_;
-    std::map<std::pair<int, int>, Swizzle> swizzles_;  // by samples of child and node
+    Swizzles swizzles_;
 };
 
 // The vector parts of it.

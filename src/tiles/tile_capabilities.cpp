@@ -12,7 +12,7 @@
 namespace lamina {
 
 Capabilities tile_capabilities() {
-    constexpr int largest_edge = 32768;  // pixel coordinates and their products stay exact in float
+    constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
     const int threads = tbb::this_task_arena::max_concurrency();
     capabilities.renderer =

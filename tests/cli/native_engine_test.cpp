@@ -97,6 +97,7 @@ TEST_F(NativeEngine, IsTheDefaultWithoutAGpu) {
     const json stats = stats_of("auto", "slice");
     const std::string context = stats["context"];
     EXPECT_TRUE(context.starts_with("cpu: ") || context.starts_with("EGL: ")) << context;
+    EXPECT_EQ(context.find("llvmpipe"), std::string::npos) << context;
     EXPECT_EQ(stats["bytes_gpu"] == 0, context.starts_with("cpu: "));
 }
 
