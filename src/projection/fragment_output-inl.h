@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 #include "projection/tile_fragments.h"
-#include "tiles/random_bits-inl.h"
+#include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,12 +32,8 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> random_of_fragments(D, const TetFrag
                                                                 std::uint32_t number) {
     const hn::RebindToUnsigned<D> du;
     const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(place));
-    const auto lane = hn::Iota(du, 0);
-    const auto from = [&](int pixel) { return hn::Set(du, static_cast<std::uint32_t>(pixel)); };
-    const auto column = hn::Add(from(area.column + first.column), hn::And(lane, hn::Set(du, 3u)));
-    const auto row = hn::Add(from(area.row + first.row), hn::ShiftRight<2>(lane));
-    static_assert(TileGrid::block == 4);
-    return random_bits(du, column, row, hn::Set(du, number), hn::Set(du, fragments.seed));
+    return random_of_pixels(du, area.column + first.column, area.row + first.row, number,
+                            fragments.seed);
 }
 
 // Kraus 2004, section 4.2, with one random number for all channels: the blending unit rounds

@@ -12,7 +12,6 @@
 #include "base/stopwatch.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
-#include "projection/scatter.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
 #include "slicing/gl_compositing.h"
@@ -142,13 +141,9 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
 }
 
 std::span<const TetPart> GlProjectRenderer::list_parts(const View& view) {
-    if (!scattered_.empty()) return scattered_;
     const Eye eye = eye_of(view);
-    const auto parts = parts_->list(order_.sort(eye), eye);
-    if (!plan_.scattered) return parts;
-    scattered_.assign(parts.begin(), parts.end());
-    scatter(scattered_);
-    return scattered_;
+    if (!plan_.scattered) return parts_->list(order_.sort(eye), eye);
+    return parts_->scattered(parts_->is_scattered() ? order_.order() : order_.sort(eye), eye);
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {

@@ -73,7 +73,6 @@ class GlProjectRenderer : public ProjectRenderer {
     std::optional<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;
     std::optional<GlFixedTree> tree_;  // where the plan has one
-    std::vector<TetPart> scattered_;   // of every frame, where the plan says so
     std::int64_t tets_drawn_ = 0;
     double order_ms_ = 0, draw_ms_ = 0;
 };

@@ -11,7 +11,6 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "projection/scatter.h"
 #include "projection/tie_shift.h"
 
 namespace lamina {
@@ -99,7 +98,6 @@ std::int64_t TileProjectRenderer::byte_count() const {
     for (const Chunks& batch : batches_) {
         for (const auto& chunk : batch) bytes += chunk->byte_count();
     }
-    bytes += static_cast<std::int64_t>(scattered_.capacity() * sizeof(TetPart));
     if (tables_) bytes += tables_->byte_count();
     if (tree_) bytes += tree_->byte_count();
     return bytes;
@@ -160,13 +158,9 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 }
 
 std::span<const TetPart> TileProjectRenderer::list_parts(const View& view) {
-    if (!scattered_.empty()) return scattered_;
     const Eye eye = eye_of(view);
-    const auto parts = parts_->list(order_.sort(eye), eye);
-    if (!plan_.scattered) return parts;
-    scattered_.assign(parts.begin(), parts.end());
-    scatter(scattered_);
-    return scattered_;
+    if (!plan_.scattered) return parts_->list(order_.sort(eye), eye);
+    return parts_->scattered(parts_->is_scattered() ? order_.order() : order_.sort(eye), eye);
 }
 
 void TileProjectRenderer::set_view(const View& view) {

@@ -93,7 +93,6 @@ class TileProjectRenderer : public ProjectRenderer {
     std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
     std::optional<VisibleParts> parts_;
     std::optional<TileTetTree> tree_;  // where the plan has one
-    std::vector<TetPart> scattered_;   // of every frame, where the plan says so
     TetFragments fragments_{};
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;      // of tiles; empty where all are 1

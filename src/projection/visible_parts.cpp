@@ -6,8 +6,10 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
+#include "compositing/random_bits.h"
 #include "projection/part_field.h"
 
 namespace lamina {
@@ -48,6 +50,20 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
             append_parts(tet, span, eye);
         }
     }
+    return parts_;
+}
+
+std::span<const TetPart> VisibleParts::scattered(std::span<const std::int32_t> order,
+                                                 const Eye& eye) {
+    if (is_scattered_) return parts_;
+    list(order, eye);
+    // Whatever the eye.
+    std::ranges::sort(parts_, {},
+                      [](const TetPart& part) { return std::pair(part.tet, part.piece); });
+    SplitMix64 random(1);
+    for (std::size_t left = parts_.size(); left > 1; --left)
+        std::swap(parts_[left - 1], parts_[random.next() % left]);
+    is_scattered_ = true;
     return parts_;
 }
 

@@ -22,7 +22,11 @@ class VisibleParts {
 
     // Of tets in visibility order. Valid until the next call, which takes no memory.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
-    std::int64_t count() const { return count_; }  // of every list
+    // In a random order that is the same for every view: parts of one region come to lie in
+    // different leaves of a tree. Stays valid; list() is not called beside it.
+    std::span<const TetPart> scattered(std::span<const std::int32_t> order, const Eye& eye);
+    bool is_scattered() const { return is_scattered_; }  // scattered() needs no new order
+    std::int64_t count() const { return count_; }        // of every list
 
   private:
     void append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye);
@@ -35,6 +39,7 @@ class VisibleParts {
     std::vector<TetPieces::Span> spans_;  // of tets; empty where all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;
+    bool is_scattered_ = false;
 };
 
 }  // namespace lamina

@@ -10,7 +10,7 @@
 
 #include "slicing/tile_precise-inl.h"
 #include "slicing/tile_segments-inl.h"
-#include "tiles/random_bits-inl.h"
+#include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -183,13 +183,7 @@ class SlabBlender {
     Words random_of(int number) const {
         const WordTag d;
         if (target_.alpha_rounding != AlphaRounding::stochastic) return hn::Zero(d);
-        const Words lane = hn::Iota(d, 0);
-        const Words column =
-            hn::Add(hn::Set(d, static_cast<std::uint32_t>(column_)), hn::And(lane, hn::Set(d, 3u)));
-        const Words row =
-            hn::Add(hn::Set(d, static_cast<std::uint32_t>(row_)), hn::ShiftRight<2>(lane));
-        return random_bits(d, column, row, hn::Set(d, static_cast<std::uint32_t>(number)),
-                           hn::Set(d, target_.seed));
+        return random_of_pixels(d, column_, row_, static_cast<std::uint32_t>(number), target_.seed);
     }
 
     Floats code_of_color(int slab, std::size_t channel) const {

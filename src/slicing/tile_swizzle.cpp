@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tiles/random_bits-inl.h"
+#include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,12 +39,8 @@ void swizzle_pixels(const TileSwizzle& swizzle, const TileGrid::Tile& area,
         }
         auto random = hn::Zero(du);
         if (target.alpha_rounding == AlphaRounding::stochastic) {
-            const auto lane = hn::Iota(du, 0);
-            const auto column = static_cast<std::uint32_t>(area.column + at.column);
-            const auto row = static_cast<std::uint32_t>(area.row + at.row);
-            random = random_bits(du, hn::Add(hn::Set(du, column), hn::And(lane, hn::Set(du, 3u))),
-                                 hn::Add(hn::Set(du, row), hn::ShiftRight<2>(lane)),
-                                 hn::Set(du, swizzle.stage), hn::Set(du, target.seed));
+            random = random_of_pixels(du, area.column + at.column, area.row + at.row, swizzle.stage,
+                                      target.seed);
         }
         const auto wholes = to_doubles(d, whole), rests = to_doubles(d, rest);
         const auto chance = to_doubles_of_bits(d, random);
