@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "mesh/visibility_order.h"
 #include "scene/frame_renderer.h"
+#include "scene/plan.h"
+#include "scene/scene_mesh.h"
 
 namespace lamina {
 
@@ -14,5 +17,13 @@ class ProjectRenderer : public FrameRenderer {
     virtual const OrderReport& order_report() const = 0;
     virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
 };
+
+// Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
+// current OpenGL context, which must outlive it, as must mesh and transfer function.
+std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
+                                                       const TransferFunction& transfer_function,
+                                                       const ProjectPlan& plan,
+                                                       const Capabilities& capabilities, int width,
+                                                       int height);
 
 }  // namespace lamina

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "slicing/gl_slice_renderer.h"
+#include "slicing/slice_renderer.h"
 
 namespace lamina {
 
@@ -17,10 +17,10 @@ Facts DrawnVolume::measure_for(const Scene& scene) const {
 Image DrawnVolume::draw(const Scene& scene, const Capabilities& capabilities) const {
     const Facts facts = measure_for(scene);
     const Plan plan = make_plan(scene, facts, capabilities, {});
-    GlSliceRenderer renderer(volume_, scene.transfer_function, facts, plan.slice, capabilities,
-                             scene.width, scene.height);
-    renderer.draw(View(scene.camera, scene.width, scene.height));
-    return renderer.read();
+    const auto renderer = make_slice_renderer(volume_, scene.transfer_function, facts, plan.slice,
+                                              capabilities, scene.width, scene.height);
+    renderer->draw(View(scene.camera, scene.width, scene.height));
+    return renderer->read();
 }
 
 Scene with_paper_hardware(Scene scene) {

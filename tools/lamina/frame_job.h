@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "draw_context.h"
 #include "render_job.h"
 #include "scene/frame_renderer.h"
+#include "study/draw_context.h"
 
 namespace lamina {
 

@@ -5,8 +5,7 @@
 
 #include "frame_job.h"
 #include "loaded_mesh.h"
-#include "projection/gl_project_renderer.h"
-#include "projection/tile_project_renderer.h"
+#include "projection/project_renderer.h"
 
 namespace lamina {
 namespace {
@@ -29,7 +28,9 @@ class ProjectMethod : public FrameMethod {
 
     std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
                                                  const Capabilities& capabilities) override {
-        auto renderer = make_project_renderer(plan.project, capabilities);
+        const Scene& scene = request_.scene;
+        auto renderer = make_project_renderer(mesh_->data, scene.transfer_function, plan.project,
+                                              capabilities, scene.width, scene.height);
         renderer_ = renderer.get();
         return renderer;
     }
@@ -48,17 +49,6 @@ class ProjectMethod : public FrameMethod {
     }
 
   private:
-    std::unique_ptr<ProjectRenderer> make_project_renderer(const ProjectPlan& plan,
-                                                           const Capabilities& capabilities) const {
-        const Scene& scene = request_.scene;
-        if (capabilities.tiles) {
-            return std::make_unique<TileProjectRenderer>(mesh_->data, scene.transfer_function, plan,
-                                                         scene.width, scene.height);
-        }
-        return std::make_unique<GlProjectRenderer>(mesh_->data, scene.transfer_function, plan,
-                                                   capabilities, scene.width, scene.height);
-    }
-
     const RenderRequest request_;
     std::optional<LoadedMesh> mesh_;
     const ProjectRenderer* renderer_ = nullptr;  // that make_renderer() made

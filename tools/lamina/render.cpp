@@ -10,10 +10,10 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
-#include "context_choice.h"
 #include "render_job.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
+#include "study/context_choice.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -5,12 +5,12 @@
 #include <memory>
 #include <string>
 
-#include "context_choice.h"
 #include "picture_file.h"
 #include "render_stats.h"
 #include "scene/camera.h"
 #include "scene/plan.h"
 #include "scene/scene.h"
+#include "study/context_choice.h"
 
 namespace lamina {
 

@@ -3,8 +3,7 @@
 
 #include "frame_job.h"
 #include "loaded_volume.h"
-#include "slicing/gl_slice_renderer.h"
-#include "slicing/tile_slice_renderer.h"
+#include "slicing/slice_renderer.h"
 
 namespace lamina {
 namespace {
@@ -29,14 +28,8 @@ class SliceMethod : public FrameMethod {
                                                  const Capabilities& capabilities) override {
         const Scene& scene = request_.scene;
         slabs_ = plan.slice.slabs;
-        if (capabilities.tiles) {
-            return std::make_unique<TileSliceRenderer>(data_->volume, scene.transfer_function,
-                                                       data_->facts, plan.slice, scene.width,
-                                                       scene.height);
-        }
-        return std::make_unique<GlSliceRenderer>(data_->volume, scene.transfer_function,
-                                                 data_->facts, plan.slice, capabilities,
-                                                 scene.width, scene.height);
+        return make_slice_renderer(data_->volume, scene.transfer_function, data_->facts, plan.slice,
+                                   capabilities, scene.width, scene.height);
     }
 
     void report(RenderStats& stats) const override { stats.samples = slabs_; }

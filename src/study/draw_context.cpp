@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "draw_context.h"
+#include "study/draw_context.h"
 
 #include "base/error.h"
 #include "tiles/tile_capabilities.h"

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "context_choice.h"
 #include "gl/context.h"
 #include "scene/capabilities.h"
+#include "study/context_choice.h"
 
 namespace lamina {
 

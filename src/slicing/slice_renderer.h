@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "scene/frame_renderer.h"
+#include "scene/plan.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// Draws a volume as the plan says with what the capabilities are of: the native engine, or the
+// current OpenGL context, which must outlive it, as must the volume.
+std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
+                                                   const TransferFunction& transfer_function,
+                                                   const Facts& facts, const SlicePlan& plan,
+                                                   const Capabilities& capabilities, int width,
+                                                   int height);
+
+}  // namespace lamina
