@@ -27,13 +27,13 @@ std::optional<std::string> find_in_override(const std::string& name) {
 
 std::vector<std::string> shader_names() {
     std::vector<std::string> names;
-    for (const EmbeddedShader& shader : embedded_shaders()) names.emplace_back(shader.name);
+    for (const EmbeddedFile& shader : embedded_shaders()) names.emplace_back(shader.name);
     return names;
 }
 
 std::optional<std::string> find_shader(const std::string& name) {
     if (auto text = find_in_override(name)) return text;
-    for (const EmbeddedShader& shader : embedded_shaders()) {
+    for (const EmbeddedFile& shader : embedded_shaders()) {
         if (shader.name == name) return std::string(shader.text);
     }
     return std::nullopt;
