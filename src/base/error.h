@@ -23,10 +23,11 @@ class UsageError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The user pressed Ctrl-C: exit code 130.
+// The user pressed Ctrl-C: exit code 130. The message says what is left behind.
 class Interrupted : public std::runtime_error {
   public:
-    Interrupted() : std::runtime_error("interrupted") {}
+    Interrupted() : std::runtime_error("interrupted, nothing written") {}
+    using std::runtime_error::runtime_error;
 };
 
 template <typename... Args>

@@ -12,15 +12,17 @@ namespace {
 
 constexpr double redraw_seconds = 0.5;
 bool quiet_process = false;
+std::atomic<bool> one_is_shown{false};
 
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total)
     : label_(std::move(label)),
       total_(std::max<std::int64_t>(total, 1)),
-      visible_(!quiet_process && isatty(STDERR_FILENO) != 0) {}
+      visible_(!quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true)) {}
 
 Progress::~Progress() {
+    if (visible_) one_is_shown = false;
     if (drawn_) fmt::print(stderr, "\r\033[K");
 }
 

@@ -12,7 +12,7 @@ namespace lamina {
 
 // A line on stderr with the share done and the time left, for work that takes longer than a second
 // or so. Drawn only on a terminal, at most twice a second, and wiped when done; silent everywhere
-// else.
+// else. Of several at a time only the first is drawn: the one of the whole work.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);

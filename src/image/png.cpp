@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <cmath>
 #include <csetjmp>
@@ -146,6 +147,22 @@ void write_png(AtomicFile& file, const CodedImage& image) {
         png_write_end(writer.png, writer.info);
     });
     if (!written) fail("{}: cannot write: {}", name, one_line(writer.message));
+}
+
+std::string encode_png(const CodedImage& image) {
+    assert(image.channels == 3 && image.bit_depth == 8);
+    const std::vector<png_byte> bytes(image.codes.begin(), image.codes.end());
+    png_image header{};
+    header.version = PNG_IMAGE_VERSION;
+    header.width = static_cast<png_uint_32>(image.width);
+    header.height = static_cast<png_uint_32>(image.height);
+    header.format = PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+    std::string encoded(size, '\0');
+    if (png_image_write_to_memory(&header, encoded.data(), &size, 0, bytes.data(), 0, nullptr) == 0)
+        fail("cannot make a PNG: {}", one_line(header.message));
+    encoded.resize(size);
+    return encoded;
 }
 
 CodedImage read_png(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "base/atomic_file.h"
 #include "image/coded_image.h"
@@ -19,6 +20,9 @@ std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& ba
 
 // The codes as they are, marked as sRGB.
 void write_png(AtomicFile& file, const CodedImage& image);
+
+// The bytes of a PNG file, of an RGB picture of 8 bits.
+std::string encode_png(const CodedImage& image);
 
 // Palettes and grey of fewer than 8 bits are expanded to 8 bits, a transparent colour to an alpha
 // channel; codes are otherwise as stored. Throws Error for damaged files and for sizes beyond

@@ -46,8 +46,10 @@ inline Eye eye_of(const View& view) {
     return {view.eye, false};
 }
 
-// The camera with its eye turned by `degrees` about the axis `up` through `center` (lamina render
-// --frames).
+// Timed frames of a moving camera are this far apart (DESIGN section 5, --frames).
+inline constexpr double degrees_per_frame = 0.1;
+
+// The camera with its eye turned by `degrees` about the axis `up` through `center`.
 Camera turned(const Camera& camera, double degrees);
 
 }  // namespace lamina

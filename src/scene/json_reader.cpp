@@ -217,7 +217,8 @@ std::filesystem::path JsonReader::path_of(const std::string& key) {
 void JsonReader::close() const {
     for (const auto& [key, ignored] : object_.items()) {
         if (asked_.contains(key)) continue;
-        fail_at(key, "unknown key" + suggestion(asked_, key));
+        throw UnknownKeyError(path_to(key), fmt::format("{}: {}: unknown key{}", file_.string(),
+                                                        path_to(key), suggestion(asked_, key)));
     }
 }
 

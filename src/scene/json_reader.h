@@ -23,6 +23,12 @@ class KeyError : public Error {
     std::string key;
 };
 
+// One that nobody asked for.
+class UnknownKeyError : public KeyError {
+  public:
+    using KeyError::KeyError;
+};
+
 // Reads the file; syntax errors, repeated keys and files over 64 MiB are Errors with line and
 // column.
 nlohmann::json load_json(const std::filesystem::path& file);
@@ -67,7 +73,7 @@ class JsonReader {
         reject(key, "one of " + words);
     }
 
-    void close() const;  // throws KeyError for a key that nobody asked for
+    void close() const;  // throws UnknownKeyError for a key that nobody asked for
     [[noreturn]] void reject(const std::string& key, const std::string& expected);
     [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
 

@@ -3,29 +3,9 @@
 
 #include <utility>
 
-#include "reference/mesh_tracer.h"
+#include "study/picture_key.h"
 
 namespace lamina {
-namespace {
-
-std::vector<double> seen_in(const Scene& scene) {
-    std::vector<double> seen{static_cast<double>(scene.camera.projection), scene.camera.fov_y,
-                             scene.camera.height, static_cast<double>(scene.width),
-                             static_cast<double>(scene.height)};
-    const auto add = [&](const glm::dvec3& v) { seen.insert(seen.end(), {v.x, v.y, v.z}); };
-    add(scene.camera.eye);
-    add(scene.camera.center);
-    add(scene.camera.up);
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
-        seen.push_back(knot.value);
-        add(knot.optics.color);
-        seen.push_back(knot.optics.extinction);
-    }
-    return seen;
-}
-
-}  // namespace
-
 DrawnMesh::DrawnMesh(SceneMesh mesh)
     : mesh_(std::move(mesh)), open_faces_(mesh_.mesh, mesh_.mesh.open_faces()) {}
 
@@ -42,15 +22,16 @@ Image DrawnMesh::draw(const Scene& scene, const Capabilities& capabilities) cons
     return drawing->read();
 }
 
+MeshTraceResult DrawnMesh::trace(const Scene& scene) const {
+    return trace_mesh(mesh_.mesh, open_faces_, mesh_.scalar.values, scene.transfer_function,
+                      View(scene.camera, scene.width, scene.height));
+}
+
 const PreciseImage& DrawnMesh::exact(const Scene& scene) {
-    std::vector<double> seen = seen_in(scene);
-    for (const Traced& traced : traced_) {
-        if (traced.seen == seen) return traced.image;
-    }
-    MeshTraceResult result =
-        trace_mesh(mesh_.mesh, open_faces_, mesh_.scalar.values, scene.transfer_function,
-                   View(scene.camera, scene.width, scene.height));
-    return traced_.emplace_back(Traced{std::move(seen), std::move(result.image)}).image;
+    const std::string key = picture_key(scene);
+    const auto found = traced_.find(key);
+    if (found != traced_.end()) return found->second;
+    return traced_.emplace(key, trace(scene).image).first->second;
 }
 
 }  // namespace lamina

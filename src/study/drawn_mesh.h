@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
+#include <map>
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "image/image.h"
 #include "mesh/face_tree.h"
 #include "projection/gl_project_renderer.h"
+#include "reference/mesh_tracer.h"
 #include "scene/capabilities.h"
 #include "scene/plan.h"
 #include "scene/scene_mesh.h"
@@ -21,6 +22,7 @@ class DrawnMesh {
     explicit DrawnMesh(SceneMesh mesh);
 
     const TetMesh& tets() const { return mesh_.mesh; }
+    const SceneMesh& data() const { return mesh_; }
     MeshFacts measure_for(const Scene& scene) const { return measure(scene, mesh_); }
     // As `lamina render` draws the scene by projection. The renderer refers to this mesh and to the
     // scene's transfer function.
@@ -28,17 +30,14 @@ class DrawnMesh {
                                                 const Capabilities& capabilities) const;
     Image draw(const Scene& scene, const Capabilities& capabilities) const;
 
-    // What the tracer makes of the scene; traced once for a transfer function, camera and size.
+    MeshTraceResult trace(const Scene& scene) const;
+    // The tracer's picture, made once for a transfer function, camera and size.
     const PreciseImage& exact(const Scene& scene);
 
   private:
-    struct Traced {
-        std::vector<double> seen;  // all that the picture depends on
-        PreciseImage image;
-    };
     SceneMesh mesh_;
     FaceTree open_faces_;
-    std::deque<Traced> traced_;  // references stay valid
+    std::map<std::string, PreciseImage> traced_;  // by picture_key()
 };
 
 }  // namespace lamina

@@ -6,16 +6,12 @@
 #include <ctime>
 
 #include "base/interrupt.h"
+#include "base/median.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
 
 namespace lamina {
 namespace {
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 double cpu_milliseconds() {
     return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -46,7 +42,7 @@ std::vector<FrameTimes> time_interleaved(const std::string& label,
     std::vector<FrameTimes> times;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const auto [fastest, slowest] = std::minmax_element(ms[i].begin(), ms[i].end());
-        times.push_back({median(ms[i]), median(cpu[i]), *slowest / *fastest});
+        times.push_back({median(ms[i]), median(cpu[i]), *fastest, *slowest, ms[i].size()});
     }
     return times;
 }
@@ -60,7 +56,7 @@ nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
                         {"ratio", times[i].ms / times[0].ms},
                         {"cpu_ms", times[i].cpu_ms},
                         {"cpu_ratio", times[i].cpu_ms / times[0].cpu_ms},
-                        {"slowest_over_fastest", times[i].spread}});
+                        {"slowest_over_fastest", times[i].max / times[i].min}});
     }
     return rows;
 }

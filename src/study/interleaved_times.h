@@ -18,7 +18,8 @@ struct TimedFrame {
 struct FrameTimes {
     double ms = 0;      // median, by the clock
     double cpu_ms = 0;  // median, of all threads of the process
-    double spread = 1;  // slowest over fastest, by the clock
+    double min = 0, max = 0;
+    std::size_t count = 0;
 };
 
 // Rounds A B C, A B C ...: what slows the machine for a while slows all of them. At least three

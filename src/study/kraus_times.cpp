@@ -211,7 +211,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
                  {"tets", tets},
                  {"ms", times[i].ms},
                  {"cpu_ms", times[i].cpu_ms},
-                 {"slowest_over_fastest", times[i].spread},
+                 {"slowest_over_fastest", times[i].max / times[i].min},
                  {"tets_per_second", 1e3 * tets / times[i].ms}};
         add_stages(row, frames[i].renderer());
         row["order_share"] = row["order_ms"].get<double>() /

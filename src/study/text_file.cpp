@@ -16,25 +16,41 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
     file.commit();
 }
 
+namespace {
+
+// RFC 4180: in quotes where it holds a comma, a quote or the end of a line.
+std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
+    std::string text = "\"";
+    for (const char c : cell) {
+        if (c == '"') text += '"';
+        text += c;
+    }
+    return text + '"';
+}
+
+}  // namespace
+
 CsvTable::CsvTable(const std::vector<std::string>& columns) : columns_(columns.size()) {
     add_row(columns);
 }
 
 void CsvTable::add_row(const std::vector<std::string>& cells) {
     assert(cells.size() == columns_);
-    text_ += fmt::format("{}\n", fmt::join(cells, ","));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i > 0) text_ += ',';
+        text_ += quoted(cells[i]);
+    }
+    text_ += '\n';
 }
 
 namespace {
 
-// RFC 4180: in quotes where it holds a comma.
 std::string cell_of(const nlohmann::ordered_json& value) {
     if (value.is_null()) return {};
     if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
     if (!value.is_string()) return value.dump();
-    const std::string text = value.get<std::string>();
-    assert(text.find('"') == std::string::npos);
-    return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
+    return value.get<std::string>();
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 class CsvTable {
   public:
     explicit CsvTable(const std::vector<std::string>& columns);
-    // As many cells as columns, ready to print; none may hold a comma.
+    // As many cells as columns, as text.
     void add_row(const std::vector<std::string>& cells);
     const std::string& text() const { return text_; }
 
@@ -24,8 +24,7 @@ class CsvTable {
     std::string text_;
 };
 
-// Objects of the same keys and plain values, one a row; null is an empty cell, a string with a
-// comma is quoted.
+// Objects of the same keys and plain values, one a row; null is an empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace lamina

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "command_line.h"
 #include "verbs.h"
 
 namespace {
@@ -57,12 +58,13 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     lamina::catch_interrupts();
+    lamina::set_command_line(argc, argv);
     try {
         return run(argc, argv);
     } catch (const lamina::UsageError& error) {
         return report(error.what(), 2);
-    } catch (const lamina::Interrupted&) {
-        return report("interrupted, nothing written", 130);
+    } catch (const lamina::Interrupted& interrupted) {
+        return report(interrupted.what(), 130);
     } catch (const std::bad_alloc&) {
         return report("out of memory", 1);
     } catch (const std::exception& error) {

@@ -11,54 +11,21 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 #include "render_job.h"
-#include "scene/json_reader.h"
-#include "scene/scene_reader.h"
+#include "scene_options.h"
 #include "study/context_choice.h"
 #include "verbs.h"
 
 namespace lamina {
 namespace {
 
-constexpr double degrees_per_frame = 0.1;
-
 struct RenderOptions {
-    std::string scene, output, method, stats;
-    std::vector<std::string> settings, kept;
+    SceneOptions scene;
+    std::string output, stats;
+    std::vector<std::string> kept;
     int frames = 0;
     std::string context = "auto";
     bool explain = false, quiet = false;
 };
-
-// A mistake in --set or --method is one of usage (exit 2), one in the file is not.
-Scene load_scene(const RenderOptions& options, std::string& document_text) {
-    nlohmann::json document = load_json(options.scene);
-    std::vector<std::string> keys;
-    const auto apply = [&](const std::string& key, const std::string& value) {
-        set_key(document, key, value);
-        keys.push_back(key);
-    };
-    for (const std::string& setting : options.settings) {
-        const std::size_t equals = setting.find('=');
-        if (equals == std::string::npos) {
-            throw UsageError(
-                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", setting));
-        }
-        apply(setting.substr(0, equals), setting.substr(equals + 1));
-    }
-    if (!options.method.empty()) apply("render.method", options.method);
-    document_text = document.dump(2);
-    try {
-        return read_scene(document, options.scene);
-    } catch (const KeyError& error) {
-        for (const std::string& key : keys) {
-            if (error.key == key || key.starts_with(error.key + ".") ||
-                error.key.starts_with(key + ".")) {
-                throw UsageError(error.what());
-            }
-        }
-        throw;
-    }
-}
 
 OmissionSwitch omission_switch(const RenderOptions& options) {
     OmissionSwitch omissions;
@@ -85,8 +52,8 @@ void check_paths(const RenderOptions& options) {
                    std::filesystem::weakly_canonical(b, ignored);
     };
     for (const auto& [a, b] : {std::pair(options.output, options.stats),
-                               {options.output, options.scene},
-                               {options.stats, options.scene}}) {
+                               {options.output, options.scene.file},
+                               {options.stats, options.scene.file}}) {
         if (same(a, b))
             throw UsageError(
                 fmt::format("{}: expected different files for scene, -o and --stats", a));
@@ -123,7 +90,7 @@ std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
 // One `lamina render`: from the files to the picture and what it cost.
 void run(const RenderOptions& options) {
     std::string scene_text;
-    const Scene scene = load_scene(options, scene_text);
+    const Scene scene = load_scene(options.scene, scene_text);
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
@@ -165,12 +132,12 @@ void run(const RenderOptions& options) {
 void add_render(CLI::App& app, int&) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* const verb = app.add_subcommand("render", "Render a scene to a picture");
-    verb->add_option("SCENE", options->scene, "Scene file (JSON)")->required();
+    verb->add_option("SCENE", options->scene.file, "Scene file (JSON)")->required();
     verb->add_option("-o,--output", options->output,
                      "Picture to write: .exr, .png, or .npy (trace only)");
-    verb->add_option("--method", options->method,
+    verb->add_option("--method", options->scene.method,
                      "slice, project or trace; as --set render.method=...");
-    verb->add_option("--set", options->settings,
+    verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
         ->allow_extra_args(false);
     verb->add_option("--frames", options->frames,

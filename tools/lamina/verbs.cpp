@@ -12,6 +12,8 @@ void add_verbs(CLI::App& app, int& exit_code) {
     add_integrate(app, exit_code);
     add_order(app, exit_code);
     add_reproduce(app, exit_code);
+    add_study(app, exit_code);
+    add_crosscheck(app, exit_code);
 }
 
 }  // namespace lamina

@@ -18,5 +18,7 @@ void add_info(CLI::App& app, int& exit_code);
 void add_integrate(CLI::App& app, int& exit_code);
 void add_order(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
+void add_study(CLI::App& app, int& exit_code);
+void add_crosscheck(CLI::App& app, int& exit_code);
 
 }  // namespace lamina

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/crosscheck_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "image/false_color.h"
+#include "study/figure_files.h"
+#include "study/pareto.h"
+#include "study/picture_sheet.h"
+#include "study/thumbnail.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
+
+Json error_json(const ImageError& error) {
+    Json json = to_json(error.all);
+    for (std::size_t i = 0; i < error.channels.size(); ++i)
+        json["channels"][error.channels[i]] = to_json(error.of_channel[i]);
+    return json;
+}
+
+Json times_json(const FrameTimes& times) {
+    return {{"median", times.ms}, {"min", times.min}, {"max", times.max}, {"n", times.count}};
+}
+
+// Of either method, against the traced volume.
+Json run_json(std::string name, Json keys, const ImageError& error, const FrameTimes& times,
+              std::int64_t bytes, const Crosscheck& crosscheck) {
+    Json json{{"id", name},
+              {"name", std::move(name)},
+              {"keys", std::move(keys)},
+              {"reference", "volume"},
+              {"frame_ms", times_json(times)},
+              {"ratio", times.ms / crosscheck.slicings.front().times.ms}};
+    json.update(error_json(error));
+    json["bytes"] = bytes;
+    json["near_reference"] = error.all.linf < 10 * crosscheck.reference_error;
+    return json;
+}
+
+std::string projection_name(const Crosscheck::Projection& each) {
+    return each.tolerance > 0 ? fmt::format("PT, tolerance {:g}", each.tolerance)
+                              : fmt::format("PT, {} tets", each.tets);
+}
+
+Json runs_json(const Crosscheck& crosscheck, double scale) {
+    Json runs = Json::array();
+    const auto add = [&](Json run, const Image& picture) {
+        const int step = reduction(picture.width, picture.height);
+        run["image"] = data_uri(shown(reduced(picture, step)));
+        run["difference"] = data_uri(false_color(
+            reduced(difference(picture, crosscheck.pictures.traced_volume), step), scale));
+        runs.push_back(std::move(run));
+    };
+    for (const Crosscheck::Slicing& each : crosscheck.slicings) {
+        add(run_json(fmt::format("slicing, {} slabs", each.samples),
+                     {{"method", "slicing"}, {"render.slice.samples", each.samples}}, each.error,
+                     each.times, each.bytes, crosscheck),
+            each.picture);
+    }
+    for (const Crosscheck::Projection& each : crosscheck.projections) {
+        add(run_json(projection_name(each),
+                     {{"method", "PT"}, {"mesh.tolerance", each.tolerance}, {"tets", each.tets}},
+                     each.error, each.times, each.bytes, crosscheck),
+            each.picture);
+    }
+    std::vector<CostAndError> points;
+    for (const Json& run : runs) points.push_back({run["frame_ms"]["median"], run["l2"]});
+    const std::vector<bool> front = pareto_front(points);
+    for (std::size_t i = 0; i < front.size(); ++i) runs[i]["pareto"] = bool(front[i]);
+    return runs;
+}
+
+Json plot(const char* title, const char* x, const char* y) {
+    return {{"title", title},
+            {"x", {{"label", x}, {"log", true}}},
+            {"y", {{"label", y}, {"log", true}}},
+            {"series", Json::array()}};
+}
+
+Json plots_json(const Crosscheck& crosscheck) {
+    Json meshes = plot("Parts of PT's error over the mesh", "tets", "L2 error (1/255)"),
+         slabs = plot("Slicing's error over its slabs", "slabs", "L2 error (1/255)"),
+         pairs = plot("PT - slicing over the mesh", "tets", "Linf (1/255)");
+    Json discretisation = Json::array(), method = Json::array(), slicing = Json::array();
+    for (const Crosscheck::Projection& each : crosscheck.projections) {
+        discretisation.push_back({each.tets, each.mesh_part.all.l2, projection_name(each)});
+        method.push_back({each.tets, each.method_part.all.l2, projection_name(each)});
+    }
+    for (std::size_t s = 0; s < crosscheck.slicings.size(); ++s) {
+        const Crosscheck::Slicing& each = crosscheck.slicings[s];
+        slicing.push_back(
+            {each.samples, each.error.all.l2, fmt::format("slicing, {} slabs", each.samples)});
+        Json against = Json::array();
+        for (std::size_t p = 0; p < crosscheck.projections.size(); ++p) {
+            against.push_back({crosscheck.projections[p].tets, crosscheck.pairs[p][s].raw.linf,
+                               projection_name(crosscheck.projections[p])});
+        }
+        pairs["series"].push_back(
+            {{"name", fmt::format("{} slabs", each.samples)}, {"points", against}});
+    }
+    meshes["series"] = {{{"name", "mesh discretisation"}, {"points", discretisation}},
+                        {{"name", "PT method"}, {"points", method}}};
+    slabs["series"] = Json::array({{{"name", "slicing method"}, {"points", slicing}}});
+    return Json::array({meshes, slabs, pairs});
+}
+
+Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, double scale) {
+    Json pictures = Json::array();
+    const int step =
+        reduction(crosscheck.pictures.sliced.width, crosscheck.pictures.sliced.height, 512);
+    const auto add = [&](const std::string& title, const std::string& caption,
+                         const CodedImage& picture) {
+        pictures.push_back({{"title", title}, {"caption", caption}, {"image", data_uri(picture)}});
+    };
+    const FourPictures& four = crosscheck.pictures;
+    for (const auto& [title, image] : {std::pair("traced volume", &four.traced_volume),
+                                       {"traced mesh", &four.traced_mesh},
+                                       {"sliced volume", &four.sliced},
+                                       {"projected mesh", &four.projected}})
+        add(title, "", shown(reduced(*image, step)));
+    for (const ErrorBudget::Part& part : budget.parts) {
+        add(part.name,
+            fmt::format("{:.1f} % of PT - slicing; darkest at {:.3g}/255", 100 * part.share, scale),
+            false_color(reduced(part.e, step), scale));
+    }
+    add("PT - slicing", fmt::format("darkest at {:.3g}/255", scale),
+        false_color(reduced(budget.raw, step), scale));
+    return pictures;
+}
+
+Json ladder_json(const Crosscheck& crosscheck) {
+    Json ladder{
+        {"slicing", Json::array()}, {"projection", Json::array()}, {"pairs", Json::array()}};
+    for (const Crosscheck::Slicing& each : crosscheck.slicings) {
+        ladder["slicing"].push_back({{"samples", each.samples},
+                                     {"frame_ms", times_json(each.times)},
+                                     {"method", error_json(each.error)}});
+    }
+    for (const Crosscheck::Projection& each : crosscheck.projections) {
+        ladder["projection"].push_back({{"tolerance", each.tolerance},
+                                        {"mesh_error", each.mesh_error},
+                                        {"tets", each.tets},
+                                        {"mesh_ms", each.mesh_ms},
+                                        {"frame_ms", times_json(each.times)},
+                                        {"mesh", error_json(each.mesh_part)},
+                                        {"method", error_json(each.method_part)},
+                                        {"all", error_json(each.error)}});
+    }
+    for (std::size_t p = 0; p < crosscheck.projections.size(); ++p) {
+        for (std::size_t s = 0; s < crosscheck.slicings.size(); ++s) {
+            Json pair{{"tolerance", crosscheck.projections[p].tolerance},
+                      {"samples", crosscheck.slicings[s].samples},
+                      {"dominant", part_keys[crosscheck.pairs[p][s].dominant]}};
+            pair.update(to_json(crosscheck.pairs[p][s].raw));
+            ladder["pairs"].push_back(pair);
+        }
+    }
+    return ladder;
+}
+
+}  // namespace
+
+nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                   const CrosscheckSubject& subject) {
+    Json parts;
+    for (std::size_t i = 0; i < budget.parts.size(); ++i) {
+        parts[part_keys[i]] = error_json(budget.parts[i].error);
+        parts[part_keys[i]]["share"] = budget.parts[i].share;
+    }
+    return {
+        {"scene", subject.name},
+        {"samples", crosscheck.samples},
+        {"tolerance", crosscheck.tolerance},
+        {"reference_error", crosscheck.reference_error},
+        {"wanted", subject.wanted},
+        {"parts", parts},
+        {"raw", error_json(budget.raw_error)},
+        {"residual", budget.residual},
+        {"dominant", part_keys[static_cast<std::size_t>(&budget.dominant() - budget.parts.data())]},
+        {"findings", crosscheck_findings(crosscheck, budget, subject)},
+        {"environment", subject.environment},
+        {"ladder", ladder_json(crosscheck)}};
+}
+
+nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
+                                         const CrosscheckSubject& subject) {
+    const double scale = std::max(budget.raw_error.all.linf / 2, 1e-6);
+    const Image& traced = crosscheck.pictures.traced_volume;
+    const int step = reduction(traced.width, traced.height);
+    const Json reference{{"id", "volume"},
+                         {"of", "volume"},
+                         {"error_estimate", crosscheck.reference_error},
+                         {"ms", crosscheck.reference_ms},
+                         {"width", traced.width},
+                         {"height", traced.height},
+                         {"image", data_uri(shown(reduced(traced, step)))}};
+    Json comparison{
+        {"scene", subject.name},
+        {"baseline", fmt::format("slicing, {} slabs", crosscheck.slicings.front().samples)},
+        {"difference_scale", scale},
+        {"references", Json::array({reference})},
+        {"runs", runs_json(crosscheck, scale)},
+        {"plots", plots_json(crosscheck)},
+        {"pictures", pictures_json(crosscheck, budget, scale)}};
+    return {{"title", fmt::format("PT against slicing: {}", subject.name)},
+            {"kind", "crosscheck"},
+            {"findings", crosscheck_findings(crosscheck, budget, subject)},
+            {"environment", subject.environment},
+            {"swept", {"method", "render.slice.samples", "mesh.tolerance", "tets"}},
+            {"comparisons", Json::array({comparison})},
+            {"dropped", Json::array()}};
+}
+
+}  // namespace lamina

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/data_store.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "study/picture_key.h"
+
+namespace lamina {
+namespace {
+
+std::string volume_name(const Scene& scene) {
+    if (!scene.volume_request) return scene.volume_file.string();
+    const GeneratorRequest& request = *scene.volume_request;
+    const auto size = generated_grid(request).size;
+    return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
+}
+
+std::string mesh_name(const Scene& scene) {
+    if (!scene.mesh_request) return fmt::format("{} {}", scene.mesh_file.string(), scene.scalar);
+    const MeshSettings& settings = *scene.mesh_request;
+    return fmt::format("{} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
+                       settings.kuhn);
+}
+
+}  // namespace
+
+const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
+    std::unique_ptr<StoredVolume>& stored = volumes_[volume_name(scene)];
+    if (!stored) {
+        Volume volume = load_volume(scene);
+        std::string content = content_of(volume);
+        stored = std::make_unique<StoredVolume>(
+            StoredVolume{DrawnVolume(std::move(volume)), std::move(content)});
+    }
+    return *stored;
+}
+
+const DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
+    std::unique_ptr<StoredMesh>& stored = meshes_[mesh_name(scene)];
+    if (!stored) {
+        SceneMesh mesh = load_mesh(scene);
+        std::string content = content_of(mesh);
+        stored = std::make_unique<StoredMesh>(
+            StoredMesh{DrawnMesh(std::move(mesh)), std::move(content)});
+    }
+    return *stored;
+}
+
+void DataStore::clear() {
+    volumes_.clear();
+    meshes_.clear();
+}
+
+}  // namespace lamina

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "study/drawn_mesh.h"
+#include "study/drawn_scene.h"
+
+namespace lamina {
+
+// Volumes and meshes of scenes, each loaded or made once, when first asked for. Throws Error where
+// that fails.
+class DataStore {
+  public:
+    struct StoredVolume {
+        DrawnVolume data;
+        std::string content;  // content_of()
+    };
+    struct StoredMesh {
+        DrawnMesh data;
+        std::string content;
+    };
+    const StoredVolume& volume(const Scene& scene);
+    const StoredMesh& mesh(const Scene& scene);
+    void clear();
+
+  private:
+    std::map<std::string, std::unique_ptr<StoredVolume>> volumes_;
+    std::map<std::string, std::unique_ptr<StoredMesh>> meshes_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "study/draw_context.h"
+
+namespace lamina {
+
+// Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
+// there at a time (gl/context.h).
+class DrawContexts {
+  public:
+    // `before_switch`: called before the one with OpenGL goes; its renderers must be gone after.
+    explicit DrawContexts(std::function<void()> before_switch)
+        : before_switch_(std::move(before_switch)) {}
+    ~DrawContexts() { before_switch_(); }
+    DrawContexts(const DrawContexts&) = delete;
+    DrawContexts& operator=(const DrawContexts&) = delete;
+
+    // Throws Error where there is no such context.
+    const Capabilities& use(const std::string& word);
+
+  private:
+    std::function<void()> before_switch_;
+    std::map<std::string, DrawContext> contexts_;
+};
+
+}  // namespace lamina

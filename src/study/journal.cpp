@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/journal.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+struct CompleteLines {
+    std::vector<nlohmann::json> records;
+    std::int64_t bytes = 0;
+};
+
+CompleteLines read_lines(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) fail("{}: cannot read", path.string());
+    CompleteLines lines;
+    std::string line;
+    // getline meets the file's end where the newline is missing: that line is not complete.
+    while (std::getline(stream, line) && !stream.eof()) {
+        lines.records.push_back(nlohmann::json::parse(line, nullptr, false));
+        if (!lines.records.back().is_object()) {
+            fail("{}: line {}: found \"{}\", expected a record that lamina study wrote",
+                 path.string(), lines.records.size(), one_line(line.substr(0, 60)));
+        }
+        lines.bytes += static_cast<std::int64_t>(line.size()) + 1;
+    }
+    return lines;
+}
+
+}  // namespace
+
+Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
+    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+    try {
+        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+            fail("{}: another lamina study is writing it", path_.string());
+        CompleteLines lines = read_lines(path_);
+        if (ftruncate(descriptor_, lines.bytes) != 0)
+            fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+        found_ = std::move(lines.records);
+    } catch (...) {
+        close(descriptor_);
+        throw;
+    }
+}
+
+Journal::~Journal() {
+    close(descriptor_);
+}
+
+void Journal::append(const nlohmann::ordered_json& record) {
+    const std::string line =
+        record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    std::size_t written = 0;
+    while (written < line.size()) {
+        const ssize_t count = write(descriptor_, line.data() + written, line.size() - written);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+        written += static_cast<std::size_t>(count);
+    }
+    if (fdatasync(descriptor_) != 0)
+        fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
+}
+
+std::vector<nlohmann::json> Journal::read(const std::filesystem::path& path) {
+    return read_lines(path).records;
+}
+
+}  // namespace lamina

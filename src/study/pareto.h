@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+namespace lamina {
+
+struct CostAndError {
+    double cost = 0, error = 0;
+};
+
+// Which points no other one beats: has as little of both, and less of one.
+std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
+
+}  // namespace lamina

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/picture_key.h"
+
+#include <glm/vec3.hpp>
+
+#include "base/content_hash.h"
+
+namespace lamina {
+namespace {
+
+void add(ContentHash& hash, const glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) hash.add(v[i]);
+}
+
+}  // namespace
+
+std::string picture_key(const Scene& scene) {
+    ContentHash hash;
+    const Camera& camera = scene.camera;
+    hash.add(static_cast<double>(camera.projection));
+    hash.add(camera.projection == Projection::perspective ? camera.fov_y : camera.height);
+    hash.add(scene.width);
+    hash.add(scene.height);
+    add(hash, camera.eye);
+    add(hash, camera.center);
+    add(hash, camera.up);
+    for (const TransferKnot& knot : scene.transfer_function.knots()) {
+        hash.add(knot.value);
+        add(hash, knot.optics.color);
+        hash.add(knot.optics.extinction);
+    }
+    return hash.hex();
+}
+
+std::string content_of(const Volume& volume) {
+    ContentHash hash;
+    const Grid& grid = volume.grid();
+    hash.add(name_of(volume.type()));
+    add(hash, grid.origin);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        add(hash, grid.step[axis]);
+        hash.add(static_cast<double>(grid.size[axis]));
+        hash.add(static_cast<double>(grid.centering[axis]));
+    }
+    hash.add(volume.data(), volume.byte_count());
+    return hash.hex();
+}
+
+std::string content_of(const SceneMesh& mesh) {
+    ContentHash hash;
+    const auto add_all = [&](const auto& values) {
+        hash.add(values.data(), values.size() * sizeof(values[0]));
+    };
+    add_all(mesh.mesh.points());
+    add_all(mesh.mesh.tets());
+    add_all(mesh.scalar.values);
+    return hash.hex();
+}
+
+}  // namespace lamina

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+#include "scene/scene_mesh.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// What an exact picture depends on beside its data: transfer function, camera and size.
+std::string picture_key(const Scene& scene);
+
+// Names of the data themselves, wherever they came from.
+std::string content_of(const Volume& volume);
+std::string content_of(const SceneMesh& mesh);
+
+}  // namespace lamina

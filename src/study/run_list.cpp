@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/run_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "base/content_hash.h"
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+const nlohmann::json absent;
+
+const nlohmann::json& setting_or_absent(const Settings& settings, const std::string& key) {
+    const nlohmann::json* const found = find_setting(settings, key);
+    return found == nullptr ? absent : *found;
+}
+
+bool has_all(const StudyFile::Drop& drop, const std::string& scene, const Settings& settings) {
+    return std::all_of(drop.where.begin(), drop.where.end(), [&](const SweepAxis& axis) {
+        const nlohmann::json found =
+            axis.key == "scene" ? nlohmann::json(scene) : setting_or_absent(settings, axis.key);
+        return std::find(axis.values.begin(), axis.values.end(), found) != axis.values.end();
+    });
+}
+
+std::string run_id(const StudyFile::SceneEntry& scene, const std::string& context,
+                   const nlohmann::json& document) {
+    ContentHash hash;
+    hash.add(scene.name);
+    hash.add(context);
+    hash.add(document.dump());
+    return hash.hex();
+}
+
+std::vector<std::string> swept_keys(const StudyFile& file) {
+    std::vector<std::string> keys;
+    for (const SweepGrid& grid : file.sweep) {
+        for (const SweepAxis& axis : grid.axes) {
+            if (std::find(keys.begin(), keys.end(), axis.key) == keys.end())
+                keys.push_back(axis.key);
+        }
+    }
+    return keys;
+}
+
+// Fills a list run by run.
+class Lister {
+  public:
+    Lister(const StudyFile& file, RunList& list) : file_(file), list_(list) {
+        for (const StudyFile::Drop& drop : file.drops) list.dropped.push_back({drop.because, 0});
+        list.dropped.push_back({"the same as another run", 0});
+    }
+    void add(std::size_t scene, Settings settings) {
+        for (std::size_t i = 0; i < file_.drops.size(); ++i) {
+            if (!has_all(file_.drops[i], file_.scenes[scene].name, settings)) continue;
+            ++list_.dropped[i].runs;
+            return;
+        }
+        StudyRun run{{}, run_name(settings), scene, std::move(settings)};
+        run.id = run_id(file_.scenes[scene], context_of(run, file_), document_of(run, file_));
+        if (ids_.insert(run.id).second)
+            list_.runs.push_back(std::move(run));
+        else
+            ++list_.dropped.back().runs;
+    }
+
+  private:
+    const StudyFile& file_;
+    RunList& list_;
+    std::set<std::string> ids_;
+};
+
+std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_t scene) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < list.runs.size(); ++i) {
+        const StudyRun& run = list.runs[i];
+        const auto is_set = [&](const auto& wanted) {
+            return setting_or_absent(run.settings, wanted.first) == wanted.second;
+        };
+        if (run.scene != scene) continue;
+        if (!file.baseline || std::all_of(file.baseline->begin(), file.baseline->end(), is_set))
+            found.push_back(i);
+    }
+    const std::string& name = file.scenes[scene].name;
+    if (found.empty()) {
+        if (file.baseline)
+            fail("{}: baseline: no run of scene \"{}\" has all of these values", file.file.string(),
+                 name);
+        fail("{}: drop: leaves no run of scene \"{}\"", file.file.string(), name);
+    }
+    if (file.baseline && found.size() > 1) {
+        fail(
+            "{}: baseline: found {} runs of scene \"{}\" ({}; {}; ...), expected values that one "
+            "run alone has",
+            file.file.string(), found.size(), name, list.runs[found[0]].name,
+            list.runs[found[1]].name);
+    }
+    return found.front();
+}
+
+}  // namespace
+
+// Words and lists of factors stand for themselves; a number needs its key's last part beside it.
+std::string run_name(const Settings& settings) {
+    std::string name;
+    for (const auto& [key, value] : settings) {
+        if (value.is_null()) continue;
+        const bool plain = value.is_string() || value.is_array();
+        const std::string word = key.substr(key.rfind('.') + 1);
+        name += fmt::format(
+            "{}{}", name.empty() ? "" : ", ",
+            plain ? setting_text(value) : fmt::format("{} {}", word, setting_text(value)));
+    }
+    return name.empty() ? "as the scene" : name;
+}
+
+std::string RunList::id() const {
+    ContentHash hash;
+    for (const StudyRun& run : runs) hash.add(run.id);
+    for (const std::size_t baseline : baselines) hash.add(runs[baseline].id);
+    hash.add(fmt::format("{} {}", rounds, frames));
+    return hash.hex();
+}
+
+std::uint64_t run_count(const StudyFile& file) {
+    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+    std::uint64_t count = 0;
+    for (const SweepGrid& grid : file.sweep) count = std::min(most, count + grid.count());
+    return count > most / file.scenes.size() ? most : count * file.scenes.size();
+}
+
+nlohmann::json document_of(const StudyRun& run, const StudyFile& file) {
+    nlohmann::json document = file.scenes[run.scene].document;
+    Settings settings = run.settings;
+    std::erase_if(settings, [](const auto& setting) { return setting.first == "context"; });
+    apply_settings(settings, document);
+    return document;
+}
+
+std::string context_of(const StudyRun& run, const StudyFile& file) {
+    const nlohmann::json* const own = find_setting(run.settings, "context");
+    return own == nullptr || own->is_null() ? file.context : setting_text(*own);
+}
+
+RunList list_runs(const StudyFile& file) {
+    if (run_count(file) > most_runs) {
+        fail("{}: sweep: found {} runs, expected at most {}", file.file.string(), run_count(file),
+             most_runs);
+    }
+    RunList list{file.title, {}, swept_keys(file), {}, {}, {}, file.rounds, file.frames};
+    Lister lister(file, list);
+    for (std::size_t scene = 0; scene < file.scenes.size(); ++scene) {
+        list.scenes.push_back(file.scenes[scene].name);
+        for (const SweepGrid& grid : file.sweep) {
+            for (std::uint64_t n = 0; n < grid.count(); ++n) lister.add(scene, grid.settings(n));
+        }
+    }
+    std::erase_if(list.dropped, [](const RunList::Dropped& each) { return each.runs == 0; });
+    for (std::size_t scene = 0; scene < file.scenes.size(); ++scene)
+        list.baselines.push_back(find_baseline(file, list, scene));
+    return list;
+}
+
+}  // namespace lamina

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+#include "scene/scene_reader.h"
+
+namespace lamina {
+namespace {
+
+Settings read_settings(JsonReader& reader, const std::string& key) {
+    Settings settings;
+    if (!reader.has(key)) return settings;
+    const nlohmann::json& found = reader.value(key);
+    if (!found.is_object()) reader.reject(key, "an object {\"render.target\": \"fixed8\", ...}");
+    for (const auto& [name, value] : found.items()) settings.emplace_back(name, value);
+    return settings;
+}
+
+// A scene as the study uses it. `entry`: a path, or {"scene": path, "name": ..., "set": {...}}.
+StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
+                                       const nlohmann::json& entry, const Settings& base) {
+    const std::string at = fmt::format("scenes.{}", number);
+    const nlohmann::json as_object = entry.is_string() ? nlohmann::json{{"scene", entry}} : entry;
+    JsonReader reader(as_object, study.file(), at);
+    StudyFile::SceneEntry scene;
+    scene.file = reader.path_of("scene");
+    scene.name = reader.has("name") ? reader.text("name") : scene.file.stem().string();
+    const Settings own = read_settings(reader, "set");
+    reader.close();
+    try {
+        scene.document = load_json(scene.file);
+        apply_settings(base, scene.document);
+        apply_settings(own, scene.document);
+    } catch (const Error& error) {
+        study.fail_at(at, error.what());
+    }
+    return scene;
+}
+
+void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
+    if (!study.has("scenes") || !study.value("scenes").is_array() || study.value("scenes").empty())
+        study.reject("scenes", "a list of scene files");
+    std::set<std::string> names;
+    for (const nlohmann::json& entry : study.value("scenes")) {
+        file.scenes.push_back(read_scene_entry(study, file.scenes.size(), entry, base));
+        if (!names.insert(file.scenes.back().name).second) {
+            study.fail_at("scenes", fmt::format("two scenes are called \"{}\", expected \"name\"s "
+                                                "that differ",
+                                                file.scenes.back().name));
+        }
+    }
+}
+
+bool is_swept(const StudyFile& file, const std::string& key) {
+    return key == "scene" ||
+           std::any_of(file.sweep.begin(), file.sweep.end(), [&](const SweepGrid& grid) {
+               return std::any_of(grid.axes.begin(), grid.axes.end(),
+                                  [&](const SweepAxis& axis) { return axis.key == key; });
+           });
+}
+
+void check_swept(JsonReader& reader, const StudyFile& file, const std::string& field,
+                 const std::string& key) {
+    if (!is_swept(file, key))
+        reader.fail_at(field, fmt::format("\"{}\" is not swept, expected a key of \"sweep\"", key));
+}
+
+void read_drops(JsonReader& study, StudyFile& file) {
+    if (!study.has("drop")) return;
+    for (JsonReader& reader : study.objects("drop")) {
+        StudyFile::Drop drop;
+        drop.because = reader.text("because");
+        for (auto& [key, value] : read_settings(reader, "where")) {
+            check_swept(reader, file, "where", key);
+            drop.where.push_back({key, value.is_array() ? value.get<std::vector<nlohmann::json>>()
+                                                        : std::vector<nlohmann::json>{value}});
+        }
+        if (drop.where.empty()) reader.reject("where", "an object with keys that are swept");
+        reader.close();
+        file.drops.push_back(std::move(drop));
+    }
+}
+
+void read_baseline(JsonReader& study, StudyFile& file) {
+    if (!study.has("baseline")) return;
+    file.baseline = read_settings(study, "baseline");
+    for (const auto& [key, value] : *file.baseline) check_swept(study, file, "baseline", key);
+}
+
+}  // namespace
+
+void apply_settings(const Settings& settings, nlohmann::json& document) {
+    for (const auto& [key, value] : settings) {
+        try {
+            set_key(document, key, value.dump());
+        } catch (const UsageError&) {
+            fail("{}: not a key of a scene: it leads through a value that is no object", key);
+        }
+    }
+}
+
+StudyFile load_study(const std::filesystem::path& path) {
+    const nlohmann::json document = load_json(path);
+    StudyFile file;
+    file.file = path;
+    JsonReader study(document, file.file);
+    study.whole("version", 1, 1);
+    file.title = study.has("title") ? study.text("title") : path.stem().string();
+    Settings base = read_settings(study, "base");
+    if (const nlohmann::json* const context = find_setting(base, "context")) {
+        file.context = setting_text(*context);
+        std::erase_if(base, [](const auto& setting) { return setting.first == "context"; });
+    }
+    if (!study.has("sweep"))
+        study.reject("sweep", "an object {\"render.slice.samples\": [256, 512]}");
+    file.sweep = read_sweep(study);
+    read_scenes(study, base, file);
+    read_drops(study, file);
+    read_baseline(study, file);
+    if (study.has("reference")) {
+        file.reference = study.choice<TraceOf>(
+            "reference", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+    }
+    if (study.has("rounds")) file.rounds = static_cast<int>(study.whole("rounds", 1, 1000));
+    if (study.has("frames")) file.frames = static_cast<int>(study.whole("frames", 1, 1000));
+    study.close();
+    return file;
+}
+
+}  // namespace lamina

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace lamina {
+
+std::filesystem::path StudyFolder::journal(int shard, int shards) const {
+    return path / fmt::format("journal-{}-of-{}.jsonl", shard, shards);
+}
+
+std::vector<std::filesystem::path> StudyFolder::journals() const {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(path, error)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with("journal-") && name.ends_with(".jsonl")) found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+void StudyFolder::make() const {
+    std::error_code error;
+    for (const auto& folder : {path, references(), pictures()}) {
+        std::filesystem::create_directories(folder, error);
+        if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
+    }
+}
+
+}  // namespace lamina

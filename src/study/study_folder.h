@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lamina {
+
+// Where a study keeps what.
+struct StudyFolder {
+    explicit StudyFolder(std::filesystem::path folder) : path(std::move(folder)) {}
+
+    std::filesystem::path path;
+    std::filesystem::path run_list() const { return path / "runs.json"; }
+    std::filesystem::path references() const { return path / "references"; }
+    std::filesystem::path pictures() const { return path / "pictures"; }
+    std::filesystem::path picture(const std::string& run) const {
+        return pictures() / (run + ".exr");
+    }
+    std::filesystem::path journal(int shard, int shards) const;
+    std::vector<std::filesystem::path> journals() const;  // that are there, by name
+    void make() const;                                    // with its folders; throws Error
+};
+
+}  // namespace lamina

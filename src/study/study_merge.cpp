@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_merge.h"
+
+#include <map>
+#include <string>
+
+#include "base/error.h"
+#include "scene/json_reader.h"
+#include "study/run_list.h"
+#include "study/study_output.h"
+
+namespace lamina {
+namespace {
+
+RunList read_list(const StudyFolder& folder) {
+    return run_list_from(load_json(folder.run_list()), folder.run_list());
+}
+
+// Beside it first: a file that is there is complete.
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& into) {
+    const std::filesystem::path part = into.string() + ".part";
+    std::error_code error;
+    std::filesystem::copy_file(from, part, std::filesystem::copy_options::overwrite_existing,
+                               error);
+    if (!error) std::filesystem::rename(part, into, error);
+    if (error) fail("{}: cannot write: {}", into.string(), error.message());
+}
+
+void copy_files(const std::filesystem::path& from, const std::filesystem::path& into) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(from, error)) {
+        const std::filesystem::path to = into / entry.path().filename();
+        const std::string suffix = to.extension().string();
+        if ((suffix == ".npy" || suffix == ".json" || suffix == ".exr") &&
+            !std::filesystem::exists(to))
+            copy_whole(entry.path(), to);
+    }
+}
+
+}  // namespace
+
+void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into) {
+    const RunList list = read_list(StudyFolder(from.front()));
+    std::map<std::string, std::filesystem::path> journals;  // by name
+    const auto check = [&](const StudyFolder& folder) {
+        const RunList other = read_list(folder);
+        if (other.id() != list.id()) {
+            fail("{}: holds another study, \"{}\", than {}, \"{}\"", folder.path.string(),
+                 other.title, from.front().string(), list.title);
+        }
+    };
+    for (const std::filesystem::path& path : from) {
+        const StudyFolder folder(path);
+        check(folder);
+        for (const auto& journal : folder.journals()) {
+            const auto [found, added] = journals.emplace(journal.filename().string(), journal);
+            if (!added) {
+                fail("{} and {} are the same shard: expected different ones",
+                     found->second.string(), journal.string());
+            }
+        }
+    }
+    if (std::filesystem::exists(into.run_list())) check(into);
+    into.make();
+    write_run_list(into, list);
+    for (const std::filesystem::path& path : from) {
+        const StudyFolder folder(path);
+        copy_files(folder.references(), into.references());
+        copy_files(folder.pictures(), into.pictures());
+    }
+    for (const auto& [name, journal] : journals) {
+        std::error_code ignored;
+        if (!std::filesystem::equivalent(journal, into.path / name, ignored))
+            copy_whole(journal, into.path / name);
+    }
+}
+
+}  // namespace lamina

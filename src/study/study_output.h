@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "study/run_list.h"
+#include "study/study_folder.h"
+
+namespace lamina {
+
+struct StudySummary {
+    std::size_t runs = 0, wanted = 0;  // finished, and of the whole study
+    std::vector<std::string> findings, failures;
+};
+
+// runs.json.
+void write_run_list(const StudyFolder& folder, const RunList& list);
+
+// results.csv, results.json and report.html from what the folder's journals hold. Throws Error.
+StudySummary write_study_output(const StudyFolder& folder);
+
+}  // namespace lamina

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "study/study_folder.h"
+#include "study/study_results.h"
+
+namespace lamina {
+
+// results.json (docs/study.md): all that the page of a study shows, but for its pictures.
+nlohmann::ordered_json report_of(const StudyResults& results);
+
+// The same with pictures as data URIs: of runs, references and differences.
+nlohmann::ordered_json report_with_pictures(const StudyResults& results, const StudyFolder& folder);
+
+}  // namespace lamina

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/stopwatch.h"
+#include "image/exr.h"
+#include "image/metrics.h"
+#include "scene/scene_reader.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Renderers stay for the next round while all of them take less; beyond, they are made each time.
+constexpr std::int64_t kept_bytes = std::int64_t{1} << 30;
+
+Json to_json(const ErrorNorms& norms) {
+    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
+}
+
+TraceOf reference_of(const StudyFile& file, const Scene& scene) {
+    if (file.reference) return *file.reference;
+    return scene.method == Method::project ? TraceOf::mesh : TraceOf::volume;
+}
+
+Scene read_run(const StudyRun& run, const StudyFile& file) {
+    Scene scene = read_scene(document_of(run, file), file.scenes[run.scene].file);
+    if (scene.method == Method::trace) {
+        fail(
+            "{}: render.method: found \"trace\", expected \"slice\" or \"project\": the tracer is "
+            "what runs are measured against",
+            scene.file.string());
+    }
+    if (reference_of(file, scene) == TraceOf::volume && !scene.has_volume())
+        fail("{}: the reference is a volume's, and the scene has none", scene.file.string());
+    if (reference_of(file, scene) == TraceOf::mesh && !scene.has_mesh())
+        fail("{}: the reference is a mesh's, and the scene has none", scene.file.string());
+    return scene;
+}
+
+}  // namespace
+
+StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder,
+                         Shard shard, const nlohmann::ordered_json& begin)
+    : list_(list),
+      file_(file),
+      folder_(folder),
+      shard_(shard),
+      journal_(folder.journal(shard.number, shard.count)),
+      done_(list.runs.size(), Done{std::vector<char>(static_cast<std::size_t>(list.rounds))}),
+      references_(folder.references()),
+      contexts_([this] { drop_opengl(); }) {
+    take_over(journal_.found());
+    journal_.append(begin);
+}
+
+void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
+    std::map<std::string, std::size_t> number_of;
+    for (std::size_t i = 0; i < list_.runs.size(); ++i) number_of[list_.runs[i].id] = i;
+    for (const nlohmann::json& record : records) {
+        const auto found = number_of.find(record.value("run", ""));
+        if (found == number_of.end()) continue;
+        Done& done = done_[found->second];
+        if (record.contains("drawn")) done.drawn = true;
+        if (record.contains("round")) done.rounds.at(record["round"].get<std::size_t>()) = 1;
+    }
+}
+
+bool StudyRunner::is_wanted(std::size_t run) const {
+    return shard_.has(run) || list_.baselines[list_.runs[run].scene] == run;
+}
+
+bool StudyRunner::is_finished(std::size_t run) const {
+    const Done& done = done_[run];
+    return done.failed ||
+           (done.drawn && std::count(done.rounds.begin(), done.rounds.end(), 0) == 0);
+}
+
+std::size_t StudyRunner::wanted() const {
+    std::size_t count = 0;
+    for (std::size_t run = 0; run < list_.runs.size(); ++run) count += is_wanted(run) ? 1 : 0;
+    return count;
+}
+
+std::size_t StudyRunner::finished() const {
+    std::size_t count = 0;
+    for (std::size_t run = 0; run < list_.runs.size(); ++run)
+        count += is_wanted(run) && is_finished(run) ? 1 : 0;
+    return count;
+}
+
+// Those of one context beside one another: making an OpenGL context takes longer than a frame.
+std::vector<std::size_t> StudyRunner::runs_of(std::size_t scene) const {
+    std::vector<std::size_t> runs;
+    for (std::size_t run = 0; run < list_.runs.size(); ++run) {
+        if (list_.runs[run].scene == scene && is_wanted(run)) runs.push_back(run);
+    }
+    std::stable_sort(runs.begin(), runs.end(), [&](std::size_t a, std::size_t b) {
+        return context_of(list_.runs[a], file_) < context_of(list_.runs[b], file_);
+    });
+    return runs;
+}
+
+void StudyRunner::run() {
+    Progress progress(list_.title, static_cast<std::int64_t>(wanted() - finished()) * list_.rounds);
+    for (std::size_t scene = 0; scene < list_.scenes.size(); ++scene) run_scene(scene, progress);
+}
+
+void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
+    std::vector<std::size_t> runs = runs_of(scene);
+    std::erase_if(runs, [&](std::size_t run) { return is_finished(run); });
+    for (int round = 0; round < list_.rounds; ++round) {
+        for (const std::size_t run : runs) {
+            check_interrupt();
+            if (!is_finished(run)) visit(run, round);
+            progress.advance();
+        }
+    }
+    frames_.clear();
+    references_.clear();
+    data_.clear();
+}
+
+// What is wrong with one run is no reason to stop the others; what cannot be written is.
+void StudyRunner::visit(std::size_t run, int round) {
+    Done& done = done_[run];
+    const bool timed = done.rounds[static_cast<std::size_t>(round)] != 0;
+    if (done.drawn && timed) return;
+    Measured measured;
+    try {
+        StudyFrames& frames = frames_of(run);
+        if (!done.drawn) measure_picture(run, frames, measured);
+        if (!timed) measured.records.push_back(time_round(run, round, frames));
+        drop_if_full(run);
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const std::exception& error) {
+        frames_.erase(run);
+        journal_.append({{"run", list_.runs[run].id}, {"failed", one_line(error.what())}});
+        done.failed = true;
+        return;
+    }
+    record(run, round, measured);
+}
+
+void StudyRunner::record(std::size_t run, int round, const Measured& measured) {
+    if (measured.picture) {
+        AtomicFile file(folder_.picture(list_.runs[run].id));
+        write_exr(file, *measured.picture, {});
+        file.commit();
+    }
+    for (const Json& record : measured.records) journal_.append(record);
+    done_[run].drawn = true;
+    done_[run].rounds[static_cast<std::size_t>(round)] = 1;
+}
+
+void StudyRunner::drop_if_full(std::size_t run) {
+    const auto total = [](std::int64_t sum, const auto& kept) { return sum + kept.second.bytes(); };
+    if (std::accumulate(frames_.begin(), frames_.end(), std::int64_t{0}, total) > kept_bytes)
+        frames_.erase(run);
+}
+
+StudyFrames& StudyRunner::frames_of(std::size_t run) {
+    const Capabilities& capabilities = contexts_.use(context_of(list_.runs[run], file_));
+    const auto found = frames_.find(run);
+    if (found != frames_.end()) return found->second;
+    return frames_.try_emplace(run, read_run(list_.runs[run], file_), data_, capabilities)
+        .first->second;
+}
+
+void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured& measured) {
+    frames.draw();
+    const Image image = frames.renderer().read();
+    const Scene& scene = frames.scene();
+    const Reference& reference = references_.get(scene, reference_of(file_, scene), data_);
+    const ImageError error = image_error(image, reference.image);
+    Json drawn{{"reference", reference.id}, {"all", to_json(error.all)}};
+    for (std::size_t i = 0; i < error.channels.size(); ++i)
+        drawn["channels"][error.channels[i]] = to_json(error.of_channel[i]);
+    drawn["renderer"] = contexts_.use(context_of(list_.runs[run], file_)).renderer;
+    drawn["bytes_gpu"] = frames.bytes_gpu();
+    drawn["bytes_host"] = frames.bytes_host();
+    drawn["stages"] = frames.renderer().stages_ms();
+    drawn["stages"]["set_up"] = frames.set_up_ms();
+    measured.picture = image;
+    measured.records.push_back({{"run", list_.runs[run].id}, {"drawn", drawn}});
+}
+
+nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round,
+                                               StudyFrames& frames) const {
+    const auto timed = [](const auto& draw) {
+        const Stopwatch watch;
+        draw();
+        return watch.milliseconds();
+    };
+    std::vector<double> moving, still;
+    frames.draw();  // the warm-up: other runs have had the caches
+    for (int i = 0; i < list_.frames; ++i) still.push_back(timed([&] { frames.draw(); }));
+    for (int i = 1; i <= list_.frames; ++i)
+        moving.push_back(timed([&] { frames.draw_turned(degrees_per_frame * i); }));
+    return {
+        {"run", list_.runs[run].id}, {"round", round}, {"frame_ms", moving}, {"still_ms", still}};
+}
+
+void StudyRunner::drop_opengl() {
+    std::erase_if(frames_, [](const auto& kept) { return !kept.second.on_tiles(); });
+}
+
+}  // namespace lamina

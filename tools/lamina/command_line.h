@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace lamina {
+
+// What this process was started with, for reports: "lamina study ...".
+void set_command_line(int argc, char** argv);
+const std::string& command_line();
+
+}  // namespace lamina

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/progress.h"
+#include "command_line.h"
+#include "git_commit.h"
+#include "image/exr.h"
+#include "scene_options.h"
+#include "study/context_choice.h"
+#include "study/crosscheck.h"
+#include "study/crosscheck_report.h"
+#include "study/draw_context.h"
+#include "study/machine.h"
+#include "study/report_page.h"
+#include "study/text_file.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+struct CrosscheckOptions {
+    SceneOptions scene;
+    std::string output, context = "auto";
+    CrosscheckSettings settings;
+    bool quiet = false;
+};
+
+void check_ladder(const CrosscheckSettings& settings) {
+    for (const double each : settings.tolerances) {
+        if (!(each > 0 && each <= 1))
+            throw UsageError(fmt::format(
+                "--tolerances {:g}: expected numbers above 0 and up to 1 (of the range of values)",
+                each));
+    }
+    for (const int each : settings.samples) {
+        if (each < 1 || each > 65536)
+            throw UsageError(fmt::format("--samples {}: expected numbers from 1 to 65536", each));
+    }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
+}
+
+void write_picture(const std::filesystem::path& path, const Image& image) {
+    AtomicFile file(path);
+    write_exr(file, image, {});
+    file.commit();
+}
+
+void write_all(const std::filesystem::path& folder, const Crosscheck& made,
+               const CrosscheckSubject& subject) {
+    const ErrorBudget budget = error_budget(made.pictures);
+    write_picture(folder / "traced_volume.exr", made.pictures.traced_volume);
+    write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
+    write_picture(folder / "sliced.exr", made.pictures.sliced);
+    write_picture(folder / "projected.exr", made.pictures.projected);
+    write_text(folder / "budget.json", budget_json(made, budget, subject).dump(1) + "\n");
+    write_text(folder / "report.html", report_page(crosscheck_report(made, budget, subject)));
+    for (const std::string& finding : crosscheck_findings(made, budget, subject))
+        fmt::print("{}\n", finding);
+}
+
+void run(const CrosscheckOptions& options) {
+    check_ladder(options.settings);
+    std::string ignored;
+    const Scene scene = load_scene(options.scene, ignored);
+    restrict_instructions_as_asked();
+    const std::filesystem::path folder = options.output;
+    make_folder(folder);
+    const DrawContext context(context_choice(options.context));
+    CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
+                              scene.max_error, describe_machine()};
+    subject.environment["drivers"] = context.capabilities().renderer;
+    subject.environment["version"] = LAMINA_VERSION;
+    subject.environment["commit"] = git_commit;
+    subject.environment["command"] = command_line();
+    write_all(folder, crosscheck(scene, options.settings, context.capabilities()), subject);
+    if (!options.quiet)
+        fmt::print(stderr, "lamina: wrote four pictures, budget.json and report.html into {}\n",
+                   options.output);
+}
+
+}  // namespace
+
+void add_crosscheck(CLI::App& app, int&) {
+    const auto options = std::make_shared<CrosscheckOptions>();
+    CLI::App* const verb = app.add_subcommand(
+        "crosscheck", "Slice a volume and project its mesh, and say where they differ, and why");
+    verb->add_option("SCENE", options->scene.file, "Scene file (JSON) with a volume")->required();
+    verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
+        ->required();
+    verb->add_option("--set", options->scene.settings,
+                     "Set a key of the scene: KEY=VALUE, as in render.max_error=0.5")
+        ->allow_extra_args(false);
+    verb->add_option("--tolerances", options->settings.tolerances,
+                     "Of the meshes to compare, beside the scene's own: .1,.05,.02,.01")
+        ->delimiter(',');
+    verb->add_option("--samples", options->settings.samples,
+                     "Slabs to compare, beside the scene's own: 64,128,256,512,1024")
+        ->delimiter(',');
+    verb->add_option("--context", options->context,
+                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+    verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
+    verb->callback([options] {
+        Progress::set_quiet(options->quiet);
+        run(*options);
+    });
+}
+
+}  // namespace lamina

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_options.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "scene/json_reader.h"
+#include "scene/scene_reader.h"
+
+namespace lamina {
+
+Scene load_scene(const SceneOptions& options, std::string& document_text) {
+    nlohmann::json document = load_json(options.file);
+    std::vector<std::string> keys;
+    const auto apply = [&](const std::string& key, const std::string& value) {
+        set_key(document, key, value);
+        keys.push_back(key);
+    };
+    for (const std::string& setting : options.settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos) {
+            throw UsageError(
+                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", setting));
+        }
+        apply(setting.substr(0, equals), setting.substr(equals + 1));
+    }
+    if (!options.method.empty()) apply("render.method", options.method);
+    document_text = document.dump(2);
+    try {
+        return read_scene(document, options.file);
+    } catch (const KeyError& error) {
+        for (const std::string& key : keys) {
+            if (error.key == key || key.starts_with(error.key + ".") ||
+                error.key.starts_with(key + ".")) {
+                throw UsageError(error.what());
+            }
+        }
+        throw;
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "command_line.h"
+#include "git_commit.h"
+#include "scene/json_reader.h"
+#include "study/context_choice.h"
+#include "study/machine.h"
+#include "study/run_list.h"
+#include "study/study_merge.h"
+#include "study/study_output.h"
+#include "study/study_runner.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+struct StudyOptions {
+    std::string study, output, shard;
+    std::vector<std::string> merged;
+    bool resume = false, yes = false, quiet = false;
+};
+
+Shard read_shard(const std::string& text) {
+    Shard shard;
+    if (text.empty()) return shard;
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, shard.number);
+    const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
+    const auto count = slash ? std::from_chars(number.ptr + 1, end, shard.count) : number;
+    if (!slash || count.ec != std::errc() || count.ptr != end || shard.number < 1 ||
+        shard.count < shard.number)
+        throw UsageError(fmt::format("--shard {}: expected I/N with 1 <= I <= N, as in 2/8", text));
+    return shard;
+}
+
+void check_count(const StudyFile& file, const StudyOptions& options) {
+    const std::uint64_t count = run_count(file);
+    if (count > most_runs_unasked && !options.yes) {
+        fail("{}: sweep: found {} runs, expected at most {}; --yes runs them all", options.study,
+             count, most_runs_unasked);
+    }
+}
+
+// A folder belongs to one study. `begun`: this shard has records in it.
+void check_folder(const RunList& list, const StudyFolder& folder, bool begun, bool resume) {
+    if (!std::filesystem::exists(folder.run_list())) return;
+    const RunList there = run_list_from(load_json(folder.run_list()), folder.run_list());
+    if (there.id() != list.id()) {
+        fail("{}: holds another study, \"{}\": expected an empty folder, or one of this study",
+             folder.path.string(), there.title);
+    }
+    if (begun && !resume) {
+        fail("{}: holds finished runs of this study: --resume goes on with them",
+             folder.path.string());
+    }
+}
+
+void say(const StudyOptions& options, const std::string& text) {
+    if (!options.quiet) fmt::print(stderr, "lamina: {}\n", text);
+}
+
+void say_what_is_left_out(const RunList& list, const StudyOptions& options) {
+    for (const RunList::Dropped& dropped : list.dropped)
+        say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
+}
+
+void write_results(const StudyFolder& folder, const StudyOptions& options) {
+    const StudySummary summary = write_study_output(folder);
+    for (const std::string& finding : summary.findings) fmt::print("{}\n", finding);
+    for (const std::string& failure : summary.failures) say(options, failure);
+    say(options,
+        fmt::format("wrote results.csv, results.json and report.html into {} ({} of {} "
+                    "runs, {} of them failed)",
+                    folder.path.string(), summary.runs, summary.wanted, summary.failures.size()));
+}
+
+nlohmann::ordered_json begin_record() {
+    nlohmann::ordered_json begin = describe_machine();
+    begin["version"] = LAMINA_VERSION;
+    begin["commit"] = git_commit;
+    begin["command"] = command_line();
+    return {{"begin", begin}};
+}
+
+void run_study(const StudyOptions& options) {
+    const Shard shard = read_shard(options.shard);
+    const StudyFile file = load_study(options.study);
+    check_count(file, options);
+    const RunList list = list_runs(file);
+    check_runs(list, file);
+    restrict_instructions_as_asked();
+    const StudyFolder folder(options.output);
+    const auto journal = folder.journal(shard.number, shard.count);
+    check_folder(list, folder, std::filesystem::exists(journal), options.resume);
+    folder.make();
+    write_run_list(folder, list);
+    say_what_is_left_out(list, options);
+    StudyRunner runner(list, file, folder, shard, begin_record());
+    const std::size_t before = runner.finished();
+    say(options, fmt::format("{} runs, {} of them finished before", runner.wanted(), before));
+    try {
+        runner.run();
+    } catch (const Interrupted&) {
+        throw Interrupted(
+            fmt::format("interrupted: {} of {} runs are finished and kept; --resume "
+                        "goes on",
+                        runner.finished(), runner.wanted()));
+    }
+    write_results(folder, options);
+}
+
+void merge(const StudyOptions& options) {
+    const StudyFolder folder(options.output);
+    merge_studies({options.merged.begin(), options.merged.end()}, folder);
+    write_results(folder, options);
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, int&) {
+    const auto options = std::make_shared<StudyOptions>();
+    CLI::App* const verb = app.add_subcommand(
+        "study", "Measure error and run time of many settings of some scenes, and report");
+    verb->add_option("STUDY", options->study, "Study file (JSON): scenes and what to sweep");
+    verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
+        ->required();
+    verb->add_option("--shard", options->shard,
+                     "I/N: only the I-th of N parts of the runs, for job arrays");
+    verb->add_flag("--resume", options->resume, "Go on with a study that was stopped");
+    verb->add_option("--merge", options->merged,
+                     "Put the shards in these folders together in the folder of -o");
+    verb->add_flag("--yes", options->yes,
+                   fmt::format("Run it though it has more than {} runs", most_runs_unasked));
+    verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
+    verb->callback([options] {
+        Progress::set_quiet(options->quiet);
+        if (!options->merged.empty()) return merge(*options);
+        if (options->study.empty())
+            throw UsageError("study: expected a STUDY file, or --merge DIR");
+        run_study(*options);
+    });
+}
+
+}  // namespace lamina
