@@ -74,8 +74,8 @@ function showHint(target, ...content) {
   const at = target.getBoundingClientRect();
   const [width, height] = [hint.offsetWidth, hint.offsetHeight];
   const right = at.right + 10 + width < document.documentElement.clientWidth;
-  hint.style.left = `${Math.max(4, right ? at.right + 10 : at.left - 10 - width)}px`;
-  hint.style.top = `${Math.max(4, Math.min(at.top, window.innerHeight - height - 4))}px`;
+  hint.style.left = `${window.scrollX + Math.max(4, right ? at.right + 10 : at.left - 10 - width)}px`;
+  hint.style.top = `${window.scrollY + Math.max(4, Math.min(at.top, window.innerHeight - height - 4))}px`;
 }
 
 function hideHint() {

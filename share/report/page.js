@@ -117,6 +117,5 @@ function build() {
 }
 
 build();
-window.addEventListener("scroll", hideHint, { passive: true });
 window.addEventListener("beforeprint", () => chartPlaces.forEach(({ redraw, printedWidth }) => redraw(printedWidth)));
 window.addEventListener("afterprint", () => chartPlaces.forEach(({ redraw }) => redraw()));

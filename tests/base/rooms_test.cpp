@@ -80,7 +80,8 @@ std::vector<std::string> wrong_includes(const std::string& room, const std::stri
 
 bool is_code(const fs::path& path) {
     static const std::vector<std::string> suffixes = {".h",    ".cpp",   ".glsl", ".vert", ".frag",
-                                                      ".comp", ".cmake", ".py",   ".sh",   ".txt"};
+                                                      ".comp", ".cmake", ".py",   ".sh",   ".txt",
+                                                      ".html", ".css",   ".js"};
     const std::string suffix = path.extension();
     return suffix.empty() || std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
 }
@@ -122,7 +123,8 @@ TEST(Rooms, IncludeOnlyThemselvesAndLowerRooms) {
 }
 
 TEST(SourceFiles, BeginWithTheLicence) {
-    for (const fs::path& file : files_under({"src", "tools", "shaders", "tests", "cmake"})) {
+    for (const fs::path& file :
+         files_under({"src", "tools", "shaders", "share", "tests", "cmake"})) {
         if (!is_code(file)) continue;
         const std::string text = read_bytes_of(file);
         // Second line where the first must be something else: #! and #version.
@@ -134,7 +136,7 @@ TEST(SourceFiles, BeginWithTheLicence) {
 }
 
 TEST(SourceFiles, AreShortEnoughToRead) {
-    for (const fs::path& file : files_under({"src", "tools", "shaders"})) {
+    for (const fs::path& file : files_under({"src", "tools", "shaders", "share"})) {
         if (!is_code(file)) continue;
         const std::string text = read_bytes_of(file);
         EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 400) << file;

@@ -1,0 +1,383 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The report page in a real browser, headless Chromium: report_page_browser_test.py WRITE_REPORT_PAGE.
+
+Exits with 77 (skipped) where Chromium is not installed. The page is that of a made-up report; what it must show is
+worked out here, from the same report.
+"""
+import base64
+import json
+import os
+import random
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+if not shutil.which("chromium"):
+    print("skipped: Chromium is not installed (tools/install installs it)")
+    sys.exit(77)
+
+from selenium import webdriver
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+HOSTILE = '</script><img src=x onerror="window.wasRun = true"><!-- {{page.js}} & "\'\u2028'
+NUMERIC = {  # column: its value of a run
+    "key.render.slice.samples": lambda run: run["keys"]["render.slice.samples"],
+    "frame_ms.median": lambda run: run["frame_ms"]["median"],
+    "frame_ms.min": lambda run: run["frame_ms"]["min"],
+    "frame_ms.spread": lambda run: run["frame_ms"]["max"] - run["frame_ms"]["min"],
+    "ratio": lambda run: run["ratio"],
+    "still_ms.median": lambda run: run["still_ms"]["median"],
+    "linf": lambda run: run["linf"],
+    "l1": lambda run: run["l1"],
+    "l2": lambda run: run["l2"],
+    "bytes": lambda run: run["bytes"],
+}
+
+
+def png(shade, size=8):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = (b"\0" + bytes([shade] * size)) * size
+    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0))
+    data += chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    return "data:image/png;base64," + base64.b64encode(data).decode()
+
+
+def times(median, n=9):
+    return {"median": median, "min": 0.875 * median, "max": 1.5 * median, "n": n}
+
+
+def front(runs, error):
+    """Ids of those that no other run beats or equals in both and beats in one."""
+    def point(run):
+        return run["frame_ms"]["median"], run[error]
+    return {run["id"] for run in runs
+            if not any(all(a <= b for a, b in zip(point(other), point(run))) and point(other) != point(run)
+                       for other in runs)}
+
+
+def comparison(scene, count):
+    runs = []
+    for i in range(count):
+        target = ["fixed8", "float32"][i % 2]
+        # 8, 80, 9, 90, ...: another order as text. Times have ties, and go up to three digits.
+        keys = {"render.target": target, "render.slice.samples": [8, 80, 9, 90, 100][i % 5],
+                "render.slice.tree.factors": [2 ** (1 + i % 4)] * (1 + i % 3)}
+        median = round(10 ** random.uniform(-1, 2), 1)
+        error = (0.5 if target == "fixed8" else 1e-6) * random.uniform(0.2, 1) / median
+        runs.append({
+            "id": f"{scene}-{i:02d}", "name": f"{target} run {i}", "keys": keys, "reference": "r1",
+            "frame_ms": times(median), "still_ms": times(1 / median), "ratio": median / 8,
+            "linf": random.uniform(2, 9) * error, "l1": random.uniform(-1, 1) * error, "l2": error,
+            "channels": {c: {"linf": error, "l1": 0, "l2": error} for c in "RGBA"}, "stages": {"order": 0.25},
+            "bytes_gpu": 1000 * i, "bytes_host": 24, "bytes": 1000 * (i % 7) + 24, "pareto": False,
+            "near_reference": target == "float32", "context": "native engine", "image": png(10 + i),
+            "difference": png(200)})
+    for run in runs:
+        run["pareto"] = run["id"] in front(runs, "l2")
+    return {"scene": scene, "baseline": runs[3]["id"], "difference_scale": 2.0, "runs": runs,
+            "references": [{"id": "r1", "of": "volume", "error_estimate": 1.2e-7, "ms": 812.0, "width": 8, "height": 8,
+                            "image": png(90)}],
+            "plots": [{"title": "Error over samples", "x": {"label": "samples", "log": True},
+                       "y": {"label": "L2", "log": True},
+                       "series": [{"name": name, "points": [[8, 0, runs[0]["id"]], [16, 0.25, runs[1]["id"]]]}
+                                  for name in ("fixed8", "float32")]}],
+            "pictures": [{"title": "PT - slicing", "caption": "signed", "image": png(128)}]}
+
+
+def made_up_report(count):
+    random.seed(7)
+    first, second = comparison("ramp", count), comparison(HOSTILE, 6)
+    exact = first["runs"][4]
+    for error in ("linf", "l1", "l2"):
+        exact[error] = 0
+    first["runs"][6]["ratio"] = None
+    first["runs"][7]["name"] = HOSTILE
+    for run in first["runs"]:
+        run["pareto"] = run["id"] in front(first["runs"], "l2")
+    failed = {"id": "failed", "name": "too large", "keys": {"render.target": "fixed8"},
+              "failed": f"needs 4 GiB {HOSTILE}"}
+    first["runs"].insert(2, failed)
+    return {"title": HOSTILE, "kind": "study", "findings": ["the first", HOSTILE],
+            "environment": {"machine": HOSTILE, "processors": 2, "drivers": ["native engine", "Mesa"]},
+            "swept": ["render.target", "render.slice.samples", "render.slice.tree.factors"],
+            "comparisons": [first, second], "dropped": [{"because": HOSTILE, "runs": 12}]}
+
+
+def measured(entry):
+    return [run for run in entry["runs"] if "failed" not in run]
+
+
+def options_for(profile):
+    options = webdriver.ChromeOptions()
+    options.binary_location = shutil.which("chromium")
+    for argument in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+                     "--disable-background-networking", "--disable-component-update", "--window-size=1280,1000",
+                     f"--user-data-dir={profile}"):
+        options.add_argument(argument)
+    if os.geteuid() == 0:
+        options.add_argument("--no-sandbox")  # which root cannot have
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return options
+
+
+class ReportPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="lamina-report-", ignore_cleanup_errors=True)
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = folder.name
+        cls.report = made_up_report(12)
+        cls.page = cls.write_page("report", cls.report)
+        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver") or "chromedriver"),
+                                       options=options_for(os.path.join(folder.name, "profile")))
+        cls.addClassCleanup(cls.browser.quit)
+
+    @classmethod
+    def write_page(cls, name, report):
+        source, page = (os.path.join(cls.folder, name + suffix) for suffix in (".json", ".html"))
+        with open(source, "w", encoding="utf-8") as file:
+            json.dump(report, file)
+        subprocess.run([write_report_page, source, page], check=True)
+        return "file://" + page
+
+    def setUp(self):
+        self.open(self.page)
+
+    def open(self, page):
+        for kind in ("browser", "performance"):
+            self.browser.get_log(kind)
+        self.browser.get(page)
+        # Observers of sizes run with the next frame, and charts are drawn by them.
+        self.browser.execute_async_script(
+            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
+
+    def all(self, selector, within=None):
+        return (within or self.browser).find_elements(By.CSS_SELECTOR, selector)
+
+    def section(self, index):
+        return self.all(f"#comparison-{index + 1}")[0]
+
+    def order(self, section):
+        return self.browser.execute_script(
+            "return [...arguments[0].querySelectorAll('tr.run')].filter((row) => !row.hidden)"
+            ".map((row) => row.dataset.run)", section)
+
+    def messages(self):
+        return [entry["message"] for entry in self.browser.get_log("browser")]
+
+    def requests(self):
+        events = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
+        return [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
+
+    def names(self, section):
+        return {label.get_attribute("data-run"): label.get_attribute("textContent")
+                for label in self.all(".scatter text.pareto-name", section)}
+
+    def click(self, node):
+        self.browser.execute_script("arguments[0].click()", node)
+
+    def test_loads_without_a_message_or_a_request(self):
+        self.browser.execute_script("window.scrollTo(0, document.body.scrollHeight)")
+        self.assertEqual(self.messages(), [])
+        urls = self.requests()
+        self.assertEqual([url for url in urls if not url.startswith("data:")], [self.page])
+
+    def test_the_browser_refuses_what_the_policy_forbids(self):
+        self.browser.execute_async_script(
+            "const image = new Image(); image.onerror = () => arguments[0](); image.src = 'http://127.0.0.1:9/x.png';")
+        self.assertIn("Content Security Policy", " ".join(self.messages()))
+
+    def test_strings_are_text_whatever_they_hold(self):
+        self.assertIsNone(self.browser.execute_script("return window.wasRun ?? null"))
+        self.assertEqual(self.all("img[src=x]"), [])
+        self.assertEqual(self.all("h1")[0].get_attribute("textContent"), HOSTILE)
+        self.assertEqual(self.browser.title.split()[0], HOSTILE.split()[0])
+        self.assertEqual(self.all("h2", self.section(1))[0].get_attribute("textContent"), HOSTILE)
+        for selector in ('tr[data-run="ramp-07"] th', "#failed td:last-child", "#dropped th[scope=row]",
+                         "#environment dd"):
+            self.assertIn(HOSTILE, self.all(selector)[0].get_attribute("textContent"))
+
+    def test_title_findings_and_a_note_need_no_script(self):
+        self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+        try:
+            self.browser.get(self.page)
+            self.assertEqual([item.text for item in self.all("#findings li")][0], "the first")
+            self.assertEqual(len(self.all("#findings li")), 2)
+            self.assertIn("results.csv", self.all("noscript")[0].text)
+            self.assertTrue(self.all("h1")[0].is_displayed())
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+
+    def test_the_scatter_names_the_pareto_front(self):
+        for index, entry in enumerate(self.report["comparisons"]):
+            runs = measured(entry)
+            wanted = {run["id"]: run["name"] for run in runs if run["pareto"]}
+            self.assertEqual(len(self.all(".scatter .point", self.section(index))), len(runs))
+            shown = self.names(self.section(index))
+            self.assertEqual(set(shown), set(wanted))
+            for run, name in shown.items():
+                self.assertTrue(wanted[run] == name or wanted[run].startswith(name[:-1]) and name.endswith("…"))
+
+    def test_the_scatter_names_the_front_of_the_chosen_error(self):
+        self.all("#choose-error option[value=linf]")[0].click()
+        for index, entry in enumerate(self.report["comparisons"]):
+            self.assertEqual(set(self.names(self.section(index))), front(measured(entry), "linf"))
+
+    def test_names_do_not_overlap(self):
+        # Names get 14 pixels of height, a pixel more than the font's; a pixel of overlap is rounding.
+        def overlap(a, b, at, size):
+            return min(a[at] + a[size], b[at] + b[size]) - max(a[at], b[at]) > 1
+        self.open(self.write_page("named", made_up_report(80)))
+        boxes = [label.rect for label in self.all(".scatter text.pareto-name", self.section(0))]
+        self.assertGreater(len(boxes), 4)
+        for i, a in enumerate(boxes):
+            for b in boxes[:i]:
+                self.assertFalse(overlap(a, b, "x", "width") and overlap(a, b, "y", "height"), (a, b))
+
+    def test_points_lie_by_time_and_error_and_zero_lies_lowest(self):
+        runs = measured(self.report["comparisons"][0])
+        centres = {}
+        for point in self.all(".scatter .point", self.section(0)):
+            x, y = point.get_attribute("transform")[len("translate("):-1].split(",")
+            centres[point.get_attribute("data-run")] = (float(x), float(y))
+        for a in runs:
+            for b in runs:
+                # Positions are rounded to a tenth of a pixel.
+                if a["frame_ms"]["median"] < b["frame_ms"]["median"]:
+                    self.assertLessEqual(centres[a["id"]][0], centres[b["id"]][0] + 0.1)
+                if a["l2"] < b["l2"]:
+                    self.assertGreaterEqual(centres[a["id"]][1], centres[b["id"]][1] - 0.1)
+        lowest = max(centres, key=lambda run: centres[run][1])
+        self.assertEqual(lowest, next(run["id"] for run in runs if run["l2"] == 0))
+        ticks = [text.get_attribute("textContent") for text in self.all(".scatter .tick-text", self.section(0))]
+        self.assertIn("0", ticks)
+
+    def test_marks_follow_the_chosen_key(self):
+        def mark(point):  # shape and colour; hollow ones have theirs around them
+            path = self.all("path", point)[0]
+            fill, stroke = path.get_attribute("fill"), path.get_attribute("stroke")
+            return path.get_attribute("d"), stroke if fill == "#ffffff" else fill
+
+        def marks():
+            return {point.get_attribute("data-run"): mark(point)
+                    for point in self.all(".scatter .point", self.section(0))}
+        runs = measured(self.report["comparisons"][0])
+        for key in self.report["swept"]:
+            self.all(f'#choose-key option[value="{key}"]')[0].click()
+            shown = marks()
+            for a in runs:
+                for b in runs:
+                    self.assertEqual(shown[a["id"]] == shown[b["id"]], a["keys"][key] == b["keys"][key], key)
+        hollow = {point.get_attribute("data-run") for point in self.all(".scatter .point", self.section(0))
+                  if self.all("path", point)[0].get_attribute("fill") == "#ffffff"}
+        self.assertEqual(hollow, {run["id"] for run in runs if run["near_reference"]})
+
+    def test_every_numeric_column_sorts(self):
+        for index, entry in enumerate(self.report["comparisons"]):
+            section = self.section(index)
+            heads = {button.get_attribute("data-column"): button for button in self.all("th.number button", section)}
+            self.assertEqual(set(heads) | {"key.render.slice.samples"}, set(NUMERIC))
+            for column, value in NUMERIC.items():
+                button = self.all(f'button[data-column="{column}"]', section)[0]
+                present = [run for run in measured(entry) if value(run) is not None]
+                last = [run["id"] for run in measured(entry) if value(run) is None]
+                last += [run["id"] for run in entry["runs"] if "failed" in run]
+                for down in (False, True):
+                    self.click(button)
+                    wanted = [run["id"] for run in sorted(present, key=value, reverse=down)] + last
+                    self.assertEqual(self.order(section), wanted, f"{column} down={down}")
+                    head = button.find_element(By.XPATH, "..")
+                    self.assertEqual(head.get_attribute("aria-sort"), "descending" if down else "ascending")
+                self.assertEqual(len(self.all("th[aria-sort=descending]", section)), 1)
+
+    def test_other_columns_sort_by_keyboard(self):
+        section = self.section(0)
+        runs = measured(self.report["comparisons"][0])
+        for column, value in (("key.render.slice.tree.factors", lambda run: run["keys"]["render.slice.tree.factors"]),
+                              ("key.render.target", lambda run: run["keys"]["render.target"]),
+                              ("pareto", lambda run: not run["pareto"])):
+            self.all(f'button[data-column="{column}"]', section)[0].send_keys(Keys.ENTER)
+            wanted = [run["id"] for run in sorted(runs, key=value)]
+            self.assertEqual(self.order(section), wanted + ["failed"], column)
+
+    def test_the_filter_wants_all_words(self):
+        box = self.all("#filter")[0]
+        for words in ("float32", "FIXED8 90", "run 1", "4 gib", "nothing-of-that"):
+            box.clear()
+            box.send_keys(words)
+            for index, entry in enumerate(self.report["comparisons"]):
+                def text(run):
+                    keys = " ".join(f"{key} {', '.join(map(str, value)) if isinstance(value, list) else value}"
+                                    for key, value in run["keys"].items())
+                    return " ".join([run["id"], run["name"], run.get("context", ""), run.get("failed", ""), keys]).lower()
+                wanted = [run for run in entry["runs"] if all(word in text(run) for word in words.lower().split())]
+                self.assertEqual(self.order(self.section(index)), [run["id"] for run in wanted], words)
+                clear = self.all(".scatter .point:not(.faint)", self.section(index))
+                self.assertEqual({point.get_attribute("data-run") for point in clear},
+                                 {run["id"] for run in wanted if "failed" not in run})
+
+    def test_rows_open_and_close(self):
+        section = self.section(0)
+        run = measured(self.report["comparisons"][0])[1]
+        button = self.all(f'tr[data-run="{run["id"]}"] button', section)[0]
+        button.send_keys(Keys.ENTER)
+        pictures = self.all(".detail .picture img", section)
+        reference = self.report["comparisons"][0]["references"][0]
+        self.assertEqual([image.get_attribute("src") for image in pictures],
+                         [run["image"], reference["image"], run["difference"]])
+        for image in pictures:
+            self.browser.execute_async_script("arguments[0].decode().then(arguments[1])", image)
+            self.assertEqual(self.browser.execute_script("return arguments[0].naturalWidth", image), 8)
+            self.assertEqual(image.size, {"width": 256, "height": 256})
+        self.assertEqual(len(self.all(".detail .color-bar", section)), 1)
+        self.assertEqual(button.get_attribute("aria-expanded"), "true")
+        # The opened part stays below its row when the table is sorted.
+        self.click(self.all('button[data-column="l2"]', section)[0])
+        below = self.browser.execute_script("return arguments[0].closest('tr').nextSibling.className", button)
+        self.assertIn("detail", below)
+        button.send_keys(Keys.ENTER)
+        self.assertEqual(self.all(".detail", section), [])
+
+    def test_points_tell_of_their_run_by_keyboard(self):
+        section = self.section(0)
+        runs = sorted(measured(self.report["comparisons"][0]), key=lambda run: run["frame_ms"]["median"])
+        self.assertLess(runs[0]["frame_ms"]["median"], runs[1]["frame_ms"]["median"])
+        first = self.all('.scatter .point[tabindex="0"]', section)
+        self.assertEqual([point.get_attribute("data-run") for point in first], [runs[0]["id"]])
+        self.browser.execute_script("arguments[0].focus()", first[0])
+        self.assertIn(runs[0]["name"], self.all("#hint")[0].text)
+        first[0].send_keys(Keys.ARROW_RIGHT)
+        self.assertIn(runs[1]["name"], self.all("#hint")[0].text)
+        self.browser.switch_to.active_element.send_keys(Keys.ENTER)
+        opened = self.all(f'tr[data-run="{runs[1]["id"]}"] + tr.detail', section)
+        self.assertEqual(len(opened), 1)
+
+    def test_long_tables_print_baseline_and_front(self):
+        report = made_up_report(80)
+        self.open(self.write_page("long", report))
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        try:
+            for index, entry in enumerate(report["comparisons"]):
+                section = self.section(index)
+                long = len(entry["runs"]) > 60
+                shown = {row.get_attribute("data-run") for row in self.all("tr.run", section) if row.is_displayed()}
+                self.assertEqual(shown, {run["id"] for run in entry["runs"]
+                                         if not long or run.get("pareto") or run["id"] == entry["baseline"]})
+                notes = [note.is_displayed() for note in self.all(".print-only", section)]
+                self.assertEqual(notes, [True] if long else [])
+            self.assertFalse(self.all("#controls")[0].is_displayed())
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+
+if __name__ == "__main__":
+    write_report_page = sys.argv.pop(1)
+    unittest.main(verbosity=2)
