@@ -8,8 +8,8 @@ class Chart {
   constructor(width, height, description, x, y, xPads, yPads) {
     const { left, right, top, bottom } = chartMargins;
     this.box = { left, top, right: width - right, bottom: height - bottom };
-    this.x = new Axis(x, x.values, this.box.right - left, Math.max(3, Math.floor(width / 90)), xPads);
-    this.y = new Axis(y, y.values, this.box.bottom - top, Math.max(3, Math.floor(height / 50)), yPads);
+    this.x = new Axis(x, x.values, this.box.right - left, Math.max(4, Math.floor(width / 90)), xPads);
+    this.y = new Axis(y, y.values, this.box.bottom - top, Math.max(4, Math.floor(height / 50)), yPads);
     this.svg = drawn("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, width, height,
                               role: "group", "aria-label": description });
     this.drawHorizontalAxis();
@@ -126,6 +126,16 @@ function makePickable(svg, points, show, open) {
 }
 
 const chartPlaces = [];  // of the whole page: {redraw, printedWidth}
+let printing = false;
+
+window.addEventListener("beforeprint", () => {
+  printing = true;
+  for (const { redraw, printedWidth } of chartPlaces) redraw(printedWidth);
+});
+window.addEventListener("afterprint", () => {
+  printing = false;
+  for (const { redraw } of chartPlaces) redraw();
+});
 
 // A place for a chart that is drawn again when its width changes, and for print.
 function resizing(draw, printedWidth) {
@@ -135,7 +145,8 @@ function resizing(draw, printedWidth) {
     if (width > 0) place.replaceChildren(draw(width));
   };
   new ResizeObserver(() => {
-    if (place.clientWidth === seenWidth) return;  // only its height changed: that of what was drawn
+    // Drawing changes its height alone.
+    if (printing || place.clientWidth === seenWidth) return;
     seenWidth = place.clientWidth;
     redraw();
   }).observe(place);

@@ -20,6 +20,10 @@ function boxHolds(box, x, y) {
   return x > box.left && x < box.right && y > box.top && y < box.bottom;
 }
 
+function distanceTo(box, { x, y }) {
+  return Math.hypot(Math.max(box.left - x, 0, x - box.right), Math.max(box.top - y, 0, y - box.bottom));
+}
+
 // Below and to the left of a Pareto front there is nothing, so these directions come first.
 const directions = [[-1, 1], [-1, 0], [1, -1], [1, 0], [0, 1], [0, -1], [-1, -1], [1, 1],
                     [-2, 1], [-1, 2], [2, -1], [1, -2]];
@@ -34,7 +38,7 @@ function candidatesFor(point, width) {
     const left = dx < 0 ? x - width : dx > 0 ? x : x - width / 2;
     const top = y - labelHeight / 2 + (dx === 0 ? labelHeight / 2 * dy : 0);
     return { left, right: left + width, top, bottom: top + labelHeight, endX: x, endY: y,
-             led: far > 1, price: 4 * far + later / 4 };
+             led: far > 0, price: 4 * far + later / 4 };
   }));
 }
 
@@ -61,6 +65,9 @@ function placeLabels(points, obstacles, box) {
       let price = candidate.price;
       for (const other of placed) price += 5 * overlapOf(candidate, other);
       for (const [x, y] of leaders) if (boxHolds(candidate, x, y)) price += 40;
+      // A name that is nearer to another named point would be read as that one's.
+      const own = distanceTo(candidate, point);
+      for (const other of points) if (other !== point && distanceTo(candidate, other) <= own) price += 15;
       if (best && price >= best.price) continue;
       const way = pointsAlong(point, candidate);
       for (const [x, y] of way) for (const other of placed) if (boxHolds(other, x, y)) price += 40;

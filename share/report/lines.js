@@ -57,7 +57,7 @@ function drawPlot(plot, indices, width, open) {
 
 function plotFigure(report, plot, open) {
   const indices = seriesIndices(report, plot);
-  const { place } = resizing((width) => drawPlot(plot, indices, width, open), 440);
+  const { place } = resizing((width) => drawPlot(plot, indices, width, open), 340);
   return element("figure", { class: "plot" }, element("figcaption", null, element("b", null, plot.title)), place,
     seriesLegend(plot, indices));
 }

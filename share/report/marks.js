@@ -26,7 +26,9 @@ const polygons = [
   starOf(5, 1.4, 0.62, 0),
 ];
 
-// Seven colours and eight shapes: no pair comes twice among the first 56.
+// As many as have a pair of their own: 7 and 8 have no common divisor.
+const differentMarks = colors.length * polygons.length;
+
 function markOf(index) {
   return { color: colors[index % colors.length], polygon: polygons[index % polygons.length] };
 }

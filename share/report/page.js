@@ -117,5 +117,3 @@ function build() {
 }
 
 build();
-window.addEventListener("beforeprint", () => chartPlaces.forEach(({ redraw, printedWidth }) => redraw(printedWidth)));
-window.addEventListener("afterprint", () => chartPlaces.forEach(({ redraw }) => redraw()));

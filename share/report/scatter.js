@@ -66,7 +66,9 @@ class Scatter {
     if (this.baseline) {
       entries.push([swatch(drawn("circle", { class: "baseline-ring", r: 6.5 })), `baseline: ${this.baseline.name}`]);
     }
-    const title = marks.key === null ? null : element("p", { class: "legend-title" }, marks.key);
+    const values = marks.texts?.length ?? 0;
+    const title = marks.key === null ? null : element("p", { class: "legend-title" }, values <= differentMarks
+      ? marks.key : `${marks.key} (${values} values: marks repeat after ${differentMarks})`);
     return element("div", null, title, legend(entries));
   }
 
