@@ -27,9 +27,10 @@ function drawSeries(chart, series, index) {
   }
   return points.map((point) => {
     const [x, y] = point.at;
-    const node = drawn("g", { class: "point", role: "img", transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
-                              "aria-label": `${series.name}: ${numberText(point.valueX)}, ${numberText(point.valueY)}` },
-      markNode(mark, false, 3.6));
+    const node = drawn("g", {
+      class: "point", role: "img", transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
+      "aria-label": `${series.name}: ${numberText(point.valueX)}, ${numberText(point.valueY)}`,
+    }, markNode(mark, false, 3.6));
     return { ...point, x, y, node };
   });
 }

@@ -29,7 +29,8 @@ function comparisonFacts(comparison) {
   return factList([
     ["runs", `${runs.length}, ${front} of them on the Pareto front` + (failed > 0 ? `, ${failed} failed` : "")],
     ["baseline", baseline?.name],
-    [references.length === 1 ? "reference" : "references", references.length === 0 ? null : element("div", null, references)],
+    [references.length === 1 ? "reference" : "references",
+     references.length === 0 ? null : element("div", null, references)],
   ]);
 }
 
@@ -60,7 +61,8 @@ function comparisonView(comparison, index) {
 function failedSection() {
   const rows = report.comparisons.flatMap(({ scene, runs }) =>
     runs.filter((run) => run.failed).map((run) => [scene, run.name, run.failed]));
-  return rows.length === 0 ? null : section("failed", "Failed runs", smallTable("words", ["scene", "run", "message"], rows));
+  return rows.length === 0 ? null
+    : section("failed", "Failed runs", smallTable("words", ["scene", "run", "message"], rows));
 }
 
 function droppedSection() {

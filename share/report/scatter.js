@@ -102,10 +102,11 @@ class Scatter {
     const { error, marks, matches } = this.state;
     const mark = marks.key === null ? markOf(0) : marks.markFor(run);
     const ring = run === this.baseline ? drawn("circle", { class: "baseline-ring", r: 8 }) : null;
+    const figures = `${numberText(run.frame_ms.median)} ms, ${errorLabels[error]} ${numberText(run[error])}`;
     return drawn("g", {
       class: matches(run) ? "point" : "point faint", "data-run": run.id, role: "img",
       transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
-      "aria-label": `${run.name}: ${numberText(run.frame_ms.median)} ms, ${errorLabels[error]} ${numberText(run[error])}`,
+      "aria-label": `${run.name}: ${figures}`,
     }, markNode(mark, run.near_reference), ring);
   }
 

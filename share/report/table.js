@@ -15,11 +15,13 @@ function columnsOf(swept) {
     { id: "name", group: "", head: "run", title: "the run's name", value: (run) => run.name, text: valueText },
     ...swept.map((key) => ({ id: `key.${key}`, group: "", head: short.get(key), title: key, text: valueText,
                              value: (run) => run.keys?.[key] })),
-    number("frame_ms.median", frame, "median", "median of the frames with a moving camera", (run) => run.frame_ms?.median),
+    number("frame_ms.median", frame, "median", "median of the frames with a moving camera",
+      (run) => run.frame_ms?.median),
     number("frame_ms.min", frame, "min", "fastest of these frames", (run) => run.frame_ms?.min),
     number("frame_ms.spread", frame, "spread", "slowest less fastest of these frames", spread),
     number("ratio", frame, "ratio", "median over the baseline's", (run) => run.ratio),
-    number("still_ms.median", frame, "still", "median of the frames with a still camera", (run) => run.still_ms?.median),
+    number("still_ms.median", frame, "still", "median of the frames with a still camera",
+      (run) => run.still_ms?.median),
     number("linf", error, "L∞", "largest error of a pixel", (run) => run.linf),
     number("l1", error, "L1", "mean error, with its sign", (run) => run.l1),
     number("l2", error, "L2", "root of the mean square error", (run) => run.l2),
@@ -83,11 +85,13 @@ class RunTable {
     const cells = [];
     for (const column of this.columns) {
       if (column.id === "name") cells.push(this.nameCell(run, baseline));
-      else if (!failed) cells.push(element("td", { class: column.numeric ? "number" : null }, column.text(column.value(run))));
-      else if (column.id.startsWith("key.")) cells.push(element("td", null, column.text(column.value(run))));
+      else if (!failed || column.id.startsWith("key.")) {
+        cells.push(element("td", { class: column.numeric ? "number" : null }, column.text(column.value(run))));
+      }
     }
     if (failed) {
-      cells.push(element("td", { class: "message", colspan: this.columns.length - cells.length }, `failed: ${run.failed}`));
+      const rest = this.columns.length - cells.length;
+      cells.push(element("td", { class: "message", colspan: rest }, `failed: ${run.failed}`));
     }
     const kinds = [["run", true], ["failed", failed], ["pareto", run.pareto], ["baseline", baseline]];
     const names = kinds.filter(([, is]) => is).map(([name]) => name).join(" ");

@@ -136,7 +136,9 @@ class ReportPage(unittest.TestCase):
         cls.folder = folder.name
         cls.report = made_up_report(12)
         cls.page = cls.write_page("report", cls.report)
-        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver") or "chromedriver"),
+        # Its crash reporter writes there whatever the profile.
+        private = {**os.environ, "XDG_CONFIG_HOME": folder.name}
+        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver") or "chromedriver", env=private),
                                        options=options_for(os.path.join(folder.name, "profile")))
         cls.addClassCleanup(cls.browser.quit)
 
@@ -194,7 +196,8 @@ class ReportPage(unittest.TestCase):
         self.assertEqual([url for url in urls if not url.startswith("data:")], [self.page])
 
     def test_the_browser_refuses_what_the_policy_forbids(self):
-        for attempt in ("const image = new Image(); image.onerror = () => arguments[0](); image.src = 'http://127.0.0.1:9/'",
+        for attempt in ("const image = new Image(); image.onerror = () => arguments[0](); "
+                        "image.src = 'http://127.0.0.1:9/'",
                         "fetch('http://127.0.0.1:9/').catch(() => arguments[0]())"):
             self.browser.execute_async_script(attempt)
             self.assertIn("Content Security Policy", " ".join(self.messages()), attempt)
@@ -317,7 +320,8 @@ class ReportPage(unittest.TestCase):
                 def text(run):
                     keys = " ".join(f"{key} {', '.join(map(str, value)) if isinstance(value, list) else value}"
                                     for key, value in run["keys"].items())
-                    return " ".join([run["id"], run["name"], run.get("context", ""), run.get("failed", ""), keys]).lower()
+                    others = [run["id"], run["name"], run.get("context", ""), run.get("failed", "")]
+                    return " ".join([*others, keys]).lower()
                 wanted = [run for run in entry["runs"] if all(word in text(run) for word in words.lower().split())]
                 self.assertEqual(self.order(self.section(index)), [run["id"] for run in wanted], words)
                 clear = self.collect(self.section(index), ".scatter .point:not(.faint)", "node.dataset.run")
