@@ -57,6 +57,7 @@ class Crosschecker {
         for (const double each : tolerances) {
             project(each);
             progress.advance();
+            if (settings_.stop_when_agreed && each <= made_.tolerance && is_fine_enough()) break;
         }
         time();
         compare_pairs();
@@ -129,6 +130,12 @@ class Crosschecker {
         made.method_part = image_error(made.picture, made.traced);
         made.error = image_error(made.picture, made_.pictures.traced_volume);
         made.bytes = frames.bytes();
+    }
+
+    bool is_fine_enough() const {
+        const Crosscheck::Projection& last = made_.projections.back();
+        const double e = image_error(last.picture, made_.slicings.back().picture).all.linf;
+        return e <= scene_.max_error || last.mesh_error > last.tolerance;
     }
 
     void time() {

@@ -13,9 +13,12 @@
 namespace lamina {
 
 struct CrosscheckSettings {
-    std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01};  // of meshes made from the volume
-    std::vector<int> samples{64, 128, 256, 512, 1024};      // slabs
-    int rounds = 3;                                         // of frames, interleaved; >= 3
+    // Of meshes made from the volume, beside the scene's own.
+    std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
+    // No finer mesh once both methods agree within the scene's max_error, or at its max_tets.
+    bool stop_when_agreed = true;
+    std::vector<int> samples{64, 128, 256, 512, 1024};  // slabs, beside the scene's own
+    int rounds = 3;                                     // of frames, interleaved; >= 3
 };
 
 // One volume by both methods, the sampling of each from coarse to fine.

@@ -16,7 +16,9 @@ struct PairAt {
 
 std::string mesh_text(const Crosscheck::Projection& projection) {
     if (projection.tolerance == 0) return fmt::format("the file's {} tets", projection.tets);
-    return fmt::format("tolerance {:g} ({} tets)", projection.tolerance, projection.tets);
+    const bool stopped = projection.mesh_error > projection.tolerance;
+    return fmt::format("tolerance {:g} ({} tets{})", projection.tolerance, projection.tets,
+                       stopped ? fmt::format(", stopped at {:.2g}", projection.mesh_error) : "");
 }
 
 const Crosscheck::Pair& pair_at(const Crosscheck& crosscheck, const PairAt& at) {
@@ -73,7 +75,7 @@ std::string agreement(const Crosscheck& crosscheck, double wanted) {
     const PairAt at = closest(crosscheck);
     return fmt::format(
         "PT and slicing agree nowhere on this ladder within {:g}/255 in every pixel; they are "
-        "closest at {}. Finer: --tolerances and --samples.",
+        "closest at {}. Finer: --tolerances, --samples and mesh.max_tets.",
         wanted, pair_text(crosscheck, at));
 }
 

@@ -103,17 +103,21 @@ void add_crosscheck(CLI::App& app, int&) {
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene: KEY=VALUE, as in render.max_error=0.5")
         ->allow_extra_args(false);
-    verb->add_option("--tolerances", options->settings.tolerances,
-                     "Of the meshes to compare, beside the scene's own: .1,.05,.02,.01")
-        ->delimiter(',');
+    const CLI::Option* const tolerances =
+        verb->add_option(
+                "--tolerances", options->settings.tolerances,
+                "Of the meshes to compare, beside the scene's own; by default .1,.05,.02,.01,"
+                ".005,.002,.001, until both methods agree within render.max_error")
+            ->delimiter(',');
     verb->add_option("--samples", options->settings.samples,
                      "Slabs to compare, beside the scene's own: 64,128,256,512,1024")
         ->delimiter(',');
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
-    verb->callback([options] {
+    verb->callback([options, tolerances] {
         Progress::set_quiet(options->quiet);
+        options->settings.stop_when_agreed = tolerances->count() == 0;
         run(*options);
     });
 }
