@@ -94,17 +94,14 @@ HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std
     store_pixels(d, there, *tile.pixels, place);
 }
 
-struct GeneralShading {
-    bool cut, scalars, perspective, colored, opacity_only;
-    PartDepth depth;
+struct GeneralShader {
+    bool cut, scalars, perspective, opacity_only;
 
-    GeneralShading(const TetFragments& fragments, const PartArea& area)
+    explicit GeneralShader(const TetFragments& fragments)
         : cut(fragments.source == SegmentSource::parts),
           scalars(fragments.source != SegmentSource::constant),
           perspective(fragments.perspective),
-          colored(fragments.colored),
-          opacity_only(fragments.opacity_only),
-          depth(depth_of(fragments, area)) {}
+          opacity_only(fragments.opacity_only) {}
 
     // Codes are those of OpenGL's programs, which know no faint parts, and careful ones as any.
     static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
@@ -114,14 +111,15 @@ struct GeneralShading {
     }
 
     HWY_NOINLINE Fragment<Vector> color(Tag d, const TetFragments& fragments,
-                                        const TetRecord& record, const TetRun<Vector>& run) const {
-        return cut ? part_color(d, colored, depth, fragments, record, run)
-                   : segment_color(d, fragments, run);
+                                        const TetRecord& record, const PartArea& area,
+                                        const TetRun<Vector>& run) const {
+        if (!cut) return segment_color(d, fragments, run);
+        return part_color(d, fragments.colored, depth_of(fragments, area), fragments, record, run);
     }
-    HWY_INLINE void put(Tag d, const TetFragments& fragments, const TetRecord& record,
+    HWY_INLINE void put(Tag d, const TetFragments& fragments, std::uint32_t number,
                         const Fragment<Vector>& fragment, const TetTile& tile,
                         std::size_t place) const {
-        put_fragments(d, fragments, record.number, fragment, tile, place);
+        put_fragments(d, fragments, number, fragment, tile, place);
     }
 };
 

@@ -14,45 +14,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "projection/tet_run-inl.h"
+#include "projection/fragment_queue-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
-using Vector = hn::Vec<Tag>;
-
-// Vectors of 4 x 1, 4 x 2 or 4 x 4 pixels of a tile whose rays meet a part.
-class CoveredPixels {
-  public:
-    // Of the first pixel of a vector: TileGrid::place(), column and row from the record's center.
-    struct Place {
-        int place;
-        float column, row;
-    };
-
-    // Kept where `any`: no branch, which nothing could predict.
-    HWY_INLINE void add(Tag d, const Place& place, const InsideSpan<Vector>& span, bool any) {
-        places_[count_] = place;
-        hn::Store(span.enter, d, enter_ + count_ * lanes);
-        hn::Store(span.leave, d, leave_ + count_ * lanes);
-        count_ += any ? 1 : 0;
-    }
-    std::size_t count() const { return count_; }
-    const Place& at(std::size_t i) const { return places_[i]; }
-    std::size_t place(std::size_t i) const { return static_cast<std::size_t>(places_[i].place); }
-    HWY_INLINE InsideSpan<Vector> span(Tag d, std::size_t i) const {
-        return {hn::Load(d, enter_ + i * lanes), hn::Load(d, leave_ + i * lanes)};
-    }
-
-  private:
-    static constexpr std::size_t lanes = hn::MaxLanes(Tag()), most = TileGrid::pixels / lanes + 1;
-    std::size_t count_ = 0;
-    Place places_[most];
-    HWY_ALIGN float enter_[most * lanes];
-    HWY_ALIGN float leave_[most * lanes];
-};
 
 // The blocks of a tile that an area of the picture touches, a bit each, row by row.
 inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile) {
@@ -83,47 +49,38 @@ HWY_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
 
 class TetCoverage {
   public:
-    TetCoverage(const TetFragments& fragments, const TileGrid::Tile& area)
-        : fragments_(fragments), area_(area) {
+    TetCoverage(const TetFragments& fragments, const TetTile& tile)
+        : fragments_(fragments), tile_(tile), area_(tile.area) {
         const Vector number = hn::Iota(d_, 0.0f),
                      width = hn::Set(d_, static_cast<float>(TileGrid::block));
         lane_rows_ = hn::Floor(hn::Div(number, width));
         lane_columns_ = hn::Sub(number, hn::Mul(lane_rows_, width));
-        const Vector a_row = hn::Set(d_, static_cast<float>(blocks_a_row)),
-                     half = hn::Set(d_, 0.5f * (block - 1));
-        const Vector row = hn::Floor(hn::Div(number, a_row));
-        block_rows_ = hn::Add(hn::Mul(row, width), half);
-        block_columns_ = hn::Add(hn::Mul(hn::Sub(number, hn::Mul(row, a_row)), width), half);
     }
-    Vector columns(const CoveredPixels::Place& place) const {
-        return hn::Add(lane_columns_, hn::Set(d_, place.column));
-    }
-    Vector rows(const CoveredPixels::Place& place) const {
-        return hn::Sub(hn::Set(d_, place.row), lane_rows_);
+
+    // The blocks of the tile that a part may cover, a bit each, row by row.
+    HWY_INLINE std::uint64_t blocks(const TetRecord& record, const PartArea& area) const {
+        const std::uint64_t all = blocks_of(area, area_);
+        return area.careful ? all : all & blocks_met(record);
     }
 
     // `cut`: between the part's planes of constant scalar.
-    template <bool cut>
-    HWY_INLINE void find(const TetRecord& record, const PartArea& area, CoveredPixels& covered) {
-        const std::uint64_t blocks = blocks_of(area, area_);
-        if (area.careful) {
-            find_in<cut, true, CarefulDepths<Tag>>(record, area, blocks, covered);
-            return;
-        }
-        const bool many = hwy::PopCount(blocks) > few_blocks;
-        const std::uint64_t kept = many ? drop_missed(record, blocks) : blocks;
+    HWY_INLINE void find(bool cut, const TetRecord& record, const PartArea& area,
+                         std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
         // Blocks at the picture's right and lower edge may stick out of it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
-        if (area.bounded || !whole_blocks) {
-            find_in<cut, true, PlainDepths<Tag>>(record, area, kept, covered);
+        FragmentQueue::Writer writer(found, part);
+        if (area.careful) {
+            find_in<true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
+        } else if (area.bounded || !whole_blocks) {
+            find_in<true, PlainDepths<Tag>>(cut, record, area, blocks, writer);
         } else {
-            find_in<cut, false, PlainDepths<Tag>>(record, area, kept, covered);
+            find_in<false, PlainDepths<Tag>>(cut, record, area, blocks, writer);
         }
+        count_ += static_cast<std::int64_t>(writer.finish(d_));
     }
     std::int64_t fragments() const { return count_; }
 
   private:
-    static constexpr std::size_t few_blocks = 6;  // are looked at one by one
     static constexpr int block = TileGrid::block, blocks_a_row = TileGrid::edge / TileGrid::block;
 
     float from_column(const TetRecord& record) const {
@@ -133,48 +90,102 @@ class TetCoverage {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
-    // Blocks without those no ray of which can meet the tet: at a block's centre depths on faces
-    // differ from those elsewhere in it by at most 1.5 pixels' worth.
-    HWY_INLINE std::uint64_t drop_missed(const TetRecord& record, std::uint64_t blocks) const {
-        constexpr std::size_t lanes = hn::MaxLanes(Tag());
-        if constexpr (lanes < blocks_a_row) return blocks;
-        // More than all roundings of the depths: what is dropped must not depend on the lanes.
-        constexpr float rounding = 1e-6f;
-        const float pixels_of_rounding =
-            0.01f + rounding * (std::abs(from_column(record)) + std::abs(from_row(record)));
-        const std::uint32_t fronts = record.fronts & 7u;
-        const Vector columns = hn::Add(block_columns_, hn::Set(d_, from_column(record)));
-        const auto start = [&](std::uint32_t face) HWY_ATTR {
-            const float per_column = record.depth_per_column.high[face],
-                        per_row = record.depth_per_row.high[face];
-            const float reach = (0.5f * (block - 1) + pixels_of_rounding) *
-                                    (std::abs(per_column) + std::abs(per_row)) +
-                                rounding * std::abs(record.depth.high[face]);
-            return at_column(d_, record.depth.high[face] + (face < fronts ? -reach : reach),
-                             per_column, columns);
-        };
-        const Vector d0 = start(0), d1 = start(1), d2 = start(2), d3 = start(3);
-        const auto& per_row = record.depth_per_row.high;
-        std::uint64_t kept = 0;
-        for (std::size_t first = 0; first < 64; first += lanes) {
-            const std::uint64_t group = (~0ull >> (64 - lanes)) << first;
-            if ((blocks & group) == 0) continue;
-            const float row = from_row(record) - static_cast<float>(first / blocks_a_row * block);
-            const Vector rows = hn::Sub(hn::Set(d_, row), block_rows_);
-            const InsideSpan<Vector> span = order_depths(
-                fronts, at_row(d_, d0, per_row[0], rows), at_row(d_, d1, per_row[1], rows),
-                at_row(d_, d2, per_row[2], rows), at_row(d_, d3, per_row[3], rows));
-            std::uint8_t bits[8];
-            const std::size_t bytes = hn::StoreMaskBits(d_, hn::Gt(span.leave, span.enter), bits);
-            for (std::size_t i = 0; i < bytes; ++i)
-                kept |= (std::uint64_t{bits[i]} << (first + 8 * i)) & group;
+    // Bounds of columns of blocks that are linear in the row of blocks: `at_first` in the first
+    // row, `per_row` more in each one below. Least and greatest columns, of at most four lines.
+    struct Bounds {
+        alignas(16) std::array<float, 4> at_first, per_row;
+    };
+
+    // The tile's blocks, a bit each, without those no ray of which can meet the tet. Rays meet it
+    // where depths on all front faces are less than on all back faces: inside of three or four
+    // lines, the tet's silhouette, on which two of them are equal.
+    HWY_INLINE std::uint64_t blocks_met(const TetRecord& record) const {
+        Bounds least, greatest;
+        find_silhouette(record, least, greatest);
+        const hn::CappedTag<float, blocks_a_row> d;
+        const hn::RebindToSigned<decltype(d)> di;
+        const hn::Rebind<std::uint8_t, decltype(d)> d8;
+        const auto columns = hn::Set(d, static_cast<float>(blocks_a_row));
+        std::uint8_t bits[blocks_a_row];
+        for (std::size_t row = 0; row < blocks_a_row; row += hn::Lanes(d)) {
+            const auto rows = hn::Iota(d, static_cast<float>(row));
+            auto first = hn::Zero(d), end = columns;
+            for (std::size_t i = 0; i < 4; ++i) {
+                first = hn::Max(first,
+                                at_row(d, hn::Set(d, least.at_first[i]), least.per_row[i], rows));
+                end = hn::Min(
+                    end, at_row(d, hn::Set(d, greatest.at_first[i]), greatest.per_row[i], rows));
+            }
+            // 2^end - 2^first has the bits from `first` up to `end`.
+            const auto power = [&](auto column)
+                                   HWY_ATTR { return power_of_two(d, hn::ConvertTo(di, column)); };
+            const auto some = hn::Sub(power(hn::Max(hn::Floor(end), hn::Zero(d))),
+                                      power(hn::Min(hn::Ceil(first), columns)));
+            hn::StoreU(hn::DemoteTo(d8, hn::ConvertTo(di, hn::Max(some, hn::Zero(d)))), d8,
+                       bits + row);
         }
-        return kept & blocks;
+        std::uint64_t met;
+        std::memcpy(&met, bits, sizeof(met));
+        return met;
     }
 
-    template <bool cut, bool bounded, class Depths>
-    HWY_INLINE void find_in(const TetRecord& record, const PartArea& area, std::uint64_t blocks,
-                            CoveredPixels& covered) {
+    // Differences of depth on a line are D + C x + R y at the block x columns and y rows away from
+    // the tile's first one. The bounds hold for the block's nearest corner.
+    HWY_INLINE void find_silhouette(const TetRecord& record, Bounds& least,
+                                    Bounds& greatest) const {
+        const hn::FixedTag<float, 4> d;
+        const hn::RebindToSigned<decltype(d)> di;
+        // Pairs of a front and a back face.
+        alignas(16) static constexpr std::int32_t front_of[4][4] = {
+            {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
+        alignas(16) static constexpr std::int32_t back_of[4][4] = {
+            {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
+        const std::uint32_t fronts = record.fronts & 3u;
+        const auto front = hn::IndicesFromVec(d, hn::Load(di, front_of[fronts]));
+        const auto back = hn::IndicesFromVec(d, hn::Load(di, back_of[fronts]));
+        const auto depth = hn::Load(d, record.depth.high.data()),
+                   per_column = hn::Load(d, record.depth_per_column.high.data()),
+                   per_row = hn::Load(d, record.depth_per_row.high.data());
+        const auto difference = [&](auto v) HWY_ATTR {
+            return hn::Sub(hn::TableLookupLanes(v, back), hn::TableLookupLanes(v, front));
+        };
+        const float x = from_column(record) + 0.5f * (block - 1),
+                    y = from_row(record) - 0.5f * (block - 1);
+        // More than all roundings of the depths of both faces: what is dropped must not be seen.
+        constexpr float rounding = 1e-6f;
+        const auto rounding_of_face =
+            hn::Add(hn::Mul(hn::Add(hn::Abs(per_column), hn::Abs(per_row)),
+                            hn::Set(d, 1e-3f + rounding * (std::abs(x) + std::abs(y)))),
+                    hn::Mul(hn::Abs(depth), hn::Set(d, rounding)));
+        const auto slack = hn::Add(hn::TableLookupLanes(rounding_of_face, back),
+                                   hn::TableLookupLanes(rounding_of_face, front));
+        const auto c = difference(per_column), r = difference(per_row);
+        const auto abs_r = hn::Abs(r);
+        // Lines along rows are made a little oblique: less than the hundredth of a pixel.
+        constexpr float oblique = 1e-4f;
+        const auto steepness =
+            hn::Max(hn::Max(hn::Abs(c), hn::Mul(abs_r, hn::Set(d, oblique))), hn::Set(d, 1e-30f));
+        const auto reach = hn::Add(hn::Add(hn::Mul(hn::Set(d, 0.5f * (block - 1)), hn::Abs(c)),
+                                           hn::Mul(hn::Set(d, 0.5f * (block - 1) + 0.01f), abs_r)),
+                                   slack);
+        const auto highest = hn::Add(hn::Add(hn::Add(difference(depth), hn::Mul(c, hn::Set(d, x))),
+                                             hn::Mul(r, hn::Set(d, y))),
+                                     reach);
+        const auto is_least = hn::Ge(c, hn::Zero(d));
+        const auto divisor = hn::IfThenElse(is_least, steepness, hn::Neg(steepness));
+        const auto at_first = hn::Div(hn::Mul(highest, hn::Set(d, -1.0f / block)), divisor);
+        const auto slope = hn::Div(r, divisor);
+        hn::Store(hn::IfThenElse(is_least, at_first, hn::Set(d, -1.0f)), d, least.at_first.data());
+        hn::Store(hn::IfThenElseZero(is_least, slope), d, least.per_row.data());
+        const auto next = hn::Add(at_first, hn::Set(d, 1.0f));
+        hn::Store(hn::IfThenElse(is_least, hn::Set(d, static_cast<float>(blocks_a_row)), next), d,
+                  greatest.at_first.data());
+        hn::Store(hn::IfThenZeroElse(is_least, slope), d, greatest.per_row.data());
+    }
+
+    template <bool bounded, class Depths>
+    HWY_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
+                            std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / block;
         const float first_column = from_column(record), first_row = from_row(record);
         const auto column_of = [&](int pixel) HWY_ATTR {
@@ -185,6 +196,7 @@ class TetCoverage {
         };
         const Vector first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const Vector highest = row_of(area.first_row), lowest = row_of(area.last_row);
+        const PartCuts cuts(cut, record);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
             const int number = std::countr_zero(left);
             const float column = first_column + static_cast<float>(number % blocks_a_row * block);
@@ -197,7 +209,7 @@ class TetCoverage {
                 const Vector rows = hn::Sub(hn::Set(d_, row), lane_rows_);
                 InsideSpan<Vector> span = depths.at(d_, rows);
                 if constexpr (bounded) span.leave = hn::Min(span.leave, hn::Set(d_, area.farthest));
-                if constexpr (cut) span = cut_depths(d_, record, span, columns, rows);
+                cuts.shorten(d_, record, columns, rows, span);
                 auto inside = hn::Gt(span.leave, span.enter);
                 if constexpr (bounded) {
                     const auto in_columns =
@@ -205,21 +217,22 @@ class TetCoverage {
                     const auto in_rows = hn::And(hn::Ge(rows, lowest), hn::Le(rows, highest));
                     inside = hn::And(inside, hn::And(in_columns, in_rows));
                 }
-                const std::size_t pixels = hn::CountTrue(d_, inside);
-                count_ += static_cast<std::int64_t>(pixels);
-                covered.add(d_, {number * block * block + y * block, column, row},
-                            {hn::IfThenElseZero(inside, span.enter),
-                             hn::IfThenElseZero(inside, span.leave)},
-                            pixels > 0);
+                const auto place = static_cast<std::size_t>(number * block * block + y * block);
+                const Vector slant = tile_.slants != nullptr ? hn::Load(d_, tile_.slants + place)
+                                                             : hn::Set(d_, 1.0f);
+                const Vector aside =
+                    hn::Add(hn::Mul(columns, hn::Set(d_, record.scalar_per_column)),
+                            hn::Mul(rows, hn::Set(d_, record.scalar_per_row)));
+                writer.add(d_, place, {span, aside, slant}, inside);
             }
         }
     }
 
     const TetFragments& fragments_;
+    const TetTile& tile_;
     const TileGrid::Tile& area_;
     Tag d_;
-    Vector lane_columns_, lane_rows_;    // of a vector, from its first pixel
-    Vector block_columns_, block_rows_;  // centres of the first blocks, from the tile's first pixel
+    Vector lane_columns_, lane_rows_;  // of a vector, from its first pixel
     std::int64_t count_ = 0;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of tets over the pixels of a tile. A `Shading` says what is known of how fragments are
-// computed: `cut`, `scalars`, `perspective` (constants, or members that are asked at each vector of
-// pixels), color() and put().
+// Parts of tets over the pixels of a tile. A `Shader` says how fragments are drawn: `cut`,
+// `scalars`, `perspective`, `opacity_only` (constants, or members), color() and put().
 #if defined(LAMINA_PROJECTION_TET_DRAWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #undef LAMINA_PROJECTION_TET_DRAWING_INL_H_
@@ -33,48 +32,58 @@ HWY_INLINE void store_pixels(Tag d, const Pixels<Vector>& there, TilePixels& pix
 
 class TetDrawing {
   public:
-    TetDrawing(const TetFragments& fragments, const TetTile& tile)
-        : fragments_(fragments), tile_(tile), coverage_(fragments, tile.area) {}
+    TetDrawing(const TetFragments& fragments, const TileChunk& chunk, const TetTile& tile)
+        : fragments_(fragments), chunk_(chunk), tile_(tile), coverage_(fragments, tile) {}
 
-    template <class Shading>
-    HWY_INLINE void draw(const Shading& shading, const TetRecord& record, const PartArea& area) {
-        CoveredPixels covered;
-        if (shading.cut) {
-            coverage_.find<true>(record, area, covered);
-        } else {
-            coverage_.find<false>(record, area, covered);
+    template <class Shader>
+    HWY_INLINE void draw(const Shader& shader, const TileChunk::Parts& parts) {
+        std::size_t count = 0;
+        for_each_part(parts, [&](std::size_t part) HWY_ATTR {
+            blocks_[count++] = {coverage_.blocks(chunk_.record(part), chunk_.area(part)), part};
+        });
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [blocks, part] = blocks_[i];
+            coverage_.find(shader.cut, chunk_.record(part), chunk_.area(part), blocks, part,
+                           queue_);
+            if (queue_.is_full()) draw_queue(shader);
         }
-        // Two at a time: one alone is a long chain of operations that wait for one another.
-        std::size_t i = 0;
-        for (; i + 2 <= covered.count(); i += 2) {
-            const Fragment<Vector> first = color_of(shading, record, covered, i);
-            const Fragment<Vector> second = color_of(shading, record, covered, i + 1);
-            shading.put(d_, fragments_, record, first, tile_, covered.place(i));
-            shading.put(d_, fragments_, record, second, tile_, covered.place(i + 1));
-        }
-        if (i < covered.count()) {
-            shading.put(d_, fragments_, record, color_of(shading, record, covered, i), tile_,
-                        covered.place(i));
-        }
+        draw_queue(shader);
     }
     std::int64_t fragments() const { return coverage_.fragments(); }
 
   private:
-    template <class Shading>
-    HWY_INLINE Fragment<Vector> color_of(const Shading& shading, const TetRecord& record,
-                                         const CoveredPixels& covered, std::size_t i) const {
-        const Vector slant = tile_.slants != nullptr ? hn::Load(d_, tile_.slants + covered.place(i))
-                                                     : hn::Set(d_, 1.0f);
-        const auto run =
-            find_run(d_, shading, fragments_, record, covered.span(d_, i),
-                     coverage_.columns(covered.at(i)), coverage_.rows(covered.at(i)), slant);
-        return shading.color(d_, fragments_, record, run);
+    struct Blocks {
+        std::uint64_t blocks;
+        std::size_t part;
+    };
+
+    template <class Shader>
+    HWY_INLINE void draw_queue(const Shader& shader) {
+        queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
+            const FragmentQueue::Found found = queue_.found(d_, i);
+            queue_.set_run(d_, i,
+                           find_run(d_, shader, fragments_, chunk_.record(part), found.span,
+                                    found.aside, found.slant));
+        });
+        queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
+            queue_.set_color(d_, i,
+                             shader.color(d_, fragments_, chunk_.record(part), chunk_.area(part),
+                                          queue_.run(d_, i)));
+        });
+        for (const FragmentQueue::Place& pixels : queue_.places()) {
+            shader.put(d_, fragments_, chunk_.record(pixels.part).number, queue_.color(d_, pixels),
+                       tile_, pixels.place);
+        }
+        queue_.clear();
     }
 
     const TetFragments& fragments_;
+    const TileChunk& chunk_;
     const TetTile& tile_;
     Tag d_;
     TetCoverage coverage_;
+    Blocks blocks_[TileChunk::most_parts];
+    FragmentQueue queue_;
 };
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -146,42 +146,49 @@ class CarefulDepths {
     Doubles<D> column_;
 };
 
-// The part of a ray's run on which the scalar is between the part's least and largest.
-template <class D>
-HWY_INLINE InsideSpan<hn::Vec<D>> cut_depths(D d, const TetRecord& record,
-                                             const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> column,
-                                             hn::Vec<D> row) {
-    const auto plane = [&](float at_center, float per_column, float per_row) HWY_ATTR {
-        return at_row(d, at_column(d, at_center, per_column, column), per_row, row);
-    };
-    InsideSpan<hn::Vec<D>> inside = span;
-    const auto cut = [&](bool front, hn::Vec<D> depth) HWY_ATTR {
-        if (front) {
-            inside.enter = hn::Max(inside.enter, depth);
-        } else {
-            inside.leave = hn::Min(inside.leave, depth);
-        }
-    };
-    if (record.has_lower_cut()) {
-        cut((record.fronts & TetRecord::lower_cut_is_front) != 0,
-            plane(record.lower_cut[0], record.lower_cut[1], record.lower_cut[2]));
-    }
-    if (record.has_upper_cut())
-        cut((record.fronts & TetRecord::upper_cut_is_front) != 0,
-            plane(record.upper_cut, record.limits[0], record.limits[1]));
-    return inside;
-}
+// Which of a part's planes, on which the scalar is its least or its largest, rays may meet within
+// the tet.
+class PartCuts {
+  public:
+    // None where not `cut`.
+    PartCuts(bool cut, const TetRecord& record)
+        : lower_(cut && record.has_lower_cut()),
+          upper_(cut && record.has_upper_cut()),
+          lower_is_front_((record.fronts & TetRecord::lower_cut_is_front) != 0),
+          upper_is_front_((record.fronts & TetRecord::upper_cut_is_front) != 0) {}
 
-// `slant`: world length per unit of z. Rays that miss the part have the span 0. `Shading`: see
-// projection/tet_drawing-inl.h.
-template <class D, class Shading>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFragments& fragments,
+    // To the part of a ray's run between them.
+    template <class D>
+    HWY_INLINE void shorten(D d, const TetRecord& record, hn::Vec<D> column, hn::Vec<D> row,
+                            InsideSpan<hn::Vec<D>>& span) const {
+        const auto cut = [&](bool front, float at_center, float per_column,
+                             float per_row) HWY_ATTR {
+            const auto depth = at_row(d, at_column(d, at_center, per_column, column), per_row, row);
+            if (front) {
+                span.enter = hn::Max(span.enter, depth);
+            } else {
+                span.leave = hn::Min(span.leave, depth);
+            }
+        };
+        if (lower_)
+            cut(lower_is_front_, record.lower_cut[0], record.lower_cut[1], record.lower_cut[2]);
+        if (upper_) cut(upper_is_front_, record.upper_cut, record.limits[0], record.limits[1]);
+    }
+
+  private:
+    bool lower_, upper_, lower_is_front_, upper_is_front_;
+};
+
+// `aside`: the scalar's change from the record's center, at z = 1. `slant`: world length per unit
+// of z. Rays that miss the part have the span 0. `Shader`: see projection/tet_drawing-inl.h.
+template <class D, class Shader>
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragments& fragments,
                                        const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
-                                       hn::Vec<D> column, hn::Vec<D> row, hn::Vec<D> slant) {
+                                       hn::Vec<D> aside, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
     TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
-    if (shading.perspective) {
+    if (shader.perspective) {
         // Differences of z from differences of depth, so that far eyes cost no digits.
         const V center = hn::Set(d, record.center_depth);
         const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
@@ -202,13 +209,11 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shading& shading, const TetFra
         front = hn::Mul(hn::Mul(front, z_front), z_center);
         back = hn::Mul(hn::Mul(back, z_back), z_center);
     }
-    if (shading.opacity_only)
+    if (shader.opacity_only)
         run.world_length = hn::Mul(run.world_length, hn::Set(d, fragments.depth_scale));
-    if (!shading.scalars) return run;
-    const V least = hn::Set(d, shading.cut ? 0.0f : record.limits[0]),
-            largest = hn::Set(d, shading.cut ? 1.0f : record.limits[1]);
-    const V aside = hn::Add(hn::Mul(column, hn::Set(d, record.scalar_per_column)),
-                            hn::Mul(row, hn::Set(d, record.scalar_per_row)));
+    if (!shader.scalars) return run;
+    const V least = hn::Set(d, shader.cut ? 0.0f : record.limits[0]),
+            largest = hn::Set(d, shader.cut ? 1.0f : record.limits[1]);
     const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);
     const auto scalar = [&](V from_center, V z) HWY_ATTR {
         const V sum = hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));

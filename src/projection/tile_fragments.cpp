@@ -14,17 +14,15 @@ namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Coloured parts in perspective, put over a float32 target.
-template <PartDepth depth>
-struct PartShading {
+struct PartShader {
     static constexpr bool cut = true, scalars = true, perspective = true, opacity_only = false;
 
     HWY_INLINE Fragment<Vector> color(Tag d, const TetFragments& fragments, const TetRecord& record,
-                                      const TetRun<Vector>& run) const {
-        return part_color(d, true, depth, fragments, record, run);
+                                      const PartArea& area, const TetRun<Vector>& run) const {
+        return part_color(d, true, area.depth, fragments, record, run);
     }
-    HWY_INLINE void put(Tag d, const TetFragments&, const TetRecord&,
-                        const Fragment<Vector>& fragment, const TetTile& tile,
-                        std::size_t place) const {
+    HWY_INLINE void put(Tag d, const TetFragments&, std::uint32_t, const Fragment<Vector>& fragment,
+                        const TetTile& tile, std::size_t place) const {
         Pixels<Vector> there = load_pixels(d, *tile.pixels, place);
         blend(d, TargetBlend{}, fragment, there);
         store_pixels(d, there, *tile.pixels, place);
@@ -33,18 +31,8 @@ struct PartShading {
 
 std::int64_t draw_colored_parts(const TetFragments& fragments, const TileChunk& chunk,
                                 const TileChunk::Parts& parts, const TetTile& tile) {
-    TetDrawing drawing(fragments, tile);
-    for_each_part(parts, [&](std::size_t part) HWY_ATTR {
-        const TetRecord& record = chunk.record(part);
-        const PartArea& area = chunk.area(part);
-        if (area.depth == PartDepth::faint) {
-            drawing.draw(PartShading<PartDepth::faint>(), record, area);
-        } else if (area.depth == PartDepth::thin) {
-            drawing.draw(PartShading<PartDepth::thin>(), record, area);
-        } else {
-            drawing.draw(PartShading<PartDepth::any>(), record, area);
-        }
-    });
+    TetDrawing drawing(fragments, chunk, tile);
+    drawing.draw(PartShader(), parts);
     return drawing.fragments();
 }
 

@@ -119,11 +119,8 @@ std::int64_t draw_fans(const TetFragments& fragments, const TileChunk& chunk,
 std::int64_t draw_any(const TetFragments& fragments, const TileChunk& chunk,
                       const TileChunk::Parts& parts, const TetTile& tile) {
     if (chunk.has_triangles()) return draw_fans(fragments, chunk, parts, tile);
-    TetDrawing drawing(fragments, tile);
-    for_each_part(parts, [&](std::size_t part) HWY_ATTR {
-        const PartArea& area = chunk.area(part);
-        drawing.draw(GeneralShading(fragments, area), chunk.record(part), area);
-    });
+    TetDrawing drawing(fragments, chunk, tile);
+    drawing.draw(GeneralShader(fragments), parts);
     return drawing.fragments();
 }
 
