@@ -50,12 +50,7 @@ HWY_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
 class TetCoverage {
   public:
     TetCoverage(const TetFragments& fragments, const TetTile& tile)
-        : fragments_(fragments), tile_(tile), area_(tile.area) {
-        const Vector number = hn::Iota(d_, 0.0f),
-                     width = hn::Set(d_, static_cast<float>(TileGrid::block));
-        lane_rows_ = hn::Floor(hn::Div(number, width));
-        lane_columns_ = hn::Sub(number, hn::Mul(lane_rows_, width));
-    }
+        : fragments_(fragments), tile_(tile), area_(tile.area) {}
 
     // The blocks of the tile that a part may cover, a bit each, row by row.
     HWY_INLINE std::uint64_t blocks(const TetRecord& record, const PartArea& area) const {
@@ -186,7 +181,7 @@ class TetCoverage {
     template <bool bounded, class Depths>
     HWY_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
                             std::uint64_t blocks, FragmentQueue::Writer& writer) const {
-        const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / block;
+        constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
         const float first_column = from_column(record), first_row = from_row(record);
         const auto column_of = [&](int pixel) HWY_ATTR {
             return hn::Set(d_, first_column + static_cast<float>(pixel - area_.column));
@@ -196,18 +191,24 @@ class TetCoverage {
         };
         const Vector first_in = column_of(area.first_column), last_in = column_of(area.last_column);
         const Vector highest = row_of(area.first_row), lowest = row_of(area.last_row);
+        const Vector start_column = hn::Set(d_, first_column), start_row = hn::Set(d_, first_row);
+        const Vector scalar_per_column = hn::Set(d_, record.scalar_per_column),
+                     scalar_per_row = hn::Set(d_, record.scalar_per_row);
+        const float* const slants = tile_.slants;
+        const Depths depths(d_, fragments_, record);
         const PartCuts cuts(cut, record);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
-            const int number = std::countr_zero(left);
-            const float column = first_column + static_cast<float>(number % blocks_a_row * block);
-            const float row_of_block =
-                first_row - static_cast<float>(number / blocks_a_row * block);
-            const Vector columns = hn::Add(lane_columns_, hn::Set(d_, column));
-            const Depths depths(d_, fragments_, record, columns);
+            const auto number = static_cast<std::size_t>(std::countr_zero(left));
+            const Vector columns =
+                hn::Add(start_column,
+                        hn::Load(d_, block_columns.data() + number % blocks_a_row * block * block));
+            const auto at_columns = depths.at_columns(d_, columns);
             for (int y = 0; y < block; y += rows_a_vector) {
-                const float row = row_of_block - static_cast<float>(y);
-                const Vector rows = hn::Sub(hn::Set(d_, row), lane_rows_);
-                InsideSpan<Vector> span = depths.at(d_, rows);
+                const std::size_t step = static_cast<std::size_t>(y) * block;
+                const Vector rows = hn::Sub(
+                    start_row,
+                    hn::Load(d_, block_rows.data() + step + number / blocks_a_row * block * block));
+                InsideSpan<Vector> span = depths.at(d_, at_columns, rows);
                 if constexpr (bounded) span.leave = hn::Min(span.leave, hn::Set(d_, area.farthest));
                 cuts.shorten(d_, record, columns, rows, span);
                 auto inside = hn::Gt(span.leave, span.enter);
@@ -217,22 +218,36 @@ class TetCoverage {
                     const auto in_rows = hn::And(hn::Ge(rows, lowest), hn::Le(rows, highest));
                     inside = hn::And(inside, hn::And(in_columns, in_rows));
                 }
-                const auto place = static_cast<std::size_t>(number * block * block + y * block);
-                const Vector slant = tile_.slants != nullptr ? hn::Load(d_, tile_.slants + place)
-                                                             : hn::Set(d_, 1.0f);
+                const std::size_t place = number * block * block + step;
+                const Vector slant =
+                    slants != nullptr ? hn::Load(d_, slants + place) : hn::Set(d_, 1.0f);
                 const Vector aside =
-                    hn::Add(hn::Mul(columns, hn::Set(d_, record.scalar_per_column)),
-                            hn::Mul(rows, hn::Set(d_, record.scalar_per_row)));
+                    hn::Add(hn::Mul(columns, scalar_per_column), hn::Mul(rows, scalar_per_row));
                 writer.add(d_, place, {span, aside, slant}, inside);
             }
         }
     }
 
+    // Of the pixels of the blocks of a row, and of a column, from the tile's first pixel.
+    struct alignas(64) Pixels : std::array<float, TileGrid::edge * TileGrid::block> {};
+    static constexpr Pixels block_columns = [] {
+        Pixels columns{};
+        for (int i = 0; i < TileGrid::edge * block; ++i)
+            columns[static_cast<std::size_t>(i)] =
+                static_cast<float>(i / (block * block) * block + i % block);
+        return columns;
+    }();
+    static constexpr Pixels block_rows = [] {
+        Pixels rows{};
+        for (int i = 0; i < TileGrid::edge * block; ++i)
+            rows[static_cast<std::size_t>(i)] = static_cast<float>(i / block);
+        return rows;
+    }();
+
     const TetFragments& fragments_;
     const TetTile& tile_;
     const TileGrid::Tile& area_;
     Tag d_;
-    Vector lane_columns_, lane_rows_;  // of a vector, from its first pixel
     std::int64_t count_ = 0;
 };
 

@@ -62,32 +62,34 @@ HWY_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0
     return {hn::Max(nearest, span.enter), span.leave};
 }
 
-// Faces in float32, for a column of blocks.
+// Faces in float32.
 template <class D>
 class PlainDepths {
   public:
     using V = hn::Vec<D>;
-    HWY_INLINE PlainDepths(D d, const TetFragments&, const TetRecord& record, V column)
-        : record_(record) {
+    HWY_INLINE PlainDepths(D, const TetFragments&, const TetRecord& record)
+        : record_(record), fronts_(record.fronts & 7u) {}
+
+    struct AtColumns {
+        V d0, d1, d2, d3;
+    };
+    HWY_INLINE AtColumns at_columns(D d, V column) const {
         const auto start = [&](std::size_t face) HWY_ATTR {
-            return at_column(d, record.depth.high[face], record.depth_per_column.high[face],
+            return at_column(d, record_.depth.high[face], record_.depth_per_column.high[face],
                              column);
         };
-        d0_ = start(0);
-        d1_ = start(1);
-        d2_ = start(2);
-        d3_ = start(3);
+        return {start(0), start(1), start(2), start(3)};
     }
-    HWY_INLINE InsideSpan<V> at(D d, V row) const {
+    HWY_INLINE InsideSpan<V> at(D d, const AtColumns& start, V row) const {
         const auto& per_row = record_.depth_per_row.high;
-        return order_depths(record_.fronts & 7u, at_row(d, d0_, per_row[0], row),
-                            at_row(d, d1_, per_row[1], row), at_row(d, d2_, per_row[2], row),
-                            at_row(d, d3_, per_row[3], row));
+        return order_depths(
+            fronts_, at_row(d, start.d0, per_row[0], row), at_row(d, start.d1, per_row[1], row),
+            at_row(d, start.d2, per_row[2], row), at_row(d, start.d3, per_row[3], row));
     }
 
   private:
     const TetRecord& record_;
-    V d0_, d1_, d2_, d3_;
+    std::uint32_t fronts_;
 };
 
 // The same in double, for faces that are nearly edge-on, the near plane, and the eye inside.
@@ -95,17 +97,20 @@ template <class D>
 class CarefulDepths {
   public:
     using V = hn::Vec<D>;
-    HWY_INLINE CarefulDepths(D d, const TetFragments& fragments, const TetRecord& record, V column)
-        : fragments_(fragments), record_(record) {
+    HWY_INLINE CarefulDepths(D, const TetFragments& fragments, const TetRecord& record)
+        : fragments_(fragments), record_(record) {}
+
+    using AtColumns = Doubles<D>;
+    HWY_INLINE AtColumns at_columns(D d, V column) const {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
             // The ray is moved in space; what that moves along the ray itself does not count.
-            return move(dd, place, record.center[0], fragments.image_middle.x,
-                        fragments.tie_shift.x);
+            return move(dd, place, record_.center[0], fragments_.image_middle.x,
+                        fragments_.tie_shift.x);
         };
-        column_ = each_half(moved, to_doubles(d, column));
+        return each_half(moved, to_doubles(d, column));
     }
-    HWY_INLINE InsideSpan<V> at(D d, V row) const {
+    HWY_INLINE InsideSpan<V> at(D d, const AtColumns& columns, V row) const {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
             return move(dd, place, record_.center[1], fragments_.image_middle.y,
@@ -123,7 +128,7 @@ class CarefulDepths {
                     hn::Mul(sum(record_.depth_per_row), y));
             };
             return to_floats(
-                d, Doubles<D>{plane(column_.low, rows.low), plane(column_.high, rows.high)});
+                d, Doubles<D>{plane(columns.low, rows.low), plane(columns.high, rows.high)});
         };
         const auto nearest = hn::Set(d, fragments_.near_depth - record_.center_depth);
         return order_depths_from(record_.fronts & 7u, nearest, depth(0), depth(1), depth(2),
@@ -143,7 +148,6 @@ class CarefulDepths {
 
     const TetFragments& fragments_;
     const TetRecord& record_;
-    Doubles<D> column_;
 };
 
 // Which of a part's planes, on which the scalar is its least or its largest, rays may meet within

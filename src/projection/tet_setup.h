@@ -42,12 +42,13 @@ class TetSetup {
           margin_(margin) {}
 
     // At most `most_parts`, all cut into pieces or all whole. Records and areas are defined where
-    // the outcome is `done`.
-    void set_up(std::span<const TetPart> parts, Parts& result) const;
+    // the outcome is `done`. `next`: parts that will follow.
+    void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, Parts& result) const;
 
     struct Lanes;  // of the vectors; in the implementation
 
   private:
+    void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
     void store(std::span<const TetPart> parts, const Lanes& lanes, Parts& result) const;
     void store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const;

@@ -72,6 +72,11 @@ class TileChunk {
     const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
     const PartArea& area(std::size_t part) const { return areas_[part]; }
     const Parts& parts(std::size_t tile) const { return parts_of_tile_[tile]; }
+    bool has_parts(std::size_t tile) const {
+        std::uint64_t any = 0;
+        for (const std::uint64_t word : parts_of_tile_[tile]) any |= word;
+        return any != 0;
+    }
     std::int64_t byte_count() const {
         return static_cast<std::int64_t>(sizeof(*this) + records_.size() * sizeof(TetRecord) +
                                          triangles_.size() * sizeof(TriangleRecord) +

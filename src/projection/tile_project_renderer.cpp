@@ -224,7 +224,7 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup::Parts done;
-        projectors.setup.set_up(group, done);
+        projectors.setup.set_up(group, parts.subspan(first + group.size()), done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (done.outcomes[i] == TetSetup::Outcome::done) {
                 chunk.next() = done.records[i];
@@ -305,10 +305,9 @@ void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile,
                          slants_.empty() ? nullptr : slants_[tile].data(), &image_.tile(number),
                          leaf != nullptr ? &leaf->opacity[tile] : nullptr};
     for (const auto& chunk : chunks) {
-        const TileChunk::Parts& parts = chunk->parts(tile);
-        if (chunk->count() == 0 || parts == TileChunk::Parts{}) continue;
+        if (chunk->count() == 0 || !chunk->has_parts(tile)) continue;
         if (leaf != nullptr) leaf->touched[tile] = 1;
-        fragment_counts_[tile] += draw_tets(fragments_, *chunk, parts, target);
+        fragment_counts_[tile] += draw_tets(fragments_, *chunk, chunk->parts(tile), target);
     }
 }
 
