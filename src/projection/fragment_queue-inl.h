@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include <array>
+#include <algorithm>
 #include <span>
 
 #include "projection/tet_run-inl.h"
@@ -79,8 +79,11 @@ class FragmentQueue {
                 for (std::size_t i = 0; i < values; ++i) store(d, i, hn::Zero(d));
                 end_ = (end_ + lanes - 1) / lanes * lanes;
             }
-            for (std::size_t i = queue_.end_; i < end_; i += lanes)
-                queue_.parts_[i / lanes] = part_;
+            // Mostly this is enough, and how many are needed nothing could predict.
+            std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
+            const std::size_t vectors = (end_ - queue_.end_) / lanes;
+            std::fill_n(parts, some_parts, part_);
+            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part_);
             queue_.end_ = end_;
             queue_.place_count_ = place_count_;
             return count_;
@@ -132,7 +135,8 @@ class FragmentQueue {
 
   private:
     static constexpr bool packs = HWY_TARGET <= HWY_AVX3;
-    static constexpr std::size_t values = 4, enough = 512, most = enough + TileGrid::pixels + lanes;
+    static constexpr std::size_t values = 4, enough = 512, most = enough + TileGrid::pixels + lanes,
+                                 some_parts = 16;
 
     static HWY_INLINE Vector pack(Inside inside, Vector v) {
         if constexpr (packs) {
@@ -158,7 +162,7 @@ class FragmentQueue {
     }
 
     std::size_t end_ = 0, place_count_ = 0;
-    std::uint16_t parts_[most / lanes];  // of vectors
+    std::uint16_t parts_[most / lanes + some_parts];  // of vectors
     Place places_[enough + TileGrid::pixels / lanes + 1];
     HWY_ALIGN float values_[values][most];
 };

@@ -53,9 +53,8 @@ class TetCoverage {
         : fragments_(fragments), tile_(tile), area_(tile.area) {}
 
     // The blocks of the tile that a part may cover, a bit each, row by row.
-    HWY_INLINE std::uint64_t blocks(const TetRecord& record, const PartArea& area) const {
-        const std::uint64_t all = blocks_of(area, area_);
-        return area.careful ? all : all & blocks_met(record);
+    HWY_INLINE std::uint64_t blocks(const PartArea& area) const {
+        return blocks_of(area, area_) & blocks_within(area);
     }
 
     // `cut`: between the part's planes of constant scalar.
@@ -85,97 +84,55 @@ class TetCoverage {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
-    // Bounds of columns of blocks that are linear in the row of blocks: `at_first` in the first
-    // row, `per_row` more in each one below. Least and greatest columns, of at most four lines.
-    struct Bounds {
-        alignas(16) std::array<float, 4> at_first, per_row;
-    };
-
-    // The tile's blocks, a bit each, without those no ray of which can meet the tet. Rays meet it
-    // where depths on all front faces are less than on all back faces: inside of three or four
-    // lines, the tet's silhouette, on which two of them are equal.
-    HWY_INLINE std::uint64_t blocks_met(const TetRecord& record) const {
-        Bounds least, greatest;
-        find_silhouette(record, least, greatest);
+    // The tile's blocks within a part's outline, a bit each.
+    HWY_INLINE std::uint64_t blocks_within(const PartArea& area) const {
+        const hn::FixedTag<float, 4> d4;
+        const auto a_block = hn::Set(d4, 1.0f / block);
+        const auto pixels = [&](std::int32_t from, std::int32_t to)
+                                HWY_ATTR { return hn::Set(d4, static_cast<float>(to - from)); };
+        // In blocks from the tile's first one, and half of one more: what is rounded to the next
+        // whole number after the bound.
+        const auto per_row = hn::LoadU(d4, area.outline.per_row.data());
+        const auto bound =
+            hn::Add(hn::Mul(hn::Sub(hn::Add(hn::LoadU(d4, area.outline.at_first.data()),
+                                            hn::Mul(per_row, pixels(area.first_row, area_.row))),
+                                    pixels(area.first_column, area_.column)),
+                            a_block),
+                    hn::Set(d4, 0.5f));
+        const auto is_least = hn::LoadMaskBits(d4, &area.outline.least);
+        constexpr float beyond = blocks_a_row;
+        alignas(16) float least[4], least_per_row[4], greatest[4], greatest_per_row[4];
+        hn::Store(hn::IfThenElseZero(is_least, bound), d4, least);
+        hn::Store(hn::IfThenElseZero(is_least, per_row), d4, least_per_row);
+        hn::Store(hn::IfThenElse(is_least, hn::Set(d4, beyond), bound), d4, greatest);
+        hn::Store(hn::IfThenZeroElse(is_least, per_row), d4, greatest_per_row);
         const hn::CappedTag<float, blocks_a_row> d;
-        const hn::RebindToSigned<decltype(d)> di;
+        const hn::RebindToUnsigned<decltype(d)> du;
         const hn::Rebind<std::uint8_t, decltype(d)> d8;
-        const auto columns = hn::Set(d, static_cast<float>(blocks_a_row));
+        // Bits of floats from 2^23 on are whole numbers.
+        const auto whole = [&](auto v) HWY_ATTR {
+            return hn::BitCast(du, hn::Add(v, hn::Set(d, 0x1p23f)));
+        };
+        const auto power = [&](auto v) HWY_ATTR {
+            return hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(whole(v), hn::Set(du, 127))));
+        };
         std::uint8_t bits[blocks_a_row];
         for (std::size_t row = 0; row < blocks_a_row; row += hn::Lanes(d)) {
             const auto rows = hn::Iota(d, static_cast<float>(row));
-            auto first = hn::Zero(d), end = columns;
+            auto first = hn::Zero(d), end = hn::Set(d, beyond);
             for (std::size_t i = 0; i < 4; ++i) {
-                first = hn::Max(first,
-                                at_row(d, hn::Set(d, least.at_first[i]), least.per_row[i], rows));
-                end = hn::Min(
-                    end, at_row(d, hn::Set(d, greatest.at_first[i]), greatest.per_row[i], rows));
+                first = hn::Max(first, at_row(d, hn::Set(d, least[i]), least_per_row[i], rows));
+                end = hn::Min(end, at_row(d, hn::Set(d, greatest[i]), greatest_per_row[i], rows));
             }
+            first = hn::Min(first, hn::Set(d, beyond));
+            end = hn::Max(end, hn::Zero(d));
             // 2^end - 2^first has the bits from `first` up to `end`.
-            const auto power = [&](auto column)
-                                   HWY_ATTR { return power_of_two(d, hn::ConvertTo(di, column)); };
-            const auto some = hn::Sub(power(hn::Max(hn::Floor(end), hn::Zero(d))),
-                                      power(hn::Min(hn::Ceil(first), columns)));
-            hn::StoreU(hn::DemoteTo(d8, hn::ConvertTo(di, hn::Max(some, hn::Zero(d)))), d8,
-                       bits + row);
+            const auto some = hn::Max(hn::Sub(power(end), power(first)), hn::Zero(d));
+            hn::StoreU(hn::TruncateTo(d8, whole(some)), d8, bits + row);
         }
-        std::uint64_t met;
-        std::memcpy(&met, bits, sizeof(met));
-        return met;
-    }
-
-    // Differences of depth on a line are D + C x + R y at the block x columns and y rows away from
-    // the tile's first one. The bounds hold for the block's nearest corner.
-    HWY_INLINE void find_silhouette(const TetRecord& record, Bounds& least,
-                                    Bounds& greatest) const {
-        const hn::FixedTag<float, 4> d;
-        const hn::RebindToSigned<decltype(d)> di;
-        // Pairs of a front and a back face.
-        alignas(16) static constexpr std::int32_t front_of[4][4] = {
-            {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
-        alignas(16) static constexpr std::int32_t back_of[4][4] = {
-            {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
-        const std::uint32_t fronts = record.fronts & 3u;
-        const auto front = hn::IndicesFromVec(d, hn::Load(di, front_of[fronts]));
-        const auto back = hn::IndicesFromVec(d, hn::Load(di, back_of[fronts]));
-        const auto depth = hn::Load(d, record.depth.high.data()),
-                   per_column = hn::Load(d, record.depth_per_column.high.data()),
-                   per_row = hn::Load(d, record.depth_per_row.high.data());
-        const auto difference = [&](auto v) HWY_ATTR {
-            return hn::Sub(hn::TableLookupLanes(v, back), hn::TableLookupLanes(v, front));
-        };
-        const float x = from_column(record) + 0.5f * (block - 1),
-                    y = from_row(record) - 0.5f * (block - 1);
-        // More than all roundings of the depths of both faces: what is dropped must not be seen.
-        constexpr float rounding = 1e-6f;
-        const auto rounding_of_face =
-            hn::Add(hn::Mul(hn::Add(hn::Abs(per_column), hn::Abs(per_row)),
-                            hn::Set(d, 1e-3f + rounding * (std::abs(x) + std::abs(y)))),
-                    hn::Mul(hn::Abs(depth), hn::Set(d, rounding)));
-        const auto slack = hn::Add(hn::TableLookupLanes(rounding_of_face, back),
-                                   hn::TableLookupLanes(rounding_of_face, front));
-        const auto c = difference(per_column), r = difference(per_row);
-        const auto abs_r = hn::Abs(r);
-        // Lines along rows are made a little oblique: less than the hundredth of a pixel.
-        constexpr float oblique = 1e-4f;
-        const auto steepness =
-            hn::Max(hn::Max(hn::Abs(c), hn::Mul(abs_r, hn::Set(d, oblique))), hn::Set(d, 1e-30f));
-        const auto reach = hn::Add(hn::Add(hn::Mul(hn::Set(d, 0.5f * (block - 1)), hn::Abs(c)),
-                                           hn::Mul(hn::Set(d, 0.5f * (block - 1) + 0.01f), abs_r)),
-                                   slack);
-        const auto highest = hn::Add(hn::Add(hn::Add(difference(depth), hn::Mul(c, hn::Set(d, x))),
-                                             hn::Mul(r, hn::Set(d, y))),
-                                     reach);
-        const auto is_least = hn::Ge(c, hn::Zero(d));
-        const auto divisor = hn::IfThenElse(is_least, steepness, hn::Neg(steepness));
-        const auto at_first = hn::Div(hn::Mul(highest, hn::Set(d, -1.0f / block)), divisor);
-        const auto slope = hn::Div(r, divisor);
-        hn::Store(hn::IfThenElse(is_least, at_first, hn::Set(d, -1.0f)), d, least.at_first.data());
-        hn::Store(hn::IfThenElseZero(is_least, slope), d, least.per_row.data());
-        const auto next = hn::Add(at_first, hn::Set(d, 1.0f));
-        hn::Store(hn::IfThenElse(is_least, hn::Set(d, static_cast<float>(blocks_a_row)), next), d,
-                  greatest.at_first.data());
-        hn::Store(hn::IfThenZeroElse(is_least, slope), d, greatest.per_row.data());
+        std::uint64_t within;
+        std::memcpy(&within, bits, sizeof(within));
+        return within;
     }
 
     template <bool bounded, class Depths>

@@ -200,9 +200,9 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
             // All depths that are seen are less; at the horizon roundings may reach 0.
             const V most = hn::Set(d, -1e-18f);
             const V near = hn::Min(depth_front, most), far = hn::Min(depth_back, most);
-            const V product = hn::Div(hn::Set(d, 1.0f), hn::Mul(near, far));
-            z_front = hn::Neg(hn::Mul(far, product));
-            z_back = hn::Neg(hn::Mul(near, product));
+            const V product = hn::Div(hn::Set(d, -1.0f), hn::Mul(near, far));
+            z_front = hn::Mul(far, product);
+            z_back = hn::Mul(near, product);
         } else {
             const V minus_one = hn::Set(d, -1.0f), most = hn::Set(d, -1e-30f);
             z_front = hn::Div(minus_one, hn::Min(depth_front, most));

@@ -126,19 +126,19 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& 
         const int last = window_.view().height - 1;
         const bool whole = parts[lane].piece == TetPart::whole;
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
-        result.areas[lane] = {pixel(lanes.first_column),
-                              pixel(lanes.last_column),
-                              last - pixel(lanes.last_row),
-                              last - pixel(lanes.first_row),
+        const PixelArea pixels{pixel(lanes.first_column), pixel(lanes.last_column),
+                               last - pixel(lanes.last_row), last - pixel(lanes.first_row)};
+        TetRecord& record = result.records[lane];
+        store_faces(lanes, lane, record);
+        record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
+        result.areas[lane] = {pixels,
                               false,
                               depth <= faint_depth  ? PartDepth::faint
                               : depth <= thin_depth ? PartDepth::thin
                                                     : PartDepth::any,
                               lanes.bounded[lane] != 0,
-                              to_float(lanes.farthest, lane)};
-        TetRecord& record = result.records[lane];
-        store_faces(lanes, lane, record);
-        record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
+                              to_float(lanes.farthest, lane),
+                              outline_of(record, pixels, window_.view().height)};
         record.center_depth = to_float(lanes.center_depth, lane);
         record.center_z = to_float(lanes.center_z, lane);
         record.scalar = to_float(lanes.scalar, lane);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "projection/fragment_kind.h"
+#include "projection/part_outline.h"
 #include "projection/tet_record.h"
 #include "projection/triangle_record.h"
 
@@ -16,11 +17,10 @@ namespace lamina {
 
 // How much optical depth a run through a part has at most: what the closed forms of its colour
 // cost.
-enum class PartDepth { any, thin, faint };  // optics/front_weights.h
+enum class PartDepth : std::uint8_t { any, thin, faint };  // optics/front_weights.h
 
 // Where a part may cover pixels: columns from the left, rows from the top of the picture.
-struct PartArea {
-    std::int32_t first_column, last_column, first_row, last_row;
+struct alignas(64) PartArea : PixelArea {
     bool careful;     // its depths are found in double (FragmentKind::careful)
     PartDepth depth;  // of any run through it
     // Outside a tet its planes meet at any depth, and rounding alone may make runs there that are
@@ -28,6 +28,7 @@ struct PartArea {
     // a depth less the record's center.
     bool bounded = true;
     float farthest = std::numeric_limits<float>::infinity();
+    PartOutline outline = {};
 };
 
 // Some parts that follow each other in visibility order, projected, and which of them each tile of

@@ -245,8 +245,9 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     // Careful, whatever the kind: right for all, and few parts are doubtful where others are not.
     // Where all are drawn so, by the table (the plan's weight_error).
-    add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
-         grid.height() - 1 - bounds.first_row, true,
+    add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
+          grid.height() - 1 - bounds.first_row},
+         true,
          plan_.plain && *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
         part.tet, chunk);
 }
@@ -267,8 +268,10 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
                                 rounded_to_grid(corners[2]->position)};
         const PixelBounds bounds = pixel_bounds(places, 0, grid.width(), grid.height());
         if (bounds.empty()) continue;
-        add({bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
-             grid.height() - 1 - bounds.first_row, false, PartDepth::any},
+        add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
+              grid.height() - 1 - bounds.first_row},
+             false,
+             PartDepth::any},
             part.tet, chunk);
     }
 }
