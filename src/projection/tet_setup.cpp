@@ -54,14 +54,14 @@ float to_float(const TetSetup::Lanes::Row& row, std::size_t lane) {
 }  // namespace
 
 void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
-                      Parts& result) const {
+                      TetRecord* records, Parts& result) const {
     Lanes lanes;
     prefetch(next);
     load(parts, lanes);
     const bool pieces = parts[0].piece != TetPart::whole;
     const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
     HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lanes);
-    store(parts, lanes, result);
+    store(parts, lanes, records, result);
 }
 
 // The mesh is in no order that a view's order follows: its next tets' corners, and the tets after
@@ -113,7 +113,8 @@ void TetSetup::store_faces(const Lanes& lanes, std::size_t lane, TetRecord& reco
     record.fronts = static_cast<std::uint32_t>(first_back);
 }
 
-void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& result) const {
+void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
+                     Parts& result) const {
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
         outcome = lanes.good[lane] == 0      ? Outcome::doubtful
@@ -128,7 +129,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, Parts& 
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
         const PixelArea pixels{pixel(lanes.first_column), pixel(lanes.last_column),
                                last - pixel(lanes.last_row), last - pixel(lanes.first_row)};
-        TetRecord& record = result.records[lane];
+        TetRecord& record = records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
         result.areas[lane] = {pixels,

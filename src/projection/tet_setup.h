@@ -24,7 +24,6 @@ class TetSetup {
     static constexpr std::size_t most_parts = 8;  // at a time
     enum class Outcome : std::uint8_t { invisible, done, doubtful };
     struct Parts {
-        std::array<TetRecord, most_parts> records;
         std::array<PartArea, most_parts> areas;  // whole tets', rows from the top
         std::array<Outcome, most_parts> outcomes;
     };
@@ -42,15 +41,17 @@ class TetSetup {
           margin_(margin) {}
 
     // At most `most_parts`, all cut into pieces or all whole. Records and areas are defined where
-    // the outcome is `done`. `next`: parts that will follow.
-    void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, Parts& result) const;
+    // the outcome is `done`. `next`: parts that will follow. `records`: as many as parts.
+    void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, TetRecord* records,
+                Parts& result) const;
 
     struct Lanes;  // of the vectors; in the implementation
 
   private:
     void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
-    void store(std::span<const TetPart> parts, const Lanes& lanes, Parts& result) const;
+    void store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
+               Parts& result) const;
     void store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const;
 
     std::span<const glm::dvec3> points_;

@@ -224,10 +224,12 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup::Parts done;
-        projectors.setup.set_up(group, parts.subspan(first + group.size()), done);
+        // Where they stay, unless one before them is not drawn.
+        TetRecord* const records = &chunk.next();
+        projectors.setup.set_up(group, parts.subspan(first + group.size()), records, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (done.outcomes[i] == TetSetup::Outcome::done) {
-                chunk.next() = done.records[i];
+                if (&chunk.next() != &records[i]) chunk.next() = records[i];
                 add(done.areas[i], group[i].tet, chunk);
             } else if (done.outcomes[i] == TetSetup::Outcome::doubtful) {
                 project_doubtful(projectors.careful, group[i], chunk);
