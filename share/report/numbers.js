@@ -49,7 +49,10 @@ function tickText(value) {
 // The value of a swept key.
 function valueText(value) {
   if (isMissing(value)) return missingText;
-  if (Array.isArray(value)) return value.length === 0 ? "[]" : value.map(valueText).join(", ");
+  if (Array.isArray(value)) {
+    const between = value.every(Number.isInteger) ? "x" : ", ";  // factors of a tree: 32x32
+    return value.length === 0 ? "[]" : value.map(valueText).join(between);
+  }
   return typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 

@@ -105,16 +105,29 @@ std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_
 
 }  // namespace
 
-// Words and lists of factors stand for themselves; a number needs its key's last part beside it.
+namespace {
+
+std::string name_of_value(const std::string& word, const nlohmann::json& value) {
+    if (!value.is_object()) return fmt::format("{} {}", word, setting_text(value));
+    std::string name = word;
+    for (const auto& [key, each] : value.items())
+        name += fmt::format(" {}", name_of_value(key, each));
+    return name;
+}
+
+}  // namespace
+
 std::string run_name(const Settings& settings) {
+    // These and lists of factors stand for themselves, all else needs its key's last part beside
+    // it.
+    static const std::set<std::string> plain{"target", "method", "context", "classification"};
     std::string name;
     for (const auto& [key, value] : settings) {
         if (value.is_null()) continue;
-        const bool plain = value.is_string() || value.is_array();
         const std::string word = key.substr(key.rfind('.') + 1);
-        name += fmt::format(
-            "{}{}", name.empty() ? "" : ", ",
-            plain ? setting_text(value) : fmt::format("{} {}", word, setting_text(value)));
+        const bool alone = plain.contains(word) || value.is_array();
+        name += fmt::format("{}{}", name.empty() ? "" : ", ",
+                            alone ? setting_text(value) : name_of_value(word, value));
     }
     return name.empty() ? "as the scene" : name;
 }
