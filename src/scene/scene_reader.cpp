@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -110,6 +111,21 @@ void read_render(JsonReader reader, Scene& scene) {
     reader.close();
 }
 
+std::vector<std::string> parts_of(const std::string& key) {
+    std::vector<std::string> parts;
+    std::size_t start = 0;
+    while (true) {
+        const std::size_t dot = std::min(key.find('.', start), key.size());
+        parts.push_back(key.substr(start, dot - start));
+        if (parts.back().empty()) {
+            throw UsageError(
+                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
+        }
+        if (dot == key.size()) return parts;
+        start = dot + 1;
+    }
+}
+
 }  // namespace
 
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
@@ -138,13 +154,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
 
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value) {
     nlohmann::json* node = &document;
-    std::size_t start = 0;
-    while (true) {
-        const std::size_t dot = key.find('.', start);
-        const std::string part = key.substr(start, dot == std::string::npos ? dot : dot - start);
-        if (part.empty())
-            throw UsageError(
-                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
+    for (const std::string& part : parts_of(key)) {
         if (node->is_array()) {
             const bool number =
                 part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
@@ -162,11 +172,17 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
         } else {
             throw UsageError(fmt::format("--set {}: \"{}\" is not inside an object", key, part));
         }
-        if (dot == std::string::npos) break;
-        start = dot + 1;
     }
     nlohmann::json parsed = nlohmann::json::parse(value, nullptr, false);
     *node = parsed.is_discarded() ? nlohmann::json(value) : std::move(parsed);
+}
+
+void remove_key(nlohmann::json& document, const std::string& key) {
+    nlohmann::json::json_pointer place;
+    for (const std::string& part : parts_of(key)) place /= part;
+    if (!document.contains(place)) return;
+    nlohmann::json& object = document[place.parent_pointer()];
+    if (object.is_object()) object.erase(place.back());
 }
 
 }  // namespace lamina

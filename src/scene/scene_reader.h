@@ -22,4 +22,8 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
 // list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
+// Takes `key` out of the object that it is in; a document without it stays as it is. Throws
+// UsageError where the key has an empty part.
+void remove_key(nlohmann::json& document, const std::string& key);
+
 }  // namespace lamina

@@ -13,11 +13,9 @@
 namespace lamina {
 namespace {
 
-void check_file(const std::filesystem::path& path, const StudyFile& study,
-                const StudyFile::SceneEntry& scene) {
-    if (!path.empty() && !std::filesystem::exists(path)) {
-        fail("{}: scene \"{}\": {}: no such file", study.file.string(), scene.name, path.string());
-    }
+void check_file(const std::filesystem::path& path, const StudyFile::SceneEntry& scene) {
+    if (!path.empty() && !std::filesystem::exists(path))
+        fail("scene \"{}\": {}: no such file", scene.name, path.string());
 }
 
 void check_context(const std::string& word, const StudyFile& study) {
@@ -43,12 +41,14 @@ void check_runs(const RunList& list, const StudyFile& study) {
         check_context(context_of(run, study), study);
         try {
             const Scene scene = read_scene(document_of(run, study), entry.file);
-            check_file(scene.volume_file, study, entry);
-            check_file(scene.mesh_file, study, entry);
+            check_file(scene.volume_file, entry);
+            check_file(scene.mesh_file, entry);
         } catch (const UnknownKeyError& error) {
             fail("{}: {}", study.file.string(), error.what());
         } catch (const KeyError& error) {
             if (outcome.failed++ == 0) outcome.message = error.what();
+        } catch (const Error& error) {  // a file that is missing
+            fail("{}: {}", study.file.string(), error.what());
         }
     }
     for (const Outcome& outcome : outcomes) {

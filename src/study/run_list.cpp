@@ -28,12 +28,12 @@ bool has_all(const StudyFile::Drop& drop, const std::string& scene, const Settin
     });
 }
 
-std::string run_id(const StudyFile::SceneEntry& scene, const std::string& context,
-                   const nlohmann::json& document) {
+std::string run_id(const StudyRun& run, const StudyFile& file) {
     ContentHash hash;
-    hash.add(scene.name);
-    hash.add(context);
-    hash.add(document.dump());
+    hash.add(file.scenes[run.scene].name);
+    hash.add(context_of(run, file));
+    hash.add(document_of(run, file).dump());
+    if (file.reference) hash.add(*file.reference == TraceOf::volume ? "volume" : "mesh");
     return hash.hex();
 }
 
@@ -62,7 +62,7 @@ class Lister {
             return;
         }
         StudyRun run{{}, run_name(settings), scene, std::move(settings)};
-        run.id = run_id(file_.scenes[scene], context_of(run, file_), document_of(run, file_));
+        run.id = run_id(run, file_);
         if (ids_.insert(run.id).second)
             list_.runs.push_back(std::move(run));
         else
@@ -151,7 +151,11 @@ nlohmann::json document_of(const StudyRun& run, const StudyFile& file) {
     nlohmann::json document = file.scenes[run.scene].document;
     Settings settings = run.settings;
     std::erase_if(settings, [](const auto& setting) { return setting.first == "context"; });
-    apply_settings(settings, document);
+    try {
+        apply_settings(settings, document);
+    } catch (const Error& error) {
+        fail("{}: sweep: {}", file.file.string(), error.what());
+    }
     return document;
 }
 

@@ -13,7 +13,7 @@ namespace lamina {
 
 // One configuration of one scene.
 struct StudyRun {
-    std::string id;    // of scene, settings and all else that the scene file says
+    std::string id;    // of scene, settings, all else that the scene file says, and the reference
     std::string name;  // of the settings, for people
     std::size_t scene = 0;
     Settings settings;  // what is swept

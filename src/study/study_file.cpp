@@ -34,6 +34,8 @@ StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
     reader.close();
     try {
         scene.document = load_json(scene.file);
+        if (!scene.document.is_object())
+            fail("{}: found no object, expected a scene {{...}}", scene.file.string());
         apply_settings(base, scene.document);
         apply_settings(own, scene.document);
     } catch (const Error& error) {
@@ -97,7 +99,10 @@ void read_baseline(JsonReader& study, StudyFile& file) {
 void apply_settings(const Settings& settings, nlohmann::json& document) {
     for (const auto& [key, value] : settings) {
         try {
-            set_key(document, key, value.dump());
+            if (value.is_null())
+                remove_key(document, key);
+            else
+                set_key(document, key, value.dump());
         } catch (const UsageError&) {
             fail("{}: not a key of a scene: it leads through a value that is no object", key);
         }

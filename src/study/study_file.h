@@ -39,7 +39,7 @@ struct StudyFile {
 // Throws Error, naming the key.
 StudyFile load_study(const std::filesystem::path& file);
 
-// Gives the keys their values.
+// Gives the keys their values; null takes a key away.
 void apply_settings(const Settings& settings, nlohmann::json& document);
 
 }  // namespace lamina

@@ -27,7 +27,7 @@ struct SweepAxis {
 struct SweepGrid {
     std::vector<SweepAxis> axes;  // at least one
 
-    std::uint64_t count() const;               // saturates at 2^63
+    std::uint64_t count() const;               // saturates at 2^63 - 1
     Settings settings(std::uint64_t n) const;  // the n-th; the last axis changes first
 };
 
