@@ -1,20 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_output.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/interrupt.h"
 #include "study/report_page.h"
 #include "study/study_findings.h"
 #include "study/study_report.h"
 #include "study/text_file.h"
 
 namespace lamina {
+namespace {
+
+// Of shards that write into one folder at a time only one reads the journals and writes results:
+// the last one's results have all records.
+class FolderLock {
+  public:
+    explicit FolderLock(const std::filesystem::path& folder)
+        : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (descriptor_ < 0) fail("{}: cannot read: {}", folder.string(), std::strerror(errno));
+        while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) check_interrupt();
+    }
+    ~FolderLock() { close(descriptor_); }
+    FolderLock(const FolderLock&) = delete;
+    FolderLock& operator=(const FolderLock&) = delete;
+
+  private:
+    int descriptor_;
+};
+
+}  // namespace
 
 void write_run_list(const StudyFolder& folder, const RunList& list) {
     write_text(folder.run_list(), to_json(list).dump(1) + "\n");
 }
 
 StudySummary write_study_output(const StudyFolder& folder) {
+    const FolderLock lock(folder.path);
     const StudyResults results = read_results(folder);
     write_text(folder.path / "results.csv", csv_of(results));
     write_text(folder.path / "results.json", report_of(results).dump(1) + "\n");
