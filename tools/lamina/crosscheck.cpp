@@ -75,10 +75,11 @@ void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     std::string ignored;
     const Scene scene = load_scene(options.scene, ignored);
+    const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
     make_folder(folder);
-    const DrawContext context(context_choice(options.context));
+    const DrawContext context(choice);
     CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
                               scene.max_error, describe_machine()};
     subject.environment["drivers"] = context.capabilities().renderer;

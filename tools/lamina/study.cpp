@@ -25,14 +25,14 @@ namespace lamina {
 namespace {
 
 struct StudyOptions {
-    std::string study, output, shard;
+    std::string study, output;
+    std::optional<std::string> shard;
     std::vector<std::string> merged;
     bool resume = false, yes = false, quiet = false;
 };
 
 Shard read_shard(const std::string& text) {
     Shard shard;
-    if (text.empty()) return shard;
     const char* const end = text.data() + text.size();
     const auto number = std::from_chars(text.data(), end, shard.number);
     const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
@@ -93,7 +93,7 @@ nlohmann::ordered_json begin_record() {
 }
 
 void run_study(const StudyOptions& options) {
-    const Shard shard = read_shard(options.shard);
+    const Shard shard = options.shard ? read_shard(*options.shard) : Shard{};
     const StudyFile file = load_study(options.study);
     check_count(file, options);
     const RunList list = list_runs(file);
