@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/error_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/expect_error.h"
+
+namespace lamina {
+namespace {
+
+Image all_of(float value) {
+    Image image(4, 3);
+    for (float& each : image.rgba) each = value;
+    return image;
+}
+
+Image noise(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> value(0, 1);
+    Image image(7, 5);
+    for (float& each : image.rgba) each = value(random);
+    return image;
+}
+
+TEST(ErrorBudget, PartsAddUpInEveryPixel) {
+    const ErrorBudget budget = error_budget({noise(1), noise(2), noise(3), noise(4)});
+    ASSERT_EQ(budget.raw.e.size(), 7u * 5 * 4);
+    double largest = 0;
+    for (std::size_t i = 0; i < budget.raw.e.size(); ++i) {
+        const double sum = budget.parts[0].e.e[i] - budget.parts[1].e.e[i] + budget.parts[2].e.e[i];
+        // With u = 2^-53: a difference of float32 values up to 1 is exact or rounded by u; times
+        // 255, rounded by 255 u again: 4 differences, 4 * 2 * 255 u. Two sums, of up to 510 and
+        // 765: 1275 u. Together 3315 u = 3.7e-13.
+        EXPECT_NEAR(budget.raw.e[i], sum, 1e-12);
+        largest = std::max(largest, std::abs(budget.raw.e[i] - sum));
+    }
+    EXPECT_LE(budget.residual, 1e-12);
+    EXPECT_NEAR(budget.residual, largest, 1e-12);
+    EXPECT_GT(budget.raw_error.all.linf, 1);
+    // <s1, d> + <s2, d> + <s3, d> = <d, d>: sums of 140 products of relative error 140 u each.
+    EXPECT_NEAR(budget.parts[0].share + budget.parts[1].share + budget.parts[2].share, 1, 1e-12);
+}
+
+// Constant pictures: every norm is the difference itself, in 1/255.
+TEST(ErrorBudget, FindsTheDominantPart) {
+    struct Case {
+        FourPictures pictures;
+        std::size_t dominant;
+        double e[3], shares[3];
+    };
+    // Multiples of 1/16 are exact; raw differences of 4/16, 4/16, 4/16 and 1/16.
+    const std::vector<Case> cases = {
+        {{all_of(.5F), all_of(.75F), all_of(.5F), all_of(.75F)}, 0, {.25, 0, 0}, {1, 0, 0}},
+        {{all_of(.5F), all_of(.5F), all_of(.25F), all_of(.5F)}, 1, {0, -.25, 0}, {0, 1, 0}},
+        {{all_of(.5F), all_of(.5F), all_of(.5F), all_of(.75F)}, 2, {0, 0, .25}, {0, 0, 1}},
+        // Mesh +2/16 and projection -3/16 cancel in part; slicing -2/16 adds: raw +1/16.
+        {{all_of(.5F), all_of(.625F), all_of(.375F), all_of(.4375F)},
+         2,
+         {.125, -.125, -.1875},
+         {2, 2, -3}},
+    };
+    for (const Case& each : cases) {
+        const ErrorBudget budget = error_budget(each.pictures);
+        EXPECT_EQ(&budget.dominant(), &budget.parts[each.dominant]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const ErrorBudget::Part& part = budget.parts[i];
+            EXPECT_DOUBLE_EQ(part.error.all.l1, 255 * each.e[i]);
+            EXPECT_DOUBLE_EQ(part.error.all.linf, 255 * std::abs(each.e[i]));
+            EXPECT_DOUBLE_EQ(part.error.all.l2, 255 * std::abs(each.e[i]));
+            EXPECT_DOUBLE_EQ(part.share, each.shares[i]);
+        }
+        EXPECT_EQ(budget.residual, 0);
+    }
+}
+
+// The largest error in one pixel is not the one that dominates: L2 counts.
+TEST(ErrorBudget, DominantIsByL2) {
+    FourPictures pictures{all_of(.5F), all_of(.5F), all_of(.625F), all_of(.5F)};
+    pictures.traced_mesh.pixel(1, 1)[0] = pictures.projected.pixel(1, 1)[0] = .75F;
+    const ErrorBudget budget = error_budget(pictures);
+    EXPECT_GT(budget.parts[0].error.all.linf, budget.parts[1].error.all.linf);
+    EXPECT_EQ(budget.dominant().name, "slicing method");
+}
+
+TEST(ErrorBudget, EqualPicturesExplainNothing) {
+    const ErrorBudget budget = error_budget({noise(1), noise(1), noise(1), noise(1)});
+    EXPECT_EQ(budget.raw_error.all.linf, 0);
+    for (const ErrorBudget::Part& part : budget.parts) EXPECT_EQ(part.share, 0);
+}
+
+TEST(ErrorBudget, PicturesOfDifferentSizesAreAnError) {
+    for (Image FourPictures::*picture : {&FourPictures::traced_volume, &FourPictures::traced_mesh,
+                                         &FourPictures::sliced, &FourPictures::projected}) {
+        FourPictures pictures{all_of(0), all_of(0), all_of(0), all_of(0)};
+        pictures.*picture = noise(1);
+        expect_error([&] { error_budget(pictures); }, {"7 x 5", "4 x 3"});
+    }
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/run_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class RunLists : public testing::Test {
+  protected:
+    void SetUp() override {
+        scene = json::parse(R"({
+            "version": 1,
+            "volume": {"generate": "gaussians", "size": [8, 8, 8]},
+            "mesh": {"tolerance": 0.1},
+            "transfer_function": {"points": [{"value": 0, "color": [1, 1, 1], "extinction": 0},
+                                             {"value": 255, "color": [1, 1, 1], "extinction": 8}]},
+            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5]},
+            "image": {"width": 8, "height": 8},
+            "render": {"slice": {"samples": 16}}})");
+        study = {{"version", 1},
+                 {"scenes", {"a.json", "b.json"}},
+                 {"sweep",
+                  {{"render.target", {"fixed8", "float32"}},
+                   {"render.slice.samples", {8, 16, nullptr}}}}};
+    }
+
+    StudyFile load() {
+        for (const char* name : {"a.json", "b.json"}) write_bytes_to(folder / name, scene.dump());
+        write_bytes_to(folder / "study.json", study.dump());
+        return load_study(folder / "study.json");
+    }
+    RunList list() { return list_runs(load()); }
+
+    static std::set<std::string> ids_of(const RunList& list) {
+        std::set<std::string> ids;
+        for (const StudyRun& run : list.runs) ids.insert(run.id);
+        return ids;
+    }
+
+    TemporaryFolder folder;
+    json scene, study;
+};
+
+TEST_F(RunLists, EveryRunHasAnIdOfItsOwnThatStays) {
+    const RunList first = list(), second = list();
+    ASSERT_EQ(first.runs.size(), 12u);  // 2 scenes, 2 targets, 3 samples
+    EXPECT_EQ(ids_of(first).size(), 12u);
+    for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(first.runs[i].id, second.runs[i].id);
+        EXPECT_EQ(first.runs[i].scene, i / 6);
+        EXPECT_FALSE(first.runs[i].name.empty());
+    }
+    EXPECT_EQ(first.id(), second.id());
+    EXPECT_EQ(first.swept, (std::vector<std::string>{"render.slice.samples", "render.target"}));
+    EXPECT_EQ(first.baselines, (std::vector<std::size_t>{0, 6}));
+    EXPECT_TRUE(first.dropped.empty());
+}
+
+TEST_F(RunLists, IdsChangeWithAllThatDecidesWhatIsMeasured) {
+    const RunList before = list();
+    const auto expect_other_ids = [&](const char* what) {
+        const RunList after = list();
+        EXPECT_NE(after.id(), before.id()) << what;
+        for (const std::string& id : ids_of(after))
+            EXPECT_FALSE(ids_of(before).contains(id)) << what;
+    };
+    const json kept = study, kept_scene = scene;
+    study["base"]["context"] = "osmesa";
+    expect_other_ids("context");
+    study = kept;
+    study["base"]["image.width"] = 9;
+    expect_other_ids("base");
+    study = kept;
+    study["reference"] = "mesh";
+    expect_other_ids("reference");
+    study = kept;
+    scene["camera"]["eye"][0] = 1.75;
+    expect_other_ids("the scene's file");
+    scene = kept_scene;
+    study["rounds"] = 4;  // of the same runs, another study
+    EXPECT_EQ(ids_of(list()), ids_of(before));
+    EXPECT_NE(list().id(), before.id());
+    study = kept;
+    study["title"] = "says nothing of the runs";
+    EXPECT_EQ(list().id(), before.id());
+}
+
+TEST_F(RunLists, SurvivesItsFile) {
+    study["drop"] = {{{"where", {{"render.target", "fixed8"}, {"scene", "a"}}}, {"because", "x"}}};
+    const RunList made = list();
+    const RunList read = run_list_from(json::parse(to_json(made).dump()), "runs.json");
+    EXPECT_EQ(read.id(), made.id());
+    EXPECT_EQ(to_json(read), to_json(made));
+    json other = json::parse(to_json(made).dump());
+    other["runs"].erase(other["runs"].size() - 1);
+    expect_error([&] { run_list_from(other, "runs.json"); }, {"runs.json", "lamina study"});
+    other = json::parse(to_json(made).dump());
+    other.erase("rounds");
+    expect_error([&] { run_list_from(other, "runs.json"); }, {"runs.json", "rounds"});
+}
+
+TEST_F(RunLists, WhatIsTheSameAsAnotherRunIsDroppedAndSaid) {
+    study["sweep"] = {{{"render.slice.samples", {8, 16, 8}}},
+                      {{"render.slice.samples", {16, 32}}},
+                      {{"render.target", {"float32", "fixed8"}}, {"render.slice.samples", 8}}};
+    const RunList made = list();
+    // Of a scene: 8, 16, (8), (16), 32, float32 8, fixed8 8; that the target is float32 without
+    // being asked for is not known to the list.
+    EXPECT_EQ(made.runs.size(), 2u * 5);
+    ASSERT_EQ(made.dropped.size(), 1u);
+    EXPECT_EQ(made.dropped[0].runs, 2u * 2);
+    EXPECT_NE(made.dropped[0].because.find("same"), std::string::npos);
+}
+
+TEST_F(RunLists, NullTakesAKeyAway) {
+    const StudyFile file = load();
+    const RunList made = list_runs(file);
+    int without = 0;
+    for (const StudyRun& run : made.runs) {
+        const json document = document_of(run, file);
+        const json* const samples = find_setting(run.settings, "render.slice.samples");
+        ASSERT_NE(samples, nullptr);
+        EXPECT_EQ(document["render"]["slice"].contains("samples"), !samples->is_null());
+        EXPECT_EQ(document["render"]["target"], *find_setting(run.settings, "render.target"));
+        without += samples->is_null() ? 1 : 0;
+    }
+    EXPECT_EQ(without, 4);
+    check_runs(made, file);  // all of them can be read
+
+    // Where the scene has no such key nothing is made of it, and the run is that of the scene.
+    study["sweep"] = {{"render.slice.tree.factors", {nullptr, {4, 4}}}};
+    const StudyFile other = load();
+    const RunList trees = list_runs(other);
+    EXPECT_EQ(document_of(trees.runs[0], other), scene);
+    EXPECT_EQ(trees.runs[0].name, "as the scene");
+}
+
+TEST_F(RunLists, ASceneOverridesTheBase) {
+    study["base"] = {{"image.width", 5}, {"image.height", 6}};
+    study["scenes"] = {"a.json",
+                       {{"scene", "b.json"}, {"name", "c"}, {"set", {{"image.width", 7}}}}};
+    study["sweep"] = {{"render.slice.samples", 8}};
+    const StudyFile file = load();
+    const RunList made = list_runs(file);
+    EXPECT_EQ(made.scenes, (std::vector<std::string>{"a", "c"}));
+    EXPECT_EQ(document_of(made.runs[0], file)["image"], json({{"width", 5}, {"height", 6}}));
+    EXPECT_EQ(document_of(made.runs[1], file)["image"], json({{"width", 7}, {"height", 6}}));
+}
+
+TEST_F(RunLists, ContextIsNoKeyOfTheScene) {
+    study["base"] = {{"context", "osmesa"}};
+    study["sweep"] = {{"context", {"cpu", nullptr}}, {"render.slice.samples", {8, 16}}};
+    const StudyFile file = load();
+    const RunList made = list_runs(file);
+    std::multiset<std::string> contexts;
+    for (const StudyRun& run : made.runs) {
+        contexts.insert(context_of(run, file));
+        EXPECT_FALSE(document_of(run, file).contains("context"));
+    }
+    EXPECT_EQ(contexts.count("cpu"), 4u);
+    EXPECT_EQ(contexts.count("osmesa"), 4u);  // null: as the base says
+}
+
+TEST_F(RunLists, DropRulesAreCounted) {
+    study["drop"] = {
+        {{"where", {{"scene", "a"}, {"render.target", "fixed8"}}}, {"because", "first"}},
+        {{"where", {{"render.slice.samples", {16, nullptr}}}}, {"because", "second"}},
+        {{"where", {{"scene", "nowhere"}}}, {"because", "never"}}};
+    const RunList made = list();
+    // Scene a: float32 with 8 is left; b: fixed8 and float32 with 8.
+    EXPECT_EQ(made.runs.size(), 3u);
+    ASSERT_EQ(made.dropped.size(), 2u);
+    EXPECT_EQ(made.dropped[0].because, "first");
+    EXPECT_EQ(made.dropped[0].runs, 3u);
+    EXPECT_EQ(made.dropped[1].because, "second");
+    EXPECT_EQ(made.dropped[1].runs, 2u + 4);  // whatever the first rule has taken is counted there
+    for (const StudyRun& run : made.runs)
+        EXPECT_EQ(*find_setting(run.settings, "render.slice.samples"), 8);
+}
+
+TEST_F(RunLists, BaselineIsOneRunOfEachScene) {
+    study["baseline"] = {{"render.target", "float32"}, {"render.slice.samples", nullptr}};
+    const RunList made = list();
+    ASSERT_EQ(made.baselines.size(), 2u);
+    for (std::size_t scene_number = 0; scene_number < 2; ++scene_number) {
+        const StudyRun& run = made.runs[made.baselines[scene_number]];
+        EXPECT_EQ(run.scene, scene_number);
+        EXPECT_EQ(*find_setting(run.settings, "render.target"), "float32");
+        EXPECT_TRUE(find_setting(run.settings, "render.slice.samples")->is_null());
+    }
+}
+
+TEST_F(RunLists, CountsBeforeTheyAreMade) {
+    EXPECT_EQ(run_count(load()), 12u);
+    json values = json::array();
+    for (int i = 1; i <= 1000; ++i) values.push_back(i);
+    study["sweep"] = {
+        {"image.width", values}, {"image.height", values}, {"render.slice.samples", values}};
+    const StudyFile file = load();
+    EXPECT_EQ(run_count(file), 2'000'000'000u);
+    expect_error([&] { list_runs(file); }, {"study.json", "sweep", "2000000000", "1000000"});
+    for (int i = 0; i < 5; ++i)
+        study["sweep"]["transfer_function.points.0.k" + std::to_string(i)] = values;
+    EXPECT_EQ(run_count(load()), std::uint64_t{(1ull << 63) - 1});  // 2 * 10^24
+}
+
+}  // namespace
+}  // namespace lamina
