@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// lamina crosscheck, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/lamina_run.h"
+#include "image/exr.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 3> part_keys{"mesh", "slicing", "projection"};
+
+class Crosschecks : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty())
+            GTEST_SKIP() << "built without TetGen";
+        scene = json::parse(R"({
+            "version": 1,
+            "volume": {"generate": "gaussians", "size": [16, 16, 16]},
+            "mesh": {"tolerance": 0.1},
+            "transfer_function": {"points": [
+                {"value": 0, "color": [0, 0, 1], "extinction": 0},
+                {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
+            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
+            "image": {"width": 24, "height": 24},
+            "render": {"slice": {"samples": 8}}})");
+    }
+
+    ProgramResult run(const std::vector<std::string>& options) {
+        write_bytes_to(folder / "blobs.json", scene.dump());
+        std::vector<std::string> arguments{"crosscheck", folder / "blobs.json", "-o",
+                                           folder / "out"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return lamina_run(arguments);
+    }
+    json run_well(std::vector<std::string> options = {}, const char* tolerances = ".2,.1",
+                  const char* samples = "8,32") {
+        for (const char* each :
+             {"--tolerances", tolerances, "--samples", samples, "--context", "cpu"})
+            options.emplace_back(each);
+        const ProgramResult result = run(options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        out = result.out;
+        return json::parse(read_bytes_of(folder / "out" / "budget.json"));
+    }
+    Image picture(const char* name) const {
+        return read_exr(folder / "out" / (std::string(name) + ".exr"));
+    }
+
+    TemporaryFolder folder;
+    json scene;
+    std::string out;
+};
+
+// Of one channel, or of all: -1.
+struct Norms {
+    double linf = 0, l1 = 0, l2 = 0;
+};
+
+Norms norms_of(const std::vector<double>& e, int channel) {
+    Norms norms;
+    double count = 0;
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        if (channel >= 0 && i % 4 != static_cast<std::size_t>(channel)) continue;
+        norms.linf = std::max(norms.linf, std::abs(e[i]));
+        norms.l1 += e[i];
+        norms.l2 += e[i] * e[i];
+        ++count;
+    }
+    return {norms.linf, norms.l1 / count, std::sqrt(norms.l2 / count)};
+}
+
+// Sums of 24 * 24 * 4 numbers up to 255 in another order differ by less than 2304 * 2304 * 255 u =
+// 1.5e-7 at the worst, u = 2^-53, before the division by 2304.
+void expect_norms(const json& found, const std::vector<double>& e) {
+    const auto expect = [](const json& norms, const Norms& wanted) {
+        EXPECT_NEAR(norms["linf"].get<double>(), wanted.linf, 1e-9);
+        EXPECT_NEAR(norms["l1"].get<double>(), wanted.l1, 1e-9);
+        EXPECT_NEAR(norms["l2"].get<double>(), wanted.l2, 1e-9);
+    };
+    expect(found, norms_of(e, -1));
+    const char* const channels[] = {"R", "G", "B", "A"};
+    for (int channel = 0; channel < 4; ++channel)
+        expect(found["channels"][channels[channel]], norms_of(e, channel));
+}
+
+std::vector<double> difference_of(const Image& a, const Image& b) {
+    std::vector<double> e(a.rgba.size());
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] = 255 * (double{a.rgba[i]} - double{b.rgba[i]});
+    return e;
+}
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+TEST_F(Crosschecks, PartsOfTheFourPicturesAddUpToTheRawDifference) {
+    const json budget = run_well();
+    const Image traced_volume = picture("traced_volume"), traced_mesh = picture("traced_mesh"),
+                sliced = picture("sliced"), projected = picture("projected");
+    ASSERT_EQ(traced_volume.width, 24);
+    ASSERT_EQ(projected.rgba.size(), 24u * 24 * 4);
+    const std::array<std::vector<double>, 3> parts{difference_of(traced_mesh, traced_volume),
+                                                   difference_of(sliced, traced_volume),
+                                                   difference_of(projected, traced_mesh)};
+    const std::vector<double> raw = difference_of(projected, sliced);
+    for (std::size_t i = 0; i < raw.size(); ++i)
+        EXPECT_NEAR(parts[0][i] - parts[1][i] + parts[2][i], raw[i], 1e-6) << i;
+
+    std::size_t dominant = 0;
+    double shares = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const json& part = budget["parts"][part_keys[i]];
+        expect_norms(part, parts[i]);
+        const double sign = i == 1 ? -1 : 1;
+        EXPECT_NEAR(part["share"].get<double>(), sign * product(parts[i], raw) / product(raw, raw),
+                    1e-9);
+        shares += part["share"].get<double>();
+        if (norms_of(parts[i], -1).l2 > norms_of(parts[dominant], -1).l2) dominant = i;
+    }
+    expect_norms(budget["raw"], raw);
+    EXPECT_NEAR(shares, 1, 1e-9);
+    EXPECT_EQ(budget["dominant"], part_keys[dominant]);
+    EXPECT_LT(budget["residual"].get<double>(), 1e-6);
+    EXPECT_GT(norms_of(raw, -1).linf, 1);  // there is a difference to explain
+    EXPECT_LT(budget["reference_error"].get<double>(), 0.01);
+}
+
+TEST_F(Crosschecks, WritesIntoItsFolderAlone) {
+    const auto before = std::filesystem::current_path();
+    std::filesystem::create_directory(folder / "here");
+    std::filesystem::current_path(folder / "here");
+    run_well();
+    std::filesystem::current_path(before);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "here"));
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
+        names.insert(entry.path().filename());
+    EXPECT_EQ(names, (std::set<std::string>{"budget.json", "projected.exr", "report.html",
+                                            "sliced.exr", "traced_mesh.exr", "traced_volume.exr"}));
+}
+
+TEST_F(Crosschecks, TheFourPicturesAreThoseOfRender) {
+    run_well();
+    const auto expect_picture = [&](const char* name, const std::vector<std::string>& options) {
+        const std::string drawn = folder / "drawn.exr";
+        std::vector<std::string> arguments{"render", folder / "blobs.json", "-o",
+                                           drawn,    "--context",           "cpu"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        ASSERT_EQ(lamina_run(arguments).exit_code, 0);
+        EXPECT_EQ(read_exr(drawn).rgba, picture(name).rgba) << name;
+    };
+    expect_picture("traced_volume", {"--method", "trace"});
+    expect_picture("traced_mesh", {"--method", "trace", "--set", "render.trace.of=mesh"});
+    expect_picture("sliced", {"--method", "slice"});
+    expect_picture("projected", {"--method", "project"});
+}
+
+TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
+    scene["mesh"]["tolerance"] = 0.15;
+    scene["render"]["slice"]["samples"] = 16;
+    const json budget = run_well();
+    const json& ladder = budget["ladder"];
+    json samples = json::array(), tolerances = json::array(), tets = json::array();
+    for (const json& each : ladder["slicing"]) {
+        samples.push_back(each["samples"]);
+        EXPECT_GT(each["frame_ms"]["median"], 0);
+    }
+    for (const json& each : ladder["projection"]) {
+        tolerances.push_back(each["tolerance"]);
+        tets.push_back(each["tets"]);
+        EXPECT_GT(each["frame_ms"]["median"], 0);
+        EXPECT_LE(each["mesh_error"], each["tolerance"]);
+    }
+    EXPECT_EQ(samples, json({8, 16, 32}));  // the scene's own among them
+    EXPECT_EQ(tolerances, json({0.2, 0.15, 0.1}));
+    EXPECT_LT(tets[0], tets[2]);
+    EXPECT_LT(ladder["slicing"][2]["method"]["l2"], ladder["slicing"][0]["method"]["l2"]);
+    ASSERT_EQ(ladder["pairs"].size(), 9u);
+    for (std::size_t i = 0; i < 9; ++i) {
+        const json& pair = ladder["pairs"][i];
+        const json &projection = ladder["projection"][i / 3], &slicing = ladder["slicing"][i % 3];
+        EXPECT_EQ(pair["tolerance"], projection["tolerance"]);
+        EXPECT_EQ(pair["samples"], slicing["samples"]);
+        const double l2[] = {projection["mesh"]["l2"], slicing["method"]["l2"],
+                             projection["method"]["l2"]};
+        EXPECT_EQ(pair["dominant"],
+                  part_keys[static_cast<std::size_t>(std::max_element(l2, l2 + 3) - l2)]);
+    }
+    // The budget is that of the scene's own settings, one of these pairs.
+    EXPECT_EQ(budget["samples"], 16);
+    EXPECT_EQ(budget["tolerance"], 0.15);
+    EXPECT_EQ(ladder["pairs"][4]["l2"], budget["raw"]["l2"]);
+    EXPECT_EQ(ladder["pairs"][4]["linf"], budget["raw"]["linf"]);
+}
+
+// Few slabs against a fine mesh, and many against a coarse one.
+TEST_F(Crosschecks, SaysWhichPartDominates) {
+    scene["mesh"]["tolerance"] = 0.02;
+    scene["render"]["slice"]["samples"] = 4;
+    json budget = run_well({}, ".02", "4");
+    EXPECT_EQ(budget["dominant"], "slicing");
+    EXPECT_GT(budget["parts"]["slicing"]["share"], 0.5);
+    EXPECT_NE(out.find("the slicing method dominates"), std::string::npos) << out;
+    scene["mesh"]["tolerance"] = 0.2;
+    scene["render"]["slice"]["samples"] = 128;
+    budget = run_well({}, ".2", "128");
+    EXPECT_EQ(budget["dominant"], "mesh");
+    EXPECT_GT(budget["parts"]["mesh"]["share"], 0.5);
+    EXPECT_NE(out.find("mesh discretisation dominates"), std::string::npos) << out;
+    EXPECT_EQ(budget["findings"].size(), 4u);
+    for (const json& finding : budget["findings"])
+        EXPECT_NE(out.find(finding.get<std::string>()), std::string::npos) << finding;
+    const std::string page = read_bytes_of(folder / "out" / "report.html");
+    EXPECT_NE(page.find("PT against slicing: blobs"), std::string::npos);
+}
+
+TEST_F(Crosschecks, FindsWhereBothAgree) {
+    const json budget = run_well({"--set", "render.max_error=200"});
+    EXPECT_EQ(budget["wanted"], 200);
+    EXPECT_NE(out.find("agree within 200/255 in every pixel"), std::string::npos) << out;
+    run_well({"--set", "render.max_error=0.001"});
+    EXPECT_NE(out.find("agree nowhere on this ladder within 0.001/255"), std::string::npos) << out;
+}
+
+TEST_F(Crosschecks, AMeshOfAFileIsTheOnlyStep) {
+    const std::string mesh = folder / "blobs.vtu";
+    write_bytes_to(folder / "blobs.json", scene.dump());
+    ASSERT_EQ(lamina_run({"mesh", folder / "blobs.json", "-o", mesh}).exit_code, 0);
+    scene["mesh"] = "blobs.vtu";
+    const json budget = run_well();
+    ASSERT_EQ(budget["ladder"]["projection"].size(), 1u);
+    EXPECT_EQ(budget["ladder"]["pairs"].size(), 2u);
+    EXPECT_GT(budget["ladder"]["projection"][0]["tets"], 100);
+}
+
+TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {
+    const auto expect_refused = [&](int code, const std::vector<std::string>& options,
+                                    const std::string& part) {
+        const ProgramResult result = run(options);
+        EXPECT_EQ(result.exit_code, code) << result.err;
+        EXPECT_EQ(result.out, "");
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << part << ": " << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out" / "report.html")) << part;
+        EXPECT_LE(std::filesystem::remove_all(folder / "out"), code == 1 ? 1u : 0u) << part;
+    };
+    for (const char* bad : {"0", "-0.1", "1.5", "nan", "x", ".1,,0"})
+        expect_refused(2, {std::string("--tolerances=") + bad}, "--tolerances");
+    for (const char* bad : {"0", "-8", "65537", "2.5", "x"})
+        expect_refused(2, {std::string("--samples=") + bad}, "--samples");
+    expect_refused(2, {"--context", "directx"}, "directx");
+    expect_refused(2, {"--nonsense"}, "--nonsense");
+    expect_refused(2, {"--set", "render.slice.sampels=8"}, "sampels");
+    const json kept = scene;
+    scene["volume"] = "absent.nrrd";
+    expect_refused(1, {}, "absent.nrrd");
+    scene.erase("volume");
+    scene["mesh"] = "absent.vtu";
+    scene["render"]["method"] = "project";
+    expect_refused(1, {}, "volume");
+    scene = kept;
+    scene["render"]["slise"] = 1;
+    expect_refused(1, {}, "did you mean \"slice\"");
+    EXPECT_EQ(lamina_run({"crosscheck", folder / "absent.json", "-o", folder / "out"}).exit_code,
+              1);
+    EXPECT_EQ(lamina_run({"crosscheck", folder / "blobs.json"}).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace lamina

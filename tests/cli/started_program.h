@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace lamina {
+
+struct ProgramResult {
+    int exit_code = 0;  // minus the signal's number when a signal ended the program
+    std::string out;
+    std::string err;
+};
+
+inline std::string text_of(std::FILE* file) {
+    std::string text;
+    char block[4096];
+    std::rewind(file);
+    while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
+        text.append(block, count);
+    }
+    std::fclose(file);
+    return text;
+}
+
+// The program arguments[0] (looked for in PATH) as it runs, with an empty stdin. Exit code 127: it
+// could not be started. Someone must wait() for its end.
+class StartedProgram {
+  public:
+    explicit StartedProgram(const std::vector<std::string>& arguments) {
+        std::vector<char*> argv;
+        for (const std::string& argument : arguments)
+            argv.push_back(const_cast<char*>(argument.c_str()));
+        argv.push_back(nullptr);
+        if (out_ == nullptr || err_ == nullptr) throw std::runtime_error("tmpfile failed");
+        child_ = fork();
+        if (child_ < 0) throw std::runtime_error("fork failed");
+        if (child_ == 0) {
+            dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+            dup2(fileno(out_), STDOUT_FILENO);
+            dup2(fileno(err_), STDERR_FILENO);
+            execvp(argv[0], argv.data());
+            _exit(127);
+        }
+    }
+    StartedProgram(const StartedProgram&) = delete;
+    StartedProgram& operator=(const StartedProgram&) = delete;
+
+    void send(int signal) const { kill(child_, signal); }
+
+    bool has_ended() const {
+        siginfo_t info{};
+        waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
+        return info.si_pid == child_;
+    }
+
+    // Waits for its end; what it wrote.
+    ProgramResult wait() {
+        int status = 0;
+        waitpid(child_, &status, 0);
+        const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+        return {exit_code, text_of(out_), text_of(err_)};
+    }
+
+  private:
+    std::FILE* out_ = std::tmpfile();
+    std::FILE* err_ = std::tmpfile();
+    pid_t child_ = -1;
+};
+
+}  // namespace lamina
