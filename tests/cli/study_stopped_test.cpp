@@ -219,9 +219,9 @@ TEST_F(StudyStopped, OneShardAloneSaysThatRunsAreMissing) {
 }
 
 TEST_F(StudyStopped, ShardsMayShareAFolder) {
-    write_files();
-    StartedProgram first(command("out", {"--shard", "1/2"}));
-    StartedProgram second(command("out", {"--shard", "2/2"}));
+    const auto one_of_two = command("out", {"--shard", "1/2"});  // these write the scene files
+    const auto two_of_two = command("out", {"--shard", "2/2"});
+    StartedProgram first(one_of_two), second(two_of_two);
     const ProgramResult one = first.wait(), two = second.wait();
     EXPECT_EQ(one.exit_code, 0) << one.err;
     EXPECT_EQ(two.exit_code, 0) << two.err;
