@@ -19,7 +19,7 @@ function columnsOf(swept) {
       (run) => run.frame_ms?.median),
     number("frame_ms.min", frame, "min", "fastest of these frames", (run) => run.frame_ms?.min),
     number("frame_ms.spread", frame, "spread", "slowest less fastest of these frames", spread),
-    number("ratio", frame, "ratio", "median over the baseline's", (run) => run.ratio),
+    number("ratio", frame, "ratio", "time to the baseline's", (run) => run.ratio),
     number("still_ms.median", frame, "still", "median of the frames with a still camera",
       (run) => run.still_ms?.median),
     number("linf", error, "L∞", "largest error of a pixel", (run) => run.linf),
@@ -70,7 +70,7 @@ class RunTable {
       runs.some((run) => run.near_reference)
         ? element("p", null, "† error below ten times the reference's own: it may be the reference's.") : null,
       long ? element("p", { class: "print-only" }, `The ${runs.length} runs are too many for paper: here are the ` +
-        "baseline and the Pareto front. All of them are in results.csv.") : null);
+        "baseline and the Pareto front. All of them are in the files beside this page.") : null);
   }
 
   makeHead(column) {

@@ -121,7 +121,10 @@ class Crosschecker {
         made.mesh_ms = watch.milliseconds();
         made.tolerance = tolerance;
         made.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
-        if (mesh.report) made.mesh_error = mesh.report->relative_error();
+        if (mesh.report) {
+            made.mesh_error = mesh.report->relative_error();
+            made.stopped = mesh.report->stopped_by_max_tets;
+        }
         StudyFrames& frames =
             *frames_.emplace_back(std::make_unique<StudyFrames>(scene, data_, capabilities_));
         made.picture = frames.renderer().read();
@@ -135,7 +138,7 @@ class Crosschecker {
     bool is_fine_enough() const {
         const Crosscheck::Projection& last = made_.projections.back();
         const double e = image_error(last.picture, made_.slicings.back().picture).all.linf;
-        return e <= scene_.max_error || last.mesh_error > last.tolerance;
+        return e <= scene_.max_error || last.stopped;
     }
 
     void time() {

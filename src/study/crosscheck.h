@@ -33,6 +33,7 @@ struct Crosscheck {
     struct Projection {
         double tolerance = 0;   // 0: a mesh from a file
         double mesh_error = 0;  // of the range of values, certified; 0: not known
+        bool stopped = false;   // at max_tets
         std::int64_t tets = 0;
         double mesh_ms = 0;  // to make or read it
         Image traced, picture;

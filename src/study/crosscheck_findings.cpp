@@ -16,9 +16,11 @@ struct PairAt {
 
 std::string mesh_text(const Crosscheck::Projection& projection) {
     if (projection.tolerance == 0) return fmt::format("the file's {} tets", projection.tets);
-    const bool stopped = projection.mesh_error > projection.tolerance;
-    return fmt::format("tolerance {:g} ({} tets{})", projection.tolerance, projection.tets,
-                       stopped ? fmt::format(", stopped at {:.2g}", projection.mesh_error) : "");
+    return fmt::format(
+        "tolerance {:g} ({} tets{})", projection.tolerance, projection.tets,
+        projection.stopped
+            ? fmt::format(", all that mesh.max_tets allows: {:.2g} reached", projection.mesh_error)
+            : "");
 }
 
 const Crosscheck::Pair& pair_at(const Crosscheck& crosscheck, const PairAt& at) {
@@ -67,7 +69,7 @@ std::string agreement(const Crosscheck& crosscheck, double wanted) {
         const Crosscheck::Projection& projection = crosscheck.projections[found->projection];
         const Crosscheck::Slicing& slicing = crosscheck.slicings[found->slicing];
         return fmt::format(
-            "PT and slicing agree within {:g}/255 in every pixel from {} and {} slabs on (Linf "
+            "The cheapest pair that agrees within {:g}/255 in every pixel is {} and {} slabs (Linf "
             "{:.3g}): PT takes {:.3g} ms a frame and {:.3g} s for its mesh, slicing {:.3g} ms.",
             wanted, mesh_text(projection), slicing.samples, pair_at(crosscheck, *found).raw.linf,
             projection.times.ms, projection.mesh_ms / 1000, slicing.times.ms);

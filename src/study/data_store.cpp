@@ -18,11 +18,12 @@ std::string volume_name(const Scene& scene) {
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
 }
 
+// A mesh made from a volume stays coarse where the transfer function shows nothing.
 std::string mesh_name(const Scene& scene) {
     if (!scene.mesh_request) return fmt::format("{} {}", scene.mesh_file.string(), scene.scalar);
     const MeshSettings& settings = *scene.mesh_request;
-    return fmt::format("{} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
-                       settings.kuhn);
+    return fmt::format("{} {} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
+                       settings.kuhn, transfer_function_key(scene.transfer_function));
 }
 
 }  // namespace

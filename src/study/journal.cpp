@@ -43,7 +43,8 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
     try {
-        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0)
+        // Some file systems have no locks: there nothing keeps two processes apart.
+        if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             fail("{}: another lamina study is writing it", path_.string());
         CompleteLines lines = read_lines(path_);
         if (ftruncate(descriptor_, lines.bytes) != 0)

@@ -6,7 +6,7 @@
 namespace lamina {
 
 struct CostAndError {
-    double cost = 0, error = 0;
+    double cost = 0, error = 0;  // in any units, the same of all points
 };
 
 // Which points no other one beats: has as little of both, and less of one.

@@ -24,7 +24,13 @@ std::string picture_key(const Scene& scene) {
     add(hash, camera.eye);
     add(hash, camera.center);
     add(hash, camera.up);
-    for (const TransferKnot& knot : scene.transfer_function.knots()) {
+    hash.add(transfer_function_key(scene.transfer_function));
+    return hash.hex();
+}
+
+std::string transfer_function_key(const TransferFunction& transfer_function) {
+    ContentHash hash;
+    for (const TransferKnot& knot : transfer_function.knots()) {
         hash.add(knot.value);
         add(hash, knot.optics.color);
         hash.add(knot.optics.extinction);

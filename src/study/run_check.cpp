@@ -28,6 +28,31 @@ void check_context(const std::string& word, const StudyFile& study) {
 
 }  // namespace
 
+TraceOf reference_of(const Scene& scene, const StudyFile& file) {
+    if (file.reference) return *file.reference;
+    return scene.method == Method::project ? TraceOf::mesh : TraceOf::volume;
+}
+
+Scene scene_of(const StudyRun& run, const StudyFile& file) {
+    Scene scene = read_scene(document_of(run, file), file.scenes[run.scene].file);
+    const std::string name = scene.file.string();
+    if (scene.method == Method::trace) {
+        throw KeyError("render.method",
+                       fmt::format("{}: render.method: found \"trace\", expected \"slice\" or "
+                                   "\"project\": the tracer is what runs are measured against",
+                                   name));
+    }
+    const TraceOf reference = reference_of(scene, file);
+    if (reference == TraceOf::volume && !scene.has_volume())
+        throw KeyError("volume", fmt::format("{}: the reference is a volume's, and the scene has "
+                                             "none",
+                                             name));
+    if (reference == TraceOf::mesh && !scene.has_mesh())
+        throw KeyError("mesh",
+                       fmt::format("{}: the reference is a mesh's, and the scene has none", name));
+    return scene;
+}
+
 void check_runs(const RunList& list, const StudyFile& study) {
     struct Outcome {
         std::size_t runs = 0, failed = 0;
@@ -40,7 +65,7 @@ void check_runs(const RunList& list, const StudyFile& study) {
         ++outcome.runs;
         check_context(context_of(run, study), study);
         try {
-            const Scene scene = read_scene(document_of(run, study), entry.file);
+            const Scene scene = scene_of(run, study);
             check_file(scene.volume_file, entry);
             check_file(scene.mesh_file, entry);
         } catch (const UnknownKeyError& error) {

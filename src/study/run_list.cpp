@@ -51,16 +51,20 @@ std::vector<std::string> swept_keys(const StudyFile& file) {
 // Fills a list run by run.
 class Lister {
   public:
-    Lister(const StudyFile& file, RunList& list) : file_(file), list_(list) {
+    Lister(const StudyFile& file, RunList& list)
+        : file_(file), list_(list), matched_(file.drops.size(), false) {
         for (const StudyFile::Drop& drop : file.drops) list.dropped.push_back({drop.because, 0});
         list.dropped.push_back({"the same as another run", 0});
     }
     void add(std::size_t scene, Settings settings) {
+        bool is_dropped = false;
         for (std::size_t i = 0; i < file_.drops.size(); ++i) {
             if (!has_all(file_.drops[i], file_.scenes[scene].name, settings)) continue;
-            ++list_.dropped[i].runs;
-            return;
+            matched_[i] = true;
+            if (!is_dropped) ++list_.dropped[i].runs;
+            is_dropped = true;
         }
+        if (is_dropped) return;
         StudyRun run{{}, run_name(settings), scene, std::move(settings)};
         run.id = run_id(run, file_);
         if (ids_.insert(run.id).second)
@@ -69,9 +73,18 @@ class Lister {
             ++list_.dropped.back().runs;
     }
 
+    // A rule that no run matches is a mistake in its values.
+    void check_drops() const {
+        for (std::size_t i = 0; i < matched_.size(); ++i) {
+            if (!matched_[i])
+                fail("{}: drop.{}.where: no run has these values", file_.file.string(), i);
+        }
+    }
+
   private:
     const StudyFile& file_;
     RunList& list_;
+    std::vector<bool> matched_;  // of the rules
     std::set<std::string> ids_;
 };
 
@@ -177,6 +190,7 @@ RunList list_runs(const StudyFile& file) {
             for (std::uint64_t n = 0; n < grid.count(); ++n) lister.add(scene, grid.settings(n));
         }
     }
+    lister.check_drops();
     std::erase_if(list.dropped, [](const RunList::Dropped& each) { return each.runs == 0; });
     for (std::size_t scene = 0; scene < file.scenes.size(); ++scene)
         list.baselines.push_back(find_baseline(file, list, scene));

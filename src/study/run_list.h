@@ -42,7 +42,7 @@ struct RunList {
 };
 
 constexpr std::uint64_t most_runs_unasked = 10000;
-constexpr std::uint64_t most_runs = 1000000;
+constexpr std::uint64_t most_runs = 100000;
 
 // How many runs the file's sweep has, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);
@@ -54,6 +54,11 @@ RunList list_runs(const StudyFile& file);
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
 // auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
+
+// The scene of a run. Throws KeyError for what no run can measure: method "trace", a reference that
+// the scene does not have.
+Scene scene_of(const StudyRun& run, const StudyFile& file);
+TraceOf reference_of(const Scene& scene, const StudyFile& file);
 
 // Reads every run's scene, looks for its files, and throws Error where one is missing, a key is
 // unknown, or no run of a scene can be drawn. Whatever is wrong with single runs is found when

@@ -79,8 +79,10 @@ void read_drops(JsonReader& study, StudyFile& file) {
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {
             check_swept(reader, file, "where", key);
-            drop.where.push_back({key, value.is_array() ? value.get<std::vector<nlohmann::json>>()
-                                                        : std::vector<nlohmann::json>{value}});
+            // A list stands for its elements, and for itself: bifurcation factors are a list.
+            std::vector<nlohmann::json> values{value};
+            if (value.is_array()) values.insert(values.end(), value.begin(), value.end());
+            drop.where.push_back({key, std::move(values)});
         }
         if (drop.where.empty()) reader.reject("where", "an object with keys that are swept");
         reader.close();

@@ -120,7 +120,13 @@ std::vector<std::string> study_findings(const StudyResults& results) {
             tell_trees(list, name, runs, findings);
             tell_limits(name, runs, findings);
         }
-        if (failed > 0) findings.push_back(fmt::format("{}: {} runs failed.", name, failed));
+        if (failed > 0)
+            findings.push_back(
+                fmt::format("{}: {} run{} failed.", name, failed, failed == 1 ? "" : "s"));
+    }
+    if (results.environment.at("machine").get<std::string>().find("; ") != std::string::npos) {
+        findings.emplace_back(
+            "The runs are of several machines: their times can be compared as ratios only.");
     }
     if (results.runs.size() < list.runs.size()) {
         findings.push_back(

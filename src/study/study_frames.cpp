@@ -22,19 +22,19 @@ std::unique_ptr<FrameRenderer> StudyFrames::make(DataStore& data,
                                                  const Capabilities& capabilities) {
     if (scene_->method == Method::project) {
         const DrawnMesh& mesh = data.mesh(*scene_).data;
-        plan_ = make_plan(*scene_, mesh.measure_for(*scene_), capabilities, {});
+        const Plan plan = make_plan(*scene_, mesh.measure_for(*scene_), capabilities, {});
         const Stopwatch watch;
-        auto renderer = make_project_renderer(mesh.data(), scene_->transfer_function, plan_.project,
+        auto renderer = make_project_renderer(mesh.data(), scene_->transfer_function, plan.project,
                                               capabilities, scene_->width, scene_->height);
         set_up_ms_ = watch.milliseconds();
         return renderer;
     }
     const DrawnVolume& volume = data.volume(*scene_).data;
     const Facts facts = volume.measure_for(*scene_);
-    plan_ = make_plan(*scene_, facts, capabilities, {});
+    const Plan plan = make_plan(*scene_, facts, capabilities, {});
     const Stopwatch watch;
     auto renderer = make_slice_renderer(volume.volume(), scene_->transfer_function, facts,
-                                        plan_.slice, capabilities, scene_->width, scene_->height);
+                                        plan.slice, capabilities, scene_->width, scene_->height);
     set_up_ms_ = watch.milliseconds();
     return renderer;
 }

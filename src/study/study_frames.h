@@ -16,7 +16,7 @@ class StudyFrames {
     StudyFrames(Scene scene, DataStore& data, const Capabilities& capabilities);
 
     void draw() { renderer_->draw(View(scene_->camera, scene_->width, scene_->height)); }
-    // With the eye turned about the centre.
+    // With the scene's eye turned about its centre.
     void draw_turned(double degrees);
 
     const Scene& scene() const { return *scene_; }
@@ -26,13 +26,11 @@ class StudyFrames {
     std::int64_t bytes_gpu() const { return bytes_gpu_; }  // OpenGL's, once it has drawn
     std::int64_t bytes_host() const { return renderer_->byte_count(); }
     std::int64_t bytes() const { return bytes_gpu() + bytes_host(); }
-    const Plan& plan() const { return plan_; }
 
   private:
     std::unique_ptr<FrameRenderer> make(DataStore& data, const Capabilities& capabilities);
 
     std::unique_ptr<Scene> scene_;  // its transfer function is the renderer's
-    Plan plan_;
     std::unique_ptr<FrameRenderer> renderer_;
     bool on_tiles_;
     double set_up_ms_ = 0;

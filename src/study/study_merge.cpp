@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_merge.h"
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -14,6 +16,12 @@ namespace {
 
 RunList read_list(const StudyFolder& folder) {
     return run_list_from(load_json(folder.run_list()), folder.run_list());
+}
+
+// Empty where there is no such file.
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 // Beside it first: a file that is there is complete.
@@ -61,6 +69,12 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
         }
     }
     if (std::filesystem::exists(into.run_list())) check(into);
+    for (const auto& [name, journal] : journals) {
+        if (!bytes_of(journal).starts_with(bytes_of(into.path / name))) {
+            fail("{}: holds other records than {}: expected a folder without this shard",
+                 (into.path / name).string(), journal.string());
+        }
+    }
     into.make();
     write_run_list(into, list);
     for (const std::filesystem::path& path : from) {

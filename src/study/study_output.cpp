@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -19,6 +21,8 @@
 namespace lamina {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // Of shards that write into one folder at a time only one reads the journals and writes results:
 // the last one's results have all records.
 class FolderLock {
@@ -26,7 +30,11 @@ class FolderLock {
     explicit FolderLock(const std::filesystem::path& folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0) fail("{}: cannot read: {}", folder.string(), std::strerror(errno));
-        while (flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) check_interrupt();
+        // Where the file system has no locks, any other errno, nothing is waited for.
+        while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+            check_interrupt();
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
     }
     ~FolderLock() { close(descriptor_); }
     FolderLock(const FolderLock&) = delete;
@@ -39,14 +47,16 @@ class FolderLock {
 }  // namespace
 
 void write_run_list(const StudyFolder& folder, const RunList& list) {
-    write_text(folder.run_list(), to_json(list).dump(1) + "\n");
+    write_text(folder.run_list(),
+               to_json(list).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 StudySummary write_study_output(const StudyFolder& folder) {
     const FolderLock lock(folder.path);
     const StudyResults results = read_results(folder);
     write_text(folder.path / "results.csv", csv_of(results));
-    write_text(folder.path / "results.json", report_of(results).dump(1) + "\n");
+    write_text(folder.path / "results.json",
+               report_of(results).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     write_text(folder.path / "report.html", report_page(report_with_pictures(results, folder)));
     StudySummary summary{
         results.runs.size(), results.list.runs.size(), study_findings(results), {}};

@@ -21,7 +21,8 @@ using Records = std::vector<nlohmann::json>;
 // Of one run in one journal.
 struct RunRecords {
     const nlohmann::json* drawn = nullptr;
-    std::map<int, const nlohmann::json*> rounds;
+    std::map<int, const nlohmann::json*> rounds;  // the first record of each
+    std::map<std::pair<int, int>, double> ms;     // medians by session and round
     std::string failed;
 };
 using JournalRecords = std::map<std::string, RunRecords>;  // by run id
@@ -33,7 +34,12 @@ JournalRecords by_run(const Records& records) {
         RunRecords& run = runs[record["run"]];
         if (record.contains("drawn")) run.drawn = &record["drawn"];
         if (record.contains("failed")) run.failed = record["failed"];
-        if (record.contains("round")) run.rounds.emplace(record["round"], &record);
+        if (!record.contains("round")) continue;
+        const int round = record["round"];
+        const auto times = record.at("frame_ms").get<std::vector<double>>();
+        if (times.empty() || record.at("still_ms").empty()) fail("a round without times");
+        run.rounds.emplace(round, &record);
+        run.ms.emplace(std::pair(record.value("session", 0), round), median(times));
     }
     return runs;
 }
@@ -46,13 +52,12 @@ ErrorNorms norms_from(const nlohmann::json& json) {
     return {json.at("linf"), json.at("l1"), json.at("l2")};
 }
 
+// Of rounds of one session: they were neighbours in time, on one machine.
 std::optional<double> ratio_to(const RunRecords& run, const RunRecords& baseline) {
     std::vector<double> ratios;
-    for (const auto& [round, record] : run.rounds) {
-        const auto found = baseline.rounds.find(round);
-        if (found == baseline.rounds.end()) continue;
-        ratios.push_back(median(record->at("frame_ms").get<std::vector<double>>()) /
-                         median(found->second->at("frame_ms").get<std::vector<double>>()));
+    for (const auto& [place, ms] : run.ms) {
+        const auto found = baseline.ms.find(place);
+        if (found != baseline.ms.end()) ratios.push_back(ms / found->second);
     }
     if (ratios.empty()) return std::nullopt;
     return median(ratios);
@@ -72,8 +77,8 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     const nlohmann::json& drawn = *run.drawn;
     result.reference = drawn.at("reference");
     result.all = norms_from(drawn.at("all"));
-    for (const auto& [channel, norms] : drawn.at("channels").items())
-        result.channels[channel] = norms_from(norms);
+    for (const char* const channel : {"R", "G", "B", "A"})
+        result.channels[channel] = norms_from(drawn.at("channels").at(channel));
     drawn.at("stages").get_to(result.stages_ms);
     drawn.at("bytes_gpu").get_to(result.bytes_gpu);
     drawn.at("bytes_host").get_to(result.bytes_host);
@@ -145,11 +150,11 @@ StudyResults read_results(const StudyFolder& folder) {
     std::vector<Records> records;
     std::vector<JournalRecords> journals;
     for (const auto& path : folder.journals()) records.push_back(Journal::read(path));
-    for (const Records& each : records) journals.push_back(by_run(each));
     try {
+        for (const Records& each : records) journals.push_back(by_run(each));
         for (std::size_t run = 0; run < results.list.runs.size(); ++run)
             add_result(results.list, run, journals, results.runs);
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const std::exception& error) {
         fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
              error.what());
     }

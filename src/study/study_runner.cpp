@@ -11,7 +11,7 @@
 #include "base/stopwatch.h"
 #include "image/exr.h"
 #include "image/metrics.h"
-#include "scene/scene_reader.h"
+#include "study/figure_files.h"
 
 namespace lamina {
 namespace {
@@ -20,30 +20,6 @@ using Json = nlohmann::ordered_json;
 
 // Renderers stay for the next round while all of them take less; beyond, they are made each time.
 constexpr std::int64_t kept_bytes = std::int64_t{1} << 30;
-
-Json to_json(const ErrorNorms& norms) {
-    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
-}
-
-TraceOf reference_of(const StudyFile& file, const Scene& scene) {
-    if (file.reference) return *file.reference;
-    return scene.method == Method::project ? TraceOf::mesh : TraceOf::volume;
-}
-
-Scene read_run(const StudyRun& run, const StudyFile& file) {
-    Scene scene = read_scene(document_of(run, file), file.scenes[run.scene].file);
-    if (scene.method == Method::trace) {
-        fail(
-            "{}: render.method: found \"trace\", expected \"slice\" or \"project\": the tracer is "
-            "what runs are measured against",
-            scene.file.string());
-    }
-    if (reference_of(file, scene) == TraceOf::volume && !scene.has_volume())
-        fail("{}: the reference is a volume's, and the scene has none", scene.file.string());
-    if (reference_of(file, scene) == TraceOf::mesh && !scene.has_mesh())
-        fail("{}: the reference is a mesh's, and the scene has none", scene.file.string());
-    return scene;
-}
 
 }  // namespace
 
@@ -54,10 +30,16 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
       folder_(folder),
       shard_(shard),
       journal_(folder.journal(shard.number, shard.count)),
-      done_(list.runs.size(), Done{std::vector<char>(static_cast<std::size_t>(list.rounds))}),
+      done_(list.runs.size(), Done{std::vector<char>(static_cast<std::size_t>(list.rounds)),
+                                   std::vector<char>(static_cast<std::size_t>(list.rounds))}),
       references_(folder.references()),
       contexts_([this] { drop_opengl(); }) {
-    take_over(journal_.found());
+    try {
+        take_over(journal_.found());
+    } catch (const std::exception& error) {
+        fail("{}: holds records that lamina study did not write: {}",
+             folder.journal(shard.number, shard.count).string(), error.what());
+    }
     journal_.append(begin);
 }
 
@@ -65,11 +47,29 @@ void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
     std::map<std::string, std::size_t> number_of;
     for (std::size_t i = 0; i < list_.runs.size(); ++i) number_of[list_.runs[i].id] = i;
     for (const nlohmann::json& record : records) {
+        session_ += record.contains("begin") ? 1 : 0;
         const auto found = number_of.find(record.value("run", ""));
         if (found == number_of.end()) continue;
         Done& done = done_[found->second];
-        if (record.contains("drawn")) done.drawn = true;
+        if (record.contains("drawn")) done.drawn = has_pictures(found->first, record["drawn"]);
         if (record.contains("round")) done.rounds.at(record["round"].get<std::size_t>()) = 1;
+    }
+    time_baselines_again();
+}
+
+// A power cut may keep a record and lose a picture.
+bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& drawn) const {
+    const auto reference = drawn.at("reference").get<std::string>();
+    return std::filesystem::exists(folder_.picture(run)) &&
+           std::filesystem::exists(folder_.references() / (reference + ".json"));
+}
+
+// What is still to be timed needs the baseline beside it, in this session.
+void StudyRunner::time_baselines_again() {
+    for (std::size_t run = 0; run < list_.runs.size(); ++run) {
+        if (!is_wanted(run) || is_finished(run)) continue;
+        std::vector<char>& again = done_[list_.baselines[list_.runs[run].scene]].again;
+        std::fill(again.begin(), again.end(), char{1});
     }
 }
 
@@ -115,11 +115,14 @@ void StudyRunner::run() {
 
 void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
     std::vector<std::size_t> runs = runs_of(scene);
-    std::erase_if(runs, [&](std::size_t run) { return is_finished(run); });
+    std::erase_if(runs, [&](std::size_t run) {
+        const std::vector<char>& again = done_[run].again;
+        return is_finished(run) && std::count(again.begin(), again.end(), 1) == 0;
+    });
     for (int round = 0; round < list_.rounds; ++round) {
         for (const std::size_t run : runs) {
             check_interrupt();
-            if (!is_finished(run)) visit(run, round);
+            if (!done_[run].failed) visit(run, round);
             progress.advance();
         }
     }
@@ -131,7 +134,8 @@ void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
 // What is wrong with one run is no reason to stop the others; what cannot be written is.
 void StudyRunner::visit(std::size_t run, int round) {
     Done& done = done_[run];
-    const bool timed = done.rounds[static_cast<std::size_t>(round)] != 0;
+    const auto number = static_cast<std::size_t>(round);
+    const bool timed = done.rounds[number] != 0 && done.again[number] == 0;
     if (done.drawn && timed) return;
     Measured measured;
     try {
@@ -159,6 +163,7 @@ void StudyRunner::record(std::size_t run, int round, const Measured& measured) {
     for (const Json& record : measured.records) journal_.append(record);
     done_[run].drawn = true;
     done_[run].rounds[static_cast<std::size_t>(round)] = 1;
+    done_[run].again[static_cast<std::size_t>(round)] = 0;
 }
 
 void StudyRunner::drop_if_full(std::size_t run) {
@@ -171,7 +176,7 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
     const Capabilities& capabilities = contexts_.use(context_of(list_.runs[run], file_));
     const auto found = frames_.find(run);
     if (found != frames_.end()) return found->second;
-    return frames_.try_emplace(run, read_run(list_.runs[run], file_), data_, capabilities)
+    return frames_.try_emplace(run, scene_of(list_.runs[run], file_), data_, capabilities)
         .first->second;
 }
 
@@ -179,7 +184,7 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     frames.draw();
     const Image image = frames.renderer().read();
     const Scene& scene = frames.scene();
-    const Reference& reference = references_.get(scene, reference_of(file_, scene), data_);
+    const Reference& reference = references_.get(scene, reference_of(scene, file_), data_);
     const ImageError error = image_error(image, reference.image);
     Json drawn{{"reference", reference.id}, {"all", to_json(error.all)}};
     for (std::size_t i = 0; i < error.channels.size(); ++i)
@@ -205,8 +210,11 @@ nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round,
     for (int i = 0; i < list_.frames; ++i) still.push_back(timed([&] { frames.draw(); }));
     for (int i = 1; i <= list_.frames; ++i)
         moving.push_back(timed([&] { frames.draw_turned(degrees_per_frame * i); }));
-    return {
-        {"run", list_.runs[run].id}, {"round", round}, {"frame_ms", moving}, {"still_ms", still}};
+    return {{"run", list_.runs[run].id},
+            {"session", session_},
+            {"round", round},
+            {"frame_ms", moving},
+            {"still_ms", still}};
 }
 
 void StudyRunner::drop_opengl() {

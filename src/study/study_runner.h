@@ -32,7 +32,9 @@ struct Shard {
 //
 // Records of the journal, in any order (times in ms, errors in 1/255):
 //   {"begin": {machine, processors, date, version, commit, command}}   of every process
-//   {"run", "round", "frame_ms": [...], "still_ms": [...]}    a round
+//   {"run", "session", "round", "frame_ms": [...], "still_ms": [...]}   a round; sessions count the
+//                                                             processes: only within one are rounds
+//                                                             neighbours in time
 //   {"run", "drawn": {...}}                                   picture and costs, once a run
 //   {"run", "failed": message}                                instead of these; tried again when
 //                                                             the study goes on
@@ -52,7 +54,8 @@ class StudyRunner {
 
   private:
     struct Done {
-        std::vector<char> rounds;  // of them
+        std::vector<char> rounds;  // of them, in any session
+        std::vector<char> again;   // of a baseline: to be timed in this session, too
         bool drawn = false, failed = false;
     };
 
@@ -63,6 +66,8 @@ class StudyRunner {
     };
 
     void take_over(const std::vector<nlohmann::json>& records);
+    void time_baselines_again();
+    bool has_pictures(const std::string& run, const nlohmann::json& drawn) const;
     bool is_wanted(std::size_t run) const;
     bool is_finished(std::size_t run) const;
     std::vector<std::size_t> runs_of(std::size_t scene) const;
@@ -80,6 +85,7 @@ class StudyRunner {
     const StudyFolder& folder_;
     Shard shard_;
     Journal journal_;
+    std::int64_t session_ = 0;
     std::vector<Done> done_;
     DataStore data_;
     ReferenceStore references_;

@@ -230,7 +230,7 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
 TEST_F(Crosschecks, FindsWhereBothAgree) {
     const json budget = run_well({"--set", "render.max_error=200"});
     EXPECT_EQ(budget["wanted"], 200);
-    EXPECT_NE(out.find("agree within 200/255 in every pixel"), std::string::npos) << out;
+    EXPECT_NE(out.find("agrees within 200/255 in every pixel"), std::string::npos) << out;
     run_well({"--set", "render.max_error=0.001"});
     EXPECT_NE(out.find("agree nowhere on this ladder within 0.001/255"), std::string::npos) << out;
 }

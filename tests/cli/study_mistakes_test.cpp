@@ -25,7 +25,8 @@ class StudyMistakes : public StudyTestCase {
     }
     void expect_bad(const char* key, const json& value, std::vector<std::string> parts) {
         const json kept = study;
-        if (key == std::string("sweep")) study.erase("drop");  // of what is no longer swept
+        // Rules of what is no longer swept, or of scenes that are gone, are mistakes of their own.
+        if (key == std::string("sweep") || key == std::string("scenes")) study.erase("drop");
         study[key] = value;
         parts.emplace_back("study.json");
         expect_refused(parts);
@@ -73,7 +74,7 @@ TEST_F(StudyMistakes, TooManyRunsNeedAYes) {
     study["sweep"] = {
         {"image.width", hundred}, {"image.height", hundred}, {"render.slice.samples", thousand}};
     expect_refused({"study.json", "sweep", "10000000 runs", "--yes"});
-    expect_refused({"study.json", "sweep", "10000000 runs", "1000000"}, 1, {"--yes"});
+    expect_refused({"study.json", "sweep", "10000000 runs", "100000"}, 1, {"--yes"});
     hundred.push_back(101);
     study["sweep"] = {{"image.width", hundred}, {"image.x", hundred}};
     expect_refused({"10201 runs", "--yes"});
@@ -119,6 +120,8 @@ TEST_F(StudyMistakes, DropLeavesSomethingOfEveryScene) {
                {"drop", "no run", "\"blobs\""});
     expect_bad("drop", {{{"where", {{"render.slice.samples", 8}}}, {"because", "x"}}},
                {"drop.0.where", "render.slice.samples", "not swept"});
+    expect_bad("drop", {{{"where", {{"render.target", "fixde8"}}}, {"because", "x"}}},
+               {"drop.0.where", "no run has these values"});
     expect_bad("drop", {{{"where", json::object()}, {"because", "x"}}}, {"drop.0.where"});
     expect_bad("drop", {{{"where", {{"scene", "ramp"}}}}}, {"drop.0.because", "is missing"});
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <set>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "cli/study_test_case.h"
@@ -40,16 +41,27 @@ class StudyStopped : public StudyTestCase {
                (!std::filesystem::exists(folder / output) || count_records(output) < count))
             std::this_thread::sleep_for(1ms);
     }
-    // Nothing is measured twice.
+    // Nothing is measured twice, but for the baseline, which every session times for its ratios.
     void expect_every_record_once(const std::string& output) const {
-        std::multiset<std::pair<std::string, int>> seen;  // run and round; -1: its picture
+        const json list = document(output, "runs.json");
+        std::set<std::string> baselines;
+        for (const json& number : list["baselines"])
+            baselines.insert(list["runs"][number.get<std::size_t>()]["id"]);
+        std::multiset<std::pair<std::string, int>> seen;       // run and round; -1: its picture
+        std::set<std::tuple<std::string, int, int>> sessions;  // of a baseline, and round
         for (const json& record : records(output)) {
             if (!record.contains("run")) continue;
             EXPECT_FALSE(record.contains("failed")) << record;
-            seen.emplace(record["run"], record.value("round", -1));
+            const std::string run = record["run"];
+            const int round = record.value("round", -1);
+            if (baselines.contains(run) && round >= 0) {
+                const int session = record["session"];
+                EXPECT_TRUE(sessions.emplace(run, session, round).second) << record;
+                if (seen.count({run, round}) > 0) continue;
+            }
+            seen.emplace(run, round);
         }
         const int rounds = study["rounds"];
-        const json list = document(output, "runs.json");
         for (const json& each : list["runs"]) {
             for (int round = -1; round < rounds; ++round)
                 EXPECT_EQ(seen.count({each["id"], round}), 1u) << each["name"] << round;

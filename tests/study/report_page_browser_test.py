@@ -218,7 +218,7 @@ class ReportPage(unittest.TestCase):
             self.browser.get(self.page)
             self.assertEqual([item.text for item in self.all("#findings li")][0], "the first")
             self.assertEqual(len(self.all("#findings li")), 2)
-            self.assertIn("results.csv", self.all("noscript")[0].text)
+            self.assertIn("beside this page", self.all("noscript")[0].text)
             self.assertTrue(self.all("h1")[0].is_displayed())
         finally:
             self.browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})

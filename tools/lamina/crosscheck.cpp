@@ -109,10 +109,12 @@ void add_crosscheck(CLI::App& app, int&) {
                 "--tolerances", options->settings.tolerances,
                 "Of the meshes to compare, beside the scene's own; by default .1,.05,.02,.01,"
                 ".005,.002,.001, until both methods agree within render.max_error")
-            ->delimiter(',');
+            ->delimiter(',')
+            ->allow_extra_args(false);
     verb->add_option("--samples", options->settings.samples,
                      "Slabs to compare, beside the scene's own: 64,128,256,512,1024")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");

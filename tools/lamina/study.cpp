@@ -46,8 +46,8 @@ Shard read_shard(const std::string& text) {
 void check_count(const StudyFile& file, const StudyOptions& options) {
     const std::uint64_t count = run_count(file);
     if (count > most_runs_unasked && !options.yes) {
-        fail("{}: sweep: found {} runs, expected at most {}; --yes runs them all", options.study,
-             count, most_runs_unasked);
+        fail("{}: sweep: found {} runs, expected at most {}, or {} with --yes", options.study,
+             count, most_runs_unasked, most_runs);
     }
 }
 
@@ -144,7 +144,11 @@ void add_study(CLI::App& app, int&) {
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         Progress::set_quiet(options->quiet);
-        if (!options->merged.empty()) return merge(*options);
+        if (!options->merged.empty()) {
+            if (!options->study.empty() || options->shard || options->resume)
+                throw UsageError("study --merge: expected the folders of shards and -o alone");
+            return merge(*options);
+        }
         if (options->study.empty())
             throw UsageError("study: expected a STUDY file, or --merge DIR");
         run_study(*options);
