@@ -10,11 +10,16 @@
 
 namespace lamina {
 
-ContextChoice context_choice(const std::string& word) {
+std::optional<ContextChoice> find_context_choice(const std::string& word) {
     if (word == "auto") return ContextChoice::automatic;
     if (word == "osmesa") return ContextChoice::osmesa;
     if (word == "egl") return ContextChoice::egl;
     if (word == "cpu") return ContextChoice::cpu;
+    return std::nullopt;
+}
+
+ContextChoice context_choice(const std::string& word) {
+    if (const auto found = find_context_choice(word)) return *found;
     throw UsageError(fmt::format("--context {}: expected auto, osmesa, egl or cpu", word));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gl/context.h"
@@ -9,6 +10,9 @@ namespace lamina {
 
 // --context. automatic: a GPU through EGL where there is one, else the native engine.
 enum class ContextChoice { automatic, osmesa, egl, cpu };
+
+// None where the word is none.
+std::optional<ContextChoice> find_context_choice(const std::string& word);
 
 // Throws UsageError where the word is none.
 ContextChoice context_choice(const std::string& word);

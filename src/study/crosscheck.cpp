@@ -75,11 +75,8 @@ class Crosschecker {
         return samples;
     }
     int automatic_samples() {
-        const Scene sliced = [&] {
-            Scene copy = scene_;
-            copy.method = Method::slice;
-            return copy;
-        }();
+        Scene sliced = scene_;
+        sliced.method = Method::slice;
         const Facts facts = data_.volume(sliced).data.measure_for(sliced);
         return make_plan(sliced, facts, capabilities_, {}).slice.slabs;
     }

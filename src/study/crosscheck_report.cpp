@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "image/false_color.h"
-#include "study/figure_files.h"
+#include "study/error_json.h"
 #include "study/pareto.h"
 #include "study/picture_sheet.h"
 #include "study/thumbnail.h"
@@ -20,8 +20,7 @@ constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
 
 Json error_json(const ImageError& error) {
     Json json = to_json(error.all);
-    for (std::size_t i = 0; i < error.channels.size(); ++i)
-        json["channels"][error.channels[i]] = to_json(error.of_channel[i]);
+    json["channels"] = to_json(error)["channels"];
     return json;
 }
 

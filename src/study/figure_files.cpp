@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "image/png.h"
+#include "study/error_json.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
 
@@ -59,10 +60,6 @@ CodedImage strips_of(const std::vector<NamedCurve>& curves) {
 }
 
 }  // namespace
-
-Json to_json(const ErrorNorms& norms) {
-    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
-}
 
 Json write_ramp_figure(const std::filesystem::path& folder, const std::string& name,
                        const std::string& title, const std::vector<NamedCurve>& curves) {

@@ -22,6 +22,4 @@ nlohmann::ordered_json write_ramp_figure(const std::filesystem::path& folder,
                                          const std::string& name, const std::string& title,
                                          const std::vector<NamedCurve>& curves);
 
-nlohmann::ordered_json to_json(const ErrorNorms& norms);
-
 }  // namespace lamina

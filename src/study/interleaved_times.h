@@ -16,9 +16,9 @@ struct TimedFrame {
 };
 
 struct FrameTimes {
-    double ms = 0;      // median, by the clock
-    double cpu_ms = 0;  // median, of all threads of the process
-    double min = 0, max = 0;
+    double ms = 0;            // median, by the clock
+    double cpu_ms = 0;        // median, of all threads of the process
+    double min = 0, max = 0;  // ms, by the clock
     std::size_t count = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "compositing/random_bits.h"
+#include "study/error_json.h"
 #include "study/figure_files.h"
 #include "study/findings.h"
 #include "study/lamar.h"

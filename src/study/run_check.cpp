@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "scene/scene_reader.h"
+#include "study/context_choice.h"
 #include "study/run_list.h"
 
 namespace lamina {
@@ -19,8 +19,7 @@ void check_file(const std::filesystem::path& path, const StudyFile::SceneEntry& 
 }
 
 void check_context(const std::string& word, const StudyFile& study) {
-    static const std::set<std::string> words{"auto", "osmesa", "egl", "cpu"};
-    if (!words.contains(word)) {
+    if (!find_context_choice(word)) {
         fail("{}: context: found \"{}\", expected auto, osmesa, egl or cpu", study.file.string(),
              word);
     }

@@ -28,6 +28,14 @@ bool has_all(const StudyFile::Drop& drop, const std::string& scene, const Settin
     });
 }
 
+std::string name_of_value(const std::string& word, const nlohmann::json& value) {
+    if (!value.is_object()) return fmt::format("{} {}", word, setting_text(value));
+    std::string name = word;
+    for (const auto& [key, each] : value.items())
+        name += fmt::format(" {}", name_of_value(key, each));
+    return name;
+}
+
 std::string run_id(const StudyRun& run, const StudyFile& file) {
     ContentHash hash;
     hash.add(file.scenes[run.scene].name);
@@ -114,18 +122,6 @@ std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_
             list.runs[found[1]].name);
     }
     return found.front();
-}
-
-}  // namespace
-
-namespace {
-
-std::string name_of_value(const std::string& word, const nlohmann::json& value) {
-    if (!value.is_object()) return fmt::format("{} {}", word, setting_text(value));
-    std::string name = word;
-    for (const auto& [key, each] : value.items())
-        name += fmt::format(" {}", name_of_value(key, each));
-    return name;
 }
 
 }  // namespace

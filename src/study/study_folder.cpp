@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/error.h"
+#include "base/folder.h"
 
 namespace lamina {
 
@@ -25,11 +25,7 @@ std::vector<std::filesystem::path> StudyFolder::journals() const {
 }
 
 void StudyFolder::make() const {
-    std::error_code error;
-    for (const auto& folder : {path, references(), pictures()}) {
-        std::filesystem::create_directories(folder, error);
-        if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
-    }
+    for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
 }
 
 }  // namespace lamina

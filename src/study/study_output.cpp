@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "study/report_page.h"
-#include "study/study_findings.h"
 #include "study/study_report.h"
 #include "study/text_file.h"
 
@@ -55,11 +54,12 @@ StudySummary write_study_output(const StudyFolder& folder) {
     const FolderLock lock(folder.path);
     const StudyResults results = read_results(folder);
     write_text(folder.path / "results.csv", csv_of(results));
+    Json report = report_of(results);
     write_text(folder.path / "results.json",
-               report_of(results).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-    write_text(folder.path / "report.html", report_page(report_with_pictures(results, folder)));
-    StudySummary summary{
-        results.runs.size(), results.list.runs.size(), study_findings(results), {}};
+               report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    StudySummary summary{results.runs.size(), results.list.runs.size(), report["findings"], {}};
+    add_pictures(folder, report);
+    write_text(folder.path / "report.html", report_page(report));
     for (const RunResult& run : results.runs) {
         const StudyRun& of = results.list.runs[run.run];
         if (!run.failed.empty())

@@ -7,7 +7,7 @@
 #include "base/median.h"
 #include "image/exr.h"
 #include "image/false_color.h"
-#include "study/figure_files.h"
+#include "study/error_json.h"
 #include "study/picture_sheet.h"
 #include "study/study_findings.h"
 #include "study/thumbnail.h"
@@ -87,7 +87,7 @@ Json comparison_of(const StudyResults& results, std::size_t scene) {
 }
 
 // Pictures of one comparison.
-void add_pictures(const StudyFolder& folder, Json& comparison) {
+void add_pictures_to(Json& comparison, const StudyFolder& folder) {
     std::map<std::string, Reference> references;
     for (Json& each : comparison["references"]) {
         Reference reference = ReferenceStore::load(folder.references(), each["id"]);
@@ -126,11 +126,8 @@ nlohmann::ordered_json report_of(const StudyResults& results) {
     return json;
 }
 
-nlohmann::ordered_json report_with_pictures(const StudyResults& results,
-                                            const StudyFolder& folder) {
-    Json json = report_of(results);
-    for (Json& comparison : json["comparisons"]) add_pictures(folder, comparison);
-    return json;
+void add_pictures(const StudyFolder& folder, nlohmann::ordered_json& report) {
+    for (Json& comparison : report["comparisons"]) add_pictures_to(comparison, folder);
 }
 
 }  // namespace lamina

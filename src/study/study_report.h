@@ -11,7 +11,7 @@ namespace lamina {
 // results.json (docs/study.md): all that the page of a study shows, but for its pictures.
 nlohmann::ordered_json report_of(const StudyResults& results);
 
-// The same with pictures as data URIs: of runs, references and differences.
-nlohmann::ordered_json report_with_pictures(const StudyResults& results, const StudyFolder& folder);
+// Adds pictures of runs, references and differences, as data URIs.
+void add_pictures(const StudyFolder& folder, nlohmann::ordered_json& report);
 
 }  // namespace lamina

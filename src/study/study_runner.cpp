@@ -11,7 +11,7 @@
 #include "base/stopwatch.h"
 #include "image/exr.h"
 #include "image/metrics.h"
-#include "study/figure_files.h"
+#include "study/error_json.h"
 
 namespace lamina {
 namespace {
@@ -181,14 +181,13 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
 }
 
 void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured& measured) {
-    frames.draw();
+    frames.draw();  // a second time: a first frame's stages are those of cold memory
     const Image image = frames.renderer().read();
     const Scene& scene = frames.scene();
     const Reference& reference = references_.get(scene, reference_of(scene, file_), data_);
     const ImageError error = image_error(image, reference.image);
-    Json drawn{{"reference", reference.id}, {"all", to_json(error.all)}};
-    for (std::size_t i = 0; i < error.channels.size(); ++i)
-        drawn["channels"][error.channels[i]] = to_json(error.of_channel[i]);
+    Json drawn = to_json(error);
+    drawn["reference"] = reference.id;
     drawn["renderer"] = contexts_.use(context_of(list_.runs[run], file_)).renderer;
     drawn["bytes_gpu"] = frames.bytes_gpu();
     drawn["bytes_host"] = frames.bytes_host();

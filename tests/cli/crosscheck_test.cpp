@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/blobs_scene.h"
 #include "cli/lamina_run.h"
 #include "image/exr.h"
 #include "support/temporary_folder.h"
@@ -24,16 +25,7 @@ class Crosschecks : public testing::Test {
     void SetUp() override {
         if (std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty())
             GTEST_SKIP() << "built without TetGen";
-        scene = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [16, 16, 16]},
-            "mesh": {"tolerance": 0.1},
-            "transfer_function": {"points": [
-                {"value": 0, "color": [0, 0, 1], "extinction": 0},
-                {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 24, "height": 24},
-            "render": {"slice": {"samples": 8}}})");
+        scene = blobs_scene(24, 24, 8);
     }
 
     ProgramResult run(const std::vector<std::string>& options) {

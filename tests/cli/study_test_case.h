@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/blobs_scene.h"
 #include "cli/csv_rows.h"
 #include "cli/lamina_run.h"
 #include "support/temporary_folder.h"
@@ -32,16 +33,7 @@ class StudyTestCase : public testing::Test {
                        "center": [127.5, 1.5, 0], "up": [0, 1, 0], "height": 4},
             "image": {"width": 16, "height": 8},
             "render": {"slice": {"samples": 64}}})");
-        blobs = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [16, 16, 16]},
-            "mesh": {"tolerance": 0.1},
-            "transfer_function": {"points": [
-                {"value": 0, "color": [0, 0, 1], "extinction": 0},
-                {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 12, "height": 10},
-            "render": {"slice": {"samples": 24}}})");
+        blobs = blobs_scene(12, 10, 24);
         if (std::string(LAMINA_TETRAHEDRALIZE_BINARY).empty()) blobs["mesh"] = {{"kuhn", true}};
         study = json::parse(R"({
             "version": 1,

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
+#include "study/error_json.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -24,19 +24,6 @@ struct CompareOptions {
     std::string diff;
     std::optional<double> max_linf;
 };
-
-nlohmann::ordered_json as_json(const ErrorNorms& norms) {
-    return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
-}
-
-std::string json_text(const ImageError& error) {
-    nlohmann::ordered_json channels;
-    for (std::size_t i = 0; i < error.channels.size(); ++i) {
-        channels[error.channels[i]] = as_json(error.of_channel[i]);
-    }
-    const nlohmann::ordered_json root = {{"channels", channels}, {"all", as_json(error.all)}};
-    return root.dump(2) + "\n";
-}
 
 std::string table_row(const std::string& label, const ErrorNorms& norms) {
     return fmt::format("{:<8}{:>12.6g}{:>14.6g}{:>12.6g}\n", label, norms.linf, norms.l1, norms.l2);
@@ -78,7 +65,7 @@ int compare(const CompareOptions& options) {
             "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
             options.diff, error.all.linf, error.all.linf);
     }
-    fmt::print("{}", options.json ? json_text(error) : table_text(error));
+    fmt::print("{}", options.json ? to_json(error).dump(2) + "\n" : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
         fmt::print(stderr, "lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
                    *options.max_linf);

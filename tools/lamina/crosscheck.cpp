@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/folder.h"
 #include "base/progress.h"
 #include "command_line.h"
 #include "git_commit.h"
@@ -44,12 +45,6 @@ void check_ladder(const CrosscheckSettings& settings) {
         if (each < 1 || each > 65536)
             throw UsageError(fmt::format("--samples {}: expected numbers from 1 to 65536", each));
     }
-}
-
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail("{}: cannot make this folder: {}", folder.string(), error.message());
 }
 
 void write_picture(const std::filesystem::path& path, const Image& image) {

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/folder.h"
 #include "base/progress.h"
 #include "gl/context.h"
 #include "study/context_choice.h"
@@ -46,12 +46,6 @@ std::vector<PaperItem<Stage>> chosen_items(const std::vector<PaperItem<Stage>>& 
     }
     throw UsageError(fmt::format("reproduce {} {}: unknown item, expected one of {}", options.paper,
                                  options.item, names_of(items)));
-}
-
-void make_folder(const std::string& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail("{}: cannot make this folder: {}", folder, error.message());
 }
 
 // Makes the context when an item first draws, and keeps it.

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "image/metrics.h"
+
+namespace lamina {
+
+// {linf, l1, l2}, in 1/255.
+nlohmann::ordered_json to_json(const ErrorNorms& norms);
+
+// {channels: {R: norms, ...}, all: norms} (DESIGN section 5, compare).
+nlohmann::ordered_json to_json(const ImageError& error);
+
+}  // namespace lamina
