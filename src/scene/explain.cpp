@@ -28,6 +28,10 @@ std::string line(const char* what, const std::string& value) {
     return fmt::format("  {:<14} {}\n", what, value);
 }
 
+std::string with_reason(const char* name, const std::string& reason) {
+    return reason.empty() ? name : fmt::format("{}: {}", name, reason);
+}
+
 std::string left_out(const Plan& plan) {
     std::string text = "left out\n";
     for (const Omission& omission : plan.omitted)
@@ -105,7 +109,7 @@ std::string text_of_table(const ProjectPlan& project) {
 template <typename Row>
 void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool tiles,
                         const Row& row) {
-    row("target", name_of(project.target));
+    row("target", with_reason(name_of(project.target), project.target_reason));
     row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
                              facts.convexity == Convexity::none ? "not " : ""));
     row("geometry", tiles && project.geometry == ProjectGeometry::silhouette
@@ -150,7 +154,11 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("slabs",
             fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
                         facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
-        row("target", name_of(slice.target));
+        if (slice.slab_trial) {
+            row("slab error", fmt::format("{:.2g} / 255 at most on {} rays",
+                                          slice.slab_trial->error, slice.slab_trial->rays));
+        }
+        row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification", name_of(slice.classification));
         row("order", name_of(slice.order));
         row("rays", slice.precise_rays ? "double" : "float");

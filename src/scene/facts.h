@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "scene/camera.h"
 #include "scene/occupied_bricks.h"
 #include "scene/scene.h"
+#include "scene/slab_trial.h"
 #include "volume/min_max_bricks.h"
 #include "volume/volume.h"
 
@@ -62,6 +64,9 @@ struct Facts {
     double voxels_along_view = 0;  // index-space length of the forward direction over that depth
     double max_length_per_depth =
         1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+
+    // For "samples": "auto" (slicing/slab_trials.h); else none.
+    std::vector<SlabTrial> slab_trials;
 };
 
 // Throws Error when the volume has samples that are no finite numbers and the scene does not say

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "scene/project_planner.h"
+#include "scene/slab_choice.h"
+#include "scene/target_choice.h"
 #include "scene/tree_check.h"
 
 namespace lamina {
@@ -14,9 +16,6 @@ namespace {
 // A software frame may take a minute: it is drawn in so many parts, at no cost that could be
 // measured.
 constexpr int software_batches = 64;
-
-constexpr double samples_per_voxel = 2;  // of "samples": "auto"
-constexpr int most_slabs = 65536;
 
 // A table that knows only the limit of short segments has at most this optical depth in one
 // segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
@@ -146,9 +145,14 @@ class SlicePlanner {
     }
 
     void choose_slabs() {
-        const double wanted = std::ceil(samples_per_voxel * facts_.voxels_along_view);
-        plan_.slice.slabs = scene_.slice.samples.value_or(
-            static_cast<int>(std::clamp(wanted, 1.0, double{most_slabs})));
+        SlicePlan& slice = plan_.slice;
+        if (scene_.slice.samples) {
+            slice.slabs = *scene_.slice.samples;
+            return;
+        }
+        const SlabTrial chosen = chosen_slabs(scene_, facts_);
+        slice.slabs = chosen.slabs;
+        if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
     }
 
     void choose_precision() {
@@ -305,6 +309,10 @@ class SlicePlanner {
         }
         question.largest_color = facts_.max_color;
         question.max_error = scene_.max_error;
+        if (slice.slab_trial) {
+            question.max_error = std::max(scene_.max_error - slice.slab_trial->error,
+                                          scene_.max_error * target_share);
+        }
         return question;
     }
 
@@ -339,8 +347,33 @@ std::vector<std::string> omission_names() {
             "transparent_tets", "volume_texture"};
 }
 
+namespace {
+
+// The scene as if it had asked for what was chosen: one node that marches all slabs keeps the
+// bound of the choice.
+Scene with_target(Scene scene, Target target) {
+    scene.target = target;
+    scene.automatic_target = false;
+    if (target != Target::float32 && scene.method == Method::slice && !scene.slice.tree)
+        scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+    return scene;
+}
+
+Plan plan_with_target(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                      const OmissionSwitch& omissions) {
+    const TargetChoice choice = choose_target(scene, facts);
+    const Scene chosen = with_target(scene, choice.target);
+    Plan plan = make_plan(chosen, facts, capabilities, omissions);
+    plan.slice.target_reason = choice.reason;
+    return plan;
+}
+
+}  // namespace
+
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions) {
+    if (scene.method == Method::slice && scene.automatic_target)
+        return plan_with_target(scene, facts, capabilities, omissions);
     if (scene.method == Method::slice)
         return SlicePlanner(scene, facts, capabilities, omissions).make();
     Plan plan;
@@ -357,7 +390,11 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
     plan.method = scene.method;
     if (scene.method == Method::project) {
         check_limits(scene, capabilities);
-        plan.project = plan_projection(scene, facts, capabilities, omissions, plan.omitted);
+        const TargetChoice choice =
+            scene.automatic_target ? choose_project_target(scene) : TargetChoice{scene.target, {}};
+        plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
+                                       omissions, plan.omitted);
+        plan.project.target_reason = choice.reason;
         return plan;
     }
     plan.omitted.push_back(no_context);

@@ -36,6 +36,8 @@ struct TextureBrick {
 
 struct SlicePlan : CompositingPlan {
     int slabs = 1;
+    std::optional<SlabTrial> slab_trial;  // of "samples": "auto"
+    std::string target_reason;            // of "target": "auto"
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
     std::optional<double> error_bound;  // of "tree": "auto", in 1/255, with its reason

@@ -27,6 +27,7 @@ enum class SegmentSource {
 };
 
 struct ProjectPlan : CompositingPlan {
+    std::string target_reason;  // of "target": "auto"
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;

@@ -33,8 +33,10 @@ struct DitherSettings {
     int increment = 1;
 };
 
+inline constexpr int max_slabs = 65536;
+
 struct SliceSettings {
-    std::optional<int> samples;  // slabs N; none: two per voxel along the view ("auto")
+    std::optional<int> samples;  // slabs N; none: "auto"
     Classification classification = Classification::post;
     Order order = Order::back_to_front;
     Filter filter = Filter::exact;
@@ -58,8 +60,9 @@ struct Scene {
     glm::dvec3 background{0};  // linear
     Method method = Method::slice;
     Target target = Target::float32;
-    Emulation emulate;     // for Target::emulated
-    double max_error = 1;  // in 1/255: the bound for what is automatic
+    bool automatic_target = false;  // "target": "auto": the plan chooses
+    Emulation emulate;              // for Target::emulated
+    double max_error = 1;           // in 1/255: the bound for what is automatic
     SliceSettings slice;
     ProjectSettings project;
     TraceOf trace_of = TraceOf::volume;

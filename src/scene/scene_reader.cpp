@@ -79,15 +79,24 @@ void check_project_dither(JsonReader& reader, const Scene& scene) {
     }
 }
 
+void read_target(JsonReader& reader, Scene& scene) {
+    constexpr std::optional<Target> automatic;
+    const auto target =
+        reader.choice<std::optional<Target>>("target", {{"float32", Target::float32},
+                                                        {"float16", Target::float16},
+                                                        {"fixed16", Target::fixed16},
+                                                        {"fixed8", Target::fixed8},
+                                                        {"emulated", Target::emulated},
+                                                        {"auto", automatic}});
+    scene.automatic_target = !target;
+    scene.target = target.value_or(Target::float32);
+}
+
 void read_render(JsonReader reader, Scene& scene) {
     scene.method = reader.choice<Method>(
         "method",
         {{"slice", Method::slice}, {"project", Method::project}, {"trace", Method::trace}});
-    scene.target = reader.choice<Target>("target", {{"float32", Target::float32},
-                                                    {"float16", Target::float16},
-                                                    {"fixed16", Target::fixed16},
-                                                    {"fixed8", Target::fixed8},
-                                                    {"emulated", Target::emulated}});
+    read_target(reader, scene);
     scene.emulate = read_emulation(reader.object("emulate"));
     scene.max_error = reader.number_or("max_error", scene.max_error);
     if (!(scene.max_error > 0 && scene.max_error <= 255)) {

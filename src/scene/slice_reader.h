@@ -6,8 +6,6 @@
 
 namespace lamina {
 
-inline constexpr int max_slabs = 65536;
-
 // "render.slice" and "render.emulate" of a scene file (DESIGN section 4).
 SliceSettings read_slice(JsonReader reader);
 Emulation read_emulation(JsonReader reader);

@@ -77,7 +77,7 @@ std::string agreement(const Crosscheck& crosscheck, double wanted) {
     const PairAt at = closest(crosscheck);
     return fmt::format(
         "PT and slicing agree nowhere on this ladder within {:g}/255 in every pixel; they are "
-        "closest at {}. Finer: --tolerances, --samples and mesh.max_tets.",
+        "closest at {}. Finer: --tolerances, --samples and mesh.max_tets; for noise, mesh.kuhn.",
         wanted, pair_text(crosscheck, at));
 }
 

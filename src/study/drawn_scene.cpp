@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "slicing/slab_trials.h"
 #include "slicing/slice_renderer.h"
 
 namespace lamina {
@@ -11,7 +12,7 @@ DrawnVolume::DrawnVolume(Volume volume)
     : volume_(std::move(volume)), bricks_(measure_bricks(volume_)) {}
 
 Facts DrawnVolume::measure_for(const Scene& scene) const {
-    return measure(scene, volume_, bricks_);
+    return measure_slicing(scene, volume_, bricks_);
 }
 
 Image DrawnVolume::draw(const Scene& scene, const Capabilities& capabilities) const {

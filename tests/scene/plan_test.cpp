@@ -21,7 +21,7 @@ Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
     return make_plan(scene, measure(scene, volume, measure_bricks(volume)), capabilities, {});
 }
 
-TEST(Plan, AutoSamplesAreTwoAVoxelAlongTheView) {
+TEST(Plan, WhereNothingWasTriedSamplesAreTwoAVoxelAlongTheView) {
     nlohmann::json document = minimal_scene();
     document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
     EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells

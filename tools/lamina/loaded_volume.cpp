@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/stopwatch.h"
+#include "slicing/slab_trials.h"
 
 namespace lamina {
 namespace {
@@ -20,7 +21,7 @@ Volume timed_load(const Scene& scene, RenderStats& stats) {
 LoadedVolume::LoadedVolume(const RenderRequest& request, RenderStats& stats)
     : volume(timed_load(request.scene, stats)) {
     const Stopwatch watch;
-    facts = measure(request.scene, volume, measure_bricks(volume));
+    facts = measure_slicing(request.scene, volume, measure_bricks(volume));
     stats.stages_ms["measure"] = watch.milliseconds();
     stats.counts["non_finite_samples"] = facts.non_finite;
     if (facts.non_finite > 0) {

@@ -78,6 +78,7 @@ Json slice_to_json(const SlicePlan& slice) {
     Json json{{"method", name_of(Method::slice)}};
     json["target"] = name_of(slice.target);
     json["slabs"] = slice.slabs;
+    if (slice.slab_trial) json["slab_error"] = slice.slab_trial->error;
     json["classification"] = name_of(slice.classification);
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);

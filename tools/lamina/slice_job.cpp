@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "frame_job.h"
@@ -17,7 +19,15 @@ class SliceMethod : public FrameMethod {
     void load(RenderStats& stats) override { data_.emplace(request_, stats); }
 
     Plan plan(const Capabilities& capabilities) const override {
-        return make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
+        Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
+        const auto& trial = plan.slice.slab_trial;
+        if (trial && trial->error > request_.scene.max_error) {
+            request_.message(fmt::format(
+                "render.max_error: found {:.4g}, {} slabs keep {:.2g}: the transfer function has "
+                "steps that more slabs would show more of (render.slice.samples)",
+                request_.scene.max_error, trial->slabs, trial->error));
+        }
+        return plan;
     }
 
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override {

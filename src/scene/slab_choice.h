@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "scene/facts.h"
+#include "scene/scene.h"
+#include "scene/slab_trial.h"
+
+namespace lamina {
+
+// So many slabs a voxel along the view, 1 .. max_slabs.
+int slabs_per_voxel(const Facts& facts, double slabs);
+
+// What slabs may add to the picture's error where their number is automatic, in 1/255: what
+// compositing that is automatic, too, leaves of max_error.
+double slab_error_goal(const Scene& scene);
+
+// "samples": "auto": of what was tried (Facts::slab_trials) the fewest slabs that keep the goal;
+// where none does, those of the least error. Where nothing was tried, two a voxel, of an error that
+// is not known (NaN).
+SlabTrial chosen_slabs(const Scene& scene, const Facts& facts);
+
+}  // namespace lamina

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/target_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scene/slab_choice.h"
+#include "scene/tree_choice.h"
+
+namespace lamina {
+namespace {
+
+// From the fewest bytes; of the two with as many, the one with the smaller steps first.
+constexpr std::array smaller_targets{Target::fixed8, Target::fixed16, Target::float16};
+
+template <typename Bound>
+TargetChoice smallest_target(TreeQuestion question, const Bound& bound) {
+    const double share = question.max_error * target_share;
+    for (const Target target : smaller_targets) {
+        question.target = target;
+        const double error = bound(question);
+        if (error <= share)
+            return {target, fmt::format("rounds by at most {:.2g} / 255, of which {:.2g} are its "
+                                        "share of max_error",
+                                        error, share)};
+    }
+    return {Target::float32,
+            fmt::format("smaller targets round by more than {:.2g} / 255, their share of max_error",
+                        share)};
+}
+
+}  // namespace
+
+TargetChoice choose_target(const Scene& scene, const Facts& facts) {
+    const auto& tree = scene.slice.tree;
+    if (tree && !tree->automatic) {
+        if (tree->nodes == NodeArithmetic::fixed)
+            return {Target::fixed16, "the most bits that fixed nodes can have"};
+        return {Target::float32, "no smaller target has a bound for a tree of given factors"};
+    }
+    TreeQuestion question;
+    question.visible_slabs = scene.slice.samples.value_or(chosen_slabs(scene, facts).slabs);
+    question.largest_color = facts.max_color;
+    question.max_error = scene.max_error;
+    return smallest_target(question, one_level_error_bound);
+}
+
+TargetChoice choose_project_target(const Scene& scene) {
+    if (scene.project.tree)
+        return {Target::fixed16, "the most bits that a tree over tets can have"};
+    return {Target::float32,
+            "tets are composited one by one, and each rounds: float32 alone keeps any max_error"};
+}
+
+}  // namespace lamina

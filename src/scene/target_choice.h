@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/facts.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// Of max_error, what a target that is chosen may use up: so little that slabs need hardly be more
+// (their error falls with their number squared).
+inline constexpr double target_share = 0.15;
+
+struct TargetChoice {
+    Target target = Target::float32;
+    std::string reason;
+};
+
+// "target": "auto", of slicing: the fewest bytes a pixel with which compositing keeps its share of
+// max_error.
+TargetChoice choose_target(const Scene& scene, const Facts& facts);
+// Of projected tetrahedra.
+TargetChoice choose_project_target(const Scene& scene);
+
+}  // namespace lamina

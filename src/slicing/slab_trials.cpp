@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/slab_trials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/progress.h"
+#include "image/metrics.h"
+#include "scene/plan.h"
+#include "scene/slab_choice.h"
+#include "slicing/tile_slice_renderer.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+constexpr double most_rays = 1 << 17;
+constexpr double most_slabs_per_voxel = 16;
+constexpr int fewest_most_slabs = 1024;  // volumes of few voxels along the view may have kinks, too
+constexpr int most_trials = 8;
+
+// Of the goal: what is aimed at, and what is near enough to it.
+constexpr double aim = 0.9, near_aim = 0.78;
+
+// Slabs of the picture that another is compared with, at least so many times as many.
+constexpr double finer = 1.5;
+
+class SlabTrials {
+  public:
+    SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks)
+        : scene_(trial_scene(scene)),
+          volume_(volume),
+          facts_(measure(scene_, volume, bricks)),
+          goal_(slab_error_goal(scene)),
+          most_(std::max(fewest_most_slabs, slabs_per_voxel(facts_, most_slabs_per_voxel))) {}
+
+    std::vector<SlabTrial> run() {
+        std::vector<SlabTrial> trials;
+        int slabs = slabs_per_voxel(facts_, 1), too_few = 0, enough = most_ + 1;
+        while (trials.size() < most_trials && too_few + 1 < enough) {
+            slabs = std::clamp(slabs, too_few + 1, enough - 1);
+            const double error = trials.emplace_back(try_slabs(slabs)).error;
+            const bool kept = error <= goal_;
+            if (kept && error >= near_aim * goal_) break;
+            (kept ? enough : too_few) = slabs;
+            // The error falls with the square of the number.
+            const double next = std::ceil(slabs * std::sqrt(error / (aim * goal_)));
+            slabs = static_cast<int>(std::min(next, double(most_)));
+        }
+        return trials;
+    }
+
+  private:
+    static Scene trial_scene(Scene scene) {
+        const double pixels = static_cast<double>(scene.width) * scene.height;
+        const double scale = std::min(1.0, std::sqrt(most_rays / pixels));
+        scene.width = std::max(1, static_cast<int>(std::lround(scale * scene.width)));
+        scene.height = std::max(1, static_cast<int>(std::lround(scale * scene.height)));
+        scene.target = Target::float32;
+        scene.automatic_target = false;
+        scene.slice.tree.reset();
+        scene.slice.dither.reset();
+        return scene;
+    }
+
+    // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
+    SlabTrial try_slabs(int slabs) {
+        if (fine_slabs_ < finer * slabs) {
+            fine_slabs_ = 2 * slabs;
+            fine_ = draw(fine_slabs_);
+        }
+        const double found = image_error(draw(slabs), *fine_).all.linf;
+        const double share = static_cast<double>(slabs) / fine_slabs_;
+        return {slabs, found / (1 - share * share),
+                static_cast<std::int64_t>(scene_.width) * scene_.height};
+    }
+
+    Image draw(int slabs) {
+        scene_.slice.samples = slabs;
+        const Plan plan = make_plan(scene_, facts_, tile_capabilities(), {});
+        TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
+                                   scene_.width, scene_.height);
+        Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());
+        renderer.draw(View(scene_.camera, scene_.width, scene_.height), &progress);
+        return renderer.read();
+    }
+
+    Scene scene_;
+    const Volume& volume_;
+    Facts facts_;
+    double goal_;
+    int most_;
+    int fine_slabs_ = 0;
+    std::optional<Image> fine_;
+};
+
+bool shows_something(const Facts& facts) {
+    return !facts.occupied.empty() && facts.far_depth > facts.near_depth;
+}
+
+}  // namespace
+
+Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
+    Facts facts = measure(scene, volume, bricks);
+    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
+        facts.slab_trials = SlabTrials(scene, volume, bricks).run();
+    return facts;
+}
+
+}  // namespace lamina

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/slab_choice.h"
+
+#include <cmath>
+
+#include "scene/plan.h"
+#include "scene/target_choice.h"
+#include "scene_fixture.h"
+#include "support/expect_error.h"
+
+namespace lamina {
+namespace {
+
+// The facts of the minimal scene, as if these numbers of slabs had been tried.
+Facts facts_of(const Scene& scene, std::vector<SlabTrial> trials) {
+    const Volume volume = load_volume(scene);
+    Facts facts = measure(scene, volume, measure_bricks(volume));
+    facts.slab_trials = std::move(trials);
+    return facts;
+}
+
+Capabilities tiles() {
+    Capabilities capabilities;
+    capabilities.tiles = true;
+    capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
+    return capabilities;
+}
+
+Scene automatic_scene(const std::string& target, double max_error, float color = 1) {
+    nlohmann::json document = minimal_scene();
+    document["render"] = {{"target", target}, {"max_error", max_error}};
+    document["transfer_function"]["points"][1]["color"] = {color, 0, 0};
+    document["transfer_function"]["points"][0]["color"] = {0, 0, 1};
+    return read_scene(document, "s");
+}
+
+TEST(SlabChoice, TheFewestSlabsThatKeepTheErrorElseTheLeastError) {
+    const Scene scene = automatic_scene("float32", 1);
+    const SlabTrial most{200, .2, 9}, enough{100, .9, 9}, too_few{50, 3.6, 9};
+    EXPECT_EQ(chosen_slabs(scene, facts_of(scene, {most, too_few, enough})).slabs, 100);
+    EXPECT_EQ(chosen_slabs(scene, facts_of(scene, {too_few})).slabs, 50);
+    EXPECT_EQ(chosen_slabs(scene, facts_of(scene, {{70, 2, 9}, too_few})).slabs, 70);
+    const Plan plan = make_plan(scene, facts_of(scene, {enough}), tiles(), {});
+    EXPECT_EQ(plan.slice.slabs, 100);
+    EXPECT_EQ(plan.slice.slab_trial->error, .9);
+}
+
+TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
+    Scene scene = automatic_scene("fixed8", 1);
+    EXPECT_EQ(slab_error_goal(scene), 1);  // compositing is as asked, whatever it costs
+    scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+    // The root of one level is rounded to a code once.
+    EXPECT_LT(slab_error_goal(scene), .5);
+    EXPECT_GT(slab_error_goal(scene), .49);
+    scene.max_error = .5;  // not to be kept: the tree says so
+    EXPECT_GT(slab_error_goal(scene), 0);
+}
+
+TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
+    const auto target = [](double max_error, float color = 1) {
+        const Scene scene = automatic_scene("auto", max_error, color);
+        EXPECT_TRUE(scene.automatic_target);
+        const Facts facts = facts_of(scene, {{40, max_error / 2, 9}});
+        const Plan plan = make_plan(scene, facts, tiles(), {});
+        EXPECT_FALSE(plan.slice.target_reason.empty());
+        EXPECT_LE(plan.slice.error_bound.value_or(0) + plan.slice.slab_trial->error, max_error);
+        return plan.slice.target;
+    };
+    EXPECT_EQ(target(4), Target::fixed8);
+    EXPECT_EQ(target(1), Target::fixed16);
+    EXPECT_EQ(target(4, 1.5f), Target::float16);  // fixed-point targets clamp colours above 1
+    EXPECT_EQ(target(.001), Target::float32);
+}
+
+TEST(TargetChoice, TreesOfGivenFactorsAndTets) {
+    Scene scene = automatic_scene("auto", 4);
+    const Facts facts = facts_of(scene, {});
+    scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::shader};
+    EXPECT_EQ(choose_target(scene, facts).target, Target::float32);
+    scene.slice.tree->nodes = NodeArithmetic::fixed;
+    EXPECT_EQ(choose_target(scene, facts).target, Target::fixed16);
+    EXPECT_EQ(choose_project_target(scene).target, Target::float32);
+    expect_error([] { automatic_scene("automatic", 1); }, {"render.target", "\"auto\""});
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/slab_trials.h"
+
+#include "scene/slab_choice.h"
+#include "slicing/slice_renderer.h"
+#include "slicing_fixture.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+Volume mixing(std::int64_t edge) {
+    return generate({"mixing", std::array{edge, edge, edge}, SampleType::float32});
+}
+
+Image draw(const Volume& volume, const Scene& scene, const Facts& facts) {
+    const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
+    const auto renderer = make_slice_renderer(volume, scene.transfer_function, facts, plan.slice,
+                                              tile_capabilities(), scene.width, scene.height);
+    renderer->draw(View(scene.camera, scene.width, scene.height));
+    return renderer->read();
+}
+
+// Pictures of as many slabs as the trials choose keep the error; those of half as many, whose error
+// is some four times as large (both rules are of second order), do not.
+TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
+    for (const Volume& volume : {gaussians(32), mixing(24)}) {
+        for (const Classification classification :
+             {Classification::post, Classification::preintegrated}) {
+            Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+            scene.slice.classification = classification;
+            const Image traced = trace(volume, scene, 1e-7);
+            for (const double max_error : {.25, 1., 4.}) {
+                scene.max_error = max_error;
+                scene.slice.samples.reset();
+                const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+                const SlabTrial chosen = chosen_slabs(scene, facts);
+                EXPECT_LE(chosen.error, max_error);
+                EXPECT_EQ(chosen.rays, 64 * 48);
+                EXPECT_LE(image_error(draw(volume, scene, facts), traced).all.linf, max_error)
+                    << chosen.slabs << " slabs";
+                scene.slice.samples = chosen.slabs / 2;
+                EXPECT_GT(image_error(draw(volume, scene, facts), traced).all.linf, max_error)
+                    << chosen.slabs << " slabs";
+            }
+        }
+    }
+}
+
+TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
+    const Volume volume = gaussians(8);
+    const MinMaxBricks bricks = measure_bricks(volume);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::orthographic);
+    scene.slice.samples = 9;
+    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    scene.slice.samples.reset();
+    EXPECT_FALSE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    scene.method = Method::trace;
+    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    scene.method = Method::slice;
+    scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 0)});
+    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+}
+
+// Of one extinction and colour every number of slabs shows the same.
+TEST(SlabTrials, OneSlabOfAConstant) {
+    const Volume volume = gaussians(8);
+    Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 2)}),
+                                 Projection::perspective);
+    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    EXPECT_EQ(chosen_slabs(scene, facts).slabs, 1);
+}
+
+// An opaque step: its silhouette moves with the slabs, whatever their number.
+TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
+    const Volume volume = mixing(16);
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(.7, {1, 1, 1}, 0),
+                                  knot(.7, {1, .5, 0}, 1e6), knot(1, {1, .5, 0}, 1e6)}),
+        Projection::perspective, 160, 120);
+    scene.max_error = .01;
+    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    const SlabTrial chosen = chosen_slabs(scene, facts);
+    EXPECT_GT(chosen.error, scene.max_error);
+    EXPECT_LE(chosen.slabs, 1024);
+}
+
+}  // namespace
+}  // namespace lamina
