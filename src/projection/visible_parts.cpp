@@ -16,18 +16,23 @@ namespace lamina {
 
 VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
                            const TetPieces& pieces, bool cut, bool draw_transparent)
-    : mesh_(mesh), scalar_(scalar), pieces_(pieces), cut_(cut) {
+    : mesh_(mesh),
+      scalar_(scalar),
+      pieces_(pieces),
+      cut_(cut),
+      draw_transparent_(draw_transparent) {
     const auto tets = mesh.tets();
     count_ = static_cast<std::int64_t>(tets.size());
     if (cut || !draw_transparent) {
         spans_.resize(tets.size());
         parallel_for(count_, 4096, [&](std::int64_t index) {
             const auto tet = static_cast<std::size_t>(index);
-            spans_[tet] = pieces_.visible(scalar_, tets[tet]);
+            spans_[tet] = draw_transparent ? pieces_.met(scalar_, tets[tet])
+                                           : pieces_.visible(scalar_, tets[tet]);
         });
         count_ = std::transform_reduce(spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
                                        [&](const TetPieces::Span& span) -> std::int64_t {
-                                           return cut ? pieces_.count(span) : !span.empty();
+                                           return cut ? parts_in(span) : !span.empty();
                                        });
     }
     parts_.reserve(static_cast<std::size_t>(count_));
@@ -67,13 +72,17 @@ std::span<const TetPart> VisibleParts::scattered(std::span<const std::int32_t> o
     return parts_;
 }
 
+std::int64_t VisibleParts::parts_in(const TetPieces::Span& span) const {
+    return draw_transparent_ ? span.last - span.first + 1 : pieces_.count(span);
+}
+
 // Along every ray the scalar goes one way, away from what it would be at the eye: the part nearest
 // to that hides all others, those above it hide those farther above, those below it those farther
 // below, and no ray meets both.
 void VisibleParts::append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye) {
     const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
     const auto append = [&](std::int32_t piece) {
-        if (!pieces_.transparent(piece)) parts_.push_back({tet, piece});
+        if (draw_transparent_ || !pieces_.transparent(piece)) parts_.push_back({tet, piece});
     };
     const auto end = [&](std::int32_t piece) {
         return pieces_.pieces()[static_cast<std::size_t>(piece)].to;

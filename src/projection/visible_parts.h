@@ -15,8 +15,8 @@ namespace lamina {
 // What of a mesh is drawn, farthest first.
 class VisibleParts {
   public:
-    // `cut`: into the transfer function's pieces, those that show something; else whole tets, with
-    // `draw_transparent` also those that show nothing. All must outlive it.
+    // `cut`: into the transfer function's pieces, else whole tets; with `draw_transparent` also
+    // what shows nothing. All must outlive it.
     VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
                  bool cut, bool draw_transparent);
 
@@ -29,13 +29,14 @@ class VisibleParts {
     std::int64_t count() const { return count_; }        // of every list
 
   private:
+    std::int64_t parts_in(const TetPieces::Span& span) const;
     void append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye);
     double scalar_at_eye(const Tet& tet, const Eye& eye) const;
 
     const TetMesh& mesh_;
     std::span<const double> scalar_;
     const TetPieces& pieces_;
-    bool cut_;
+    bool cut_, draw_transparent_;
     std::vector<TetPieces::Span> spans_;  // of tets; empty where all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;

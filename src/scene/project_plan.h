@@ -40,7 +40,7 @@ struct ProjectPlan : CompositingPlan {
     bool orthographic = false;      // rays are parallel: no division per fragment
     bool single_color = false;      // colour is a constant of the program
     bool plain = true;              // tets whose faces can be found in float32 are
-    bool draw_transparent = false;  // tets that show nothing are drawn, too (not as parts)
+    bool draw_transparent = false;  // what shows nothing is drawn, too
     bool nothing_visible = false;   // no tet is drawn
     bool table_filtered = false;    // tables go through the texture unit's filter
     double near_depth = 0;          // of the near plane

@@ -66,6 +66,8 @@ class ProjectPlanner {
         choose_compositing();
         if (settings_.tree) choose_tree();
         choose_source();
+        // Leaves take so many parts each: there, more parts would be another picture.
+        if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
         return std::move(plan_);
     }
 
@@ -109,7 +111,7 @@ class ProjectPlanner {
                                   : "the mesh lies behind the eye");
         const bool left_out =
             leave_out(facts_.transparent_tets > 0, "transparent_tets",
-                      fmt::format("{} of {} tets show nothing: they are ordered and not projected",
+                      fmt::format("{} of {} tets show nothing: they are not projected",
                                   facts_.transparent_tets, facts_.tets));
         // Where a value is no finite number, there is nothing that could be drawn.
         plan_.draw_transparent = !left_out && facts_.non_finite == 0;

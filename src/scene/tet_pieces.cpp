@@ -23,7 +23,7 @@ TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange
         });
 }
 
-TetPieces::Span TetPieces::visible(std::span<const double> scalar, const Tet& tet) const {
+TetPieces::Span TetPieces::met(std::span<const double> scalar, const Tet& tet) const {
     double lo = INFINITY, hi = -INFINITY;
     for (const std::int32_t corner : tet) {
         const double value = scalar[static_cast<std::size_t>(corner)];
@@ -41,6 +41,11 @@ TetPieces::Span TetPieces::visible(std::span<const double> scalar, const Tet& te
     const auto last_of_range =
         static_cast<std::int32_t>(std::min<std::ptrdiff_t>(end - pieces_.begin(), last()));
     span.last = lo < hi ? last_of_range : span.first;
+    return span;
+}
+
+TetPieces::Span TetPieces::visible(std::span<const double> scalar, const Tet& tet) const {
+    Span span = met(scalar, tet);
     while (!span.empty() && transparent(span.first)) ++span.first;
     while (!span.empty() && transparent(span.last)) --span.last;
     return span;

@@ -24,13 +24,16 @@ class TetPieces {
         return visible_before_[place] == visible_before_[place + 1];
     }
 
-    // Of the pieces that some point of the tet lies in and that show something the first and the
-    // last: last < first where there is none, or a corner has a value that is no finite number.
+    // The first and the last piece of several: last < first where there is none.
     struct Span {
         std::int32_t first = 0, last = -1;
 
         bool empty() const { return last < first; }
     };
+    // Of those that some point of the tet lies in; none where a corner has a value that is no
+    // finite number.
+    Span met(std::span<const double> scalar, const Tet& tet) const;
+    // Of these, those that show something.
     Span visible(std::span<const double> scalar, const Tet& tet) const;
     // So many of them show something.
     int count(const Span& span) const;
