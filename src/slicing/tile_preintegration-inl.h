@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "slicing/tile_block-inl.h"
 #include "slicing/tile_optics-inl.h"
 #include "tiles/opacity-inl.h"
@@ -77,10 +79,19 @@ HWY_INLINE void mix_layers(D8 d8, const float* texels, std::ptrdiff_t right, std
     }
 }
 
+// Calls body(lane) for the lanes of a mask.
+template <class Body>
+HWY_INLINE void for_each_lane(FloatMask mask, const Body& body) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(FloatTag(), mask, bytes);
+    for (std::uint32_t bits = bytes[0] | std::uint32_t{bytes[1]} << 8; bits != 0; bits &= bits - 1)
+        body(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
 // Lane by lane, because an entry's numbers lie side by side: several times as fast as gathers of
-// one number each.
+// one number each. Of the lanes that are `wanted`; 0 in others.
 HWY_INLINE TableEntry table_entry(const TileTransfer& transfer, const TableCell& cell,
-                                  Floats length) {
+                                  Floats length, FloatMask wanted) {
     const FloatTag d;
     const IntTag di;
     const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());
@@ -90,13 +101,13 @@ HWY_INLINE TableEntry table_entry(const TileTransfer& transfer, const TableCell&
     const Ints lower = hn::Min(hn::ConvertTo(di, layer), hn::Set(di, std::max(layers - 2, 0)));
     alignas(64) std::int32_t places[most_lanes];
     alignas(64) float fronts[most_lanes], backs[most_lanes], layer_shares[most_lanes];
-    alignas(64) float entries[4 * most_lanes];
+    alignas(64) float entries[4 * most_lanes] = {};
     hn::Store(hn::Add(hn::Mul(cell.corner, hn::Set(di, layers)), lower), di, places);
     hn::Store(cell.front, d, fronts);
     hn::Store(cell.back, d, backs);
     hn::Store(hn::Sub(layer, hn::ConvertTo(d, lower)), d, layer_shares);
     const std::ptrdiff_t right = 4 * layers, below = right * nodes;
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    for_each_lane(wanted, [&](std::size_t lane) HWY_ATTR {
         const float* const texels =
             transfer.texels.data() + 4 * static_cast<std::ptrdiff_t>(places[lane]);
         if (layers > 1) {
@@ -107,7 +118,7 @@ HWY_INLINE TableEntry table_entry(const TileTransfer& transfer, const TableCell&
             hn::Store(mixed_nodes(d4, texels, right, below, fronts[lane], backs[lane]), d4,
                       entries + 4 * lane);
         }
-    }
+    });
     TableEntry entry;
     hn::LoadInterleaved4(d, entries, entry.emission[0], entry.emission[1], entry.emission[2],
                          entry.extinction);
@@ -134,9 +145,10 @@ struct RunSum {
     Floats depth;
 };
 
-// Adds a run between two nodes behind `sum`.
+// Adds a run between two nodes behind `sum`, in the lanes that are `wanted`; others lose their
+// meaning.
 HWY_INLINE void add_run(const TileTransfer& transfer, bool colored, Floats front_node,
-                        Floats back_node, Floats length, RunSum& sum) {
+                        Floats back_node, Floats length, FloatMask wanted, RunSum& sum) {
     const FloatTag d;
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
     const TableCell cell = table_cell(nodes, front_node, back_node);
@@ -144,7 +156,7 @@ HWY_INLINE void add_run(const TileTransfer& transfer, bool colored, Floats front
         sum.depth = mul_add(table_extinction(*transfer.table, cell), length, sum.depth);
         return;
     }
-    const TableEntry entry = table_entry(transfer, cell, length);
+    const TableEntry entry = table_entry(transfer, cell, length, wanted);
     const Floats depth = hn::Mul(entry.extinction, length);
     const auto seen = hn::Gt(depth, hn::Zero(d));
     const Floats transmitted = exp_of(d, hn::Neg(sum.depth));
@@ -160,9 +172,11 @@ struct RunEnds {
     TablePlace front_place, back_place;
 };
 
-// Of a segment that crosses ends of intervals: cut at the first and at the last of these.
+// Of segments that cross ends of intervals, those of the lanes that are `wanted`: cut at the first
+// and at the last of these.
 template <Lookup kind>
-HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunEnds& run) {
+HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunEnds& run,
+                          FloatMask wanted) {
     const FloatTag d;
     const IntTag di;
     const Ints one = hn::Set(di, 1);
@@ -184,14 +198,15 @@ HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunE
     const Floats per_scalar = hn::Div(run.length, hn::Sub(run.back, run.front));
     RunSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
     add_run(transfer, colored, run.front_place.node, front_end,
-            hn::Mul(hn::Sub(first_end, run.front), per_scalar), sum);
+            hn::Mul(hn::Sub(first_end, run.front), per_scalar), wanted, sum);
     // Most segments cross one end: nothing lies between the first and the last.
-    if (!hn::AllTrue(d, hn::Eq(first_end, last_end))) {
+    const auto between = hn::And(wanted, hn::Ne(first_end, last_end));
+    if (!hn::AllFalse(d, between)) {
         add_run(transfer, colored, look_up<kind>(transfer.first_node, first), back_end,
-                hn::Mul(hn::Sub(last_end, first_end), per_scalar), sum);
+                hn::Mul(hn::Sub(last_end, first_end), per_scalar), between, sum);
     }
     add_run(transfer, colored, back_end, run.back_place.node,
-            hn::Mul(hn::Sub(run.back, last_end), per_scalar), sum);
+            hn::Mul(hn::Sub(run.back, last_end), per_scalar), wanted, sum);
     return sum;
 }
 
@@ -205,9 +220,11 @@ HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floa
                       table_place<kind>(transfer, back)};
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
     const TableCell cell = table_cell(nodes, run.front_place.node, run.back_place.node);
+    const auto cut =
+        hn::And(hn::RebindMask(d, hn::Ne(run.front_place.interval, run.back_place.interval)), seen);
     RunSum sum;
     if (colored) {
-        const TableEntry entry = table_entry(transfer, cell, length);
+        const TableEntry entry = table_entry(transfer, cell, length, hn::AndNot(cut, seen));
         sum.depth = hn::Mul(entry.extinction, length);
         const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
                                                   hn::Div(hn::Set(d, 1.0f), entry.extinction));
@@ -216,8 +233,6 @@ HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floa
     } else {
         sum.depth = hn::Mul(table_extinction(*transfer.table, cell), length);
     }
-    const auto cut =
-        hn::And(hn::RebindMask(d, hn::Ne(run.front_place.interval, run.back_place.interval)), seen);
     if (kind != Lookup::one && !hn::AllFalse(d, cut)) {
         // Lanes that are not cut must not read beyond the intervals.
         RunEnds ends = run;
@@ -226,7 +241,7 @@ HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floa
         ends.back_place.interval = hn::IfThenElseZero(keep, run.back_place.interval);
         ends.length = hn::IfThenElseZero(cut, length);
         ends.back = hn::IfThenElse(cut, back, hn::Add(front, hn::Set(d, 1.0f)));
-        const RunSum parts = cut_run<kind>(transfer, colored, ends);
+        const RunSum parts = cut_run<kind>(transfer, colored, ends, cut);
         sum.depth = hn::IfThenElse(cut, parts.depth, sum.depth);
         if (colored) {
             const Floats opacity = opacity_from_depth(d, parts.depth);
