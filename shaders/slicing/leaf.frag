@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A leaf of a compositing tree: all of its slabs along the fragment's ray, front to back, in registers. ACCUMULATE: only
 // one of several bricks, for blending into a float target; slicing/encode.frag makes the leaf's image of the sum.
+// OCCUPIED_ONLY: leaps over what shows nothing. ENDS_EARLY: the ray ends where what lies behind does not show.
 #include "slicing/segment.glsl"
+#ifdef OCCUPIED_ONLY
+#include "slicing/empty_space.glsl"
+#endif
+#ifdef ENDS_EARLY
+uniform float opaque_depth;
+#endif
 #ifdef ACCUMULATE
 layout(location = 0) out vec4 associated;
 #else
@@ -25,7 +32,25 @@ void main() {
 #ifdef PREINTEGRATED
     float front = sample_scalar(point_at(ray, whole.x));
 #endif
+#ifdef OCCUPIED_ONLY
+    BrickRay bricks = brick_ray(ray, whole.x);
+    float shown_end = first;  // slabs before it need not be asked for
+#endif
     for (float i = first; i < end; ++i) {
+#ifdef OCCUPIED_ONLY
+        float here = i;
+        while (i >= shown_end && i < end) {
+            Stretch stretch = next_stretch(bricks, i);
+            if (stretch.shown) shown_end = stretch.end;
+            else i = stretch.end;
+        }
+        if (i >= end) break;
+#ifdef PREINTEGRATED
+        // After a leap the empty slab before gives the scalar at the front.
+        bool leapt = i > here;
+        if (leapt) i -= 1.0;
+#endif
+#endif
         REAL2 depths = slab_depths(i, 1.0);
         depths = REAL2(max(depths.x, whole.x), min(depths.y, whole.y));
         if (!(depths.y > depths.x)) continue;
@@ -34,6 +59,9 @@ void main() {
         Segment segment = integrate_samples(front, sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y))), back,
                                             float(world_length(ray, depths)));
         front = back;
+#ifdef OCCUPIED_ONLY
+        if (leapt) segment.depth = DEPTH(0.0);
+#endif
 #else
         Segment segment = integrate(ray, depths);
 #endif
@@ -42,6 +70,9 @@ void main() {
         REAL weight = transmittance * REAL(opacity_from_depth(segment.depth));
         color += weight * REAL3(segment.color);
         transmittance -= weight;
+#endif
+#ifdef ENDS_EARLY
+        if (float(depth) >= opaque_depth) break;
 #endif
     }
 #ifdef ACCUMULATE

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace lamina {
 namespace {
@@ -62,34 +63,61 @@ double largest_color(const TransferFunction& transfer_function, const ValueRange
 
 void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                          Facts& facts) {
-    std::vector<double> extinctions;
-    for (const ValueRange& range : bricks.ranges) {
-        extinctions.push_back(range.empty() ? 0.0
-                                            : transfer_function.max_extinction(range.lo, range.hi));
-    }
-    std::sort(extinctions.begin(), extinctions.end());
+    const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;
+    std::vector<double> extinctions(bricks.ranges.size());
+    parallel_for(static_cast<std::int64_t>(extinctions.size()), 4096, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        const MinMaxBricks::Range& range = bricks.ranges[i];
+        if (distance[i] == 0) extinctions[i] = transfer_function.max_extinction(range.lo, range.hi);
+    });
     const auto quantile = [&](double share) {
         const auto last = static_cast<double>(extinctions.size() - 1);
-        return extinctions[static_cast<std::size_t>(std::ceil(share * last))];
+        const auto place =
+            extinctions.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * last));
+        std::nth_element(extinctions.begin(), place, extinctions.end());
+        return *place;
     };
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
+void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                   double margin, OccupiedBricks& occupied) {
+    occupied = {bricks.count, {}};
+    occupied.distance.resize(bricks.ranges.size());
+    parallel_for(static_cast<std::int64_t>(bricks.ranges.size()), 4096, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        const ValueRange range = bricks.ranges[i];
+        const bool shown =
+            !range.empty() && !transfer_function.transparent(range.lo - margin, range.hi + margin);
+        occupied.distance[i] = shown ? 0 : OccupiedBricks::farthest;
+    });
+    occupied.measure_distances();
+}
+
+// Of the volume's box, what the bricks first .. last hold.
+IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& count,
+                       const std::array<std::int64_t, 3>& first,
+                       const std::array<std::int64_t, 3>& last) {
+    IndexBox box{grid.index_min(), grid.index_max()};
+    for (int axis = 0; axis < 3; ++axis) {
+        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
+        if (first[axis] > 0) box.min[axis] = static_cast<double>(first[axis] * MinMaxBricks::edge);
+        if (last[axis] + 1 < count[axis])
+            box.max[axis] = static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
+    }
+    return box;
+}
+
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                       Facts& facts) {
-    const double margin = margin_of(facts);
-    OccupiedBricks& occupied = facts.occupied_bricks;
-    occupied = {bricks.count, {}};
+    const OccupiedBricks& occupied = facts.occupied_bricks;
+    find_occupied(transfer_function, bricks, margin_of(facts), facts.occupied_bricks);
     std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
     std::int64_t seen = 0;
     for (std::int64_t z = 0; z < bricks.count[2]; ++z) {
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
             for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
-                const ValueRange& range = bricks.at(x, y, z);
-                const bool shown = !range.empty() && !transfer_function.transparent(
-                                                         range.lo - margin, range.hi + margin);
-                occupied.shown.push_back(shown ? 1 : 0);
-                if (!shown) continue;
+                if (occupied.distance_at(x, y, z) > 0) continue;
                 ++seen;
                 const std::array<std::int64_t, 3> brick{x, y, z};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,16 +129,7 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
     }
     facts.occupied_share = static_cast<double>(seen) / static_cast<double>(bricks.ranges.size());
     facts.occupied = {};
-    if (seen == 0) return;
-    const glm::dvec3 box_min = facts.grid.index_min(), box_max = facts.grid.index_max();
-    for (int axis = 0; axis < 3; ++axis) {
-        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
-        const bool at_start = first[axis] == 0, at_end = last[axis] + 1 == bricks.count[axis];
-        facts.occupied.min[axis] =
-            at_start ? box_min[axis] : static_cast<double>(first[axis] * MinMaxBricks::edge);
-        facts.occupied.max[axis] =
-            at_end ? box_max[axis] : static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
-    }
+    if (seen > 0) facts.occupied = box_of_bricks(facts.grid, bricks.count, first, last);
 }
 
 void measure_view(const Scene& scene, Facts& facts) {
@@ -167,8 +186,8 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     facts.knots = std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
         return knot.value > facts.range.lo && knot.value < facts.range.hi;
     });
-    measure_extinctions(transfer_function, bricks, facts);
     measure_occupied(transfer_function, bricks, facts);
+    measure_extinctions(transfer_function, bricks, facts);
     measure_view(scene, facts);
     return facts;
 }

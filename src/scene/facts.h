@@ -51,7 +51,7 @@ struct Facts {
     // nothing.
     IndexBox occupied;
     OccupiedBricks occupied_bricks;
-    double occupied_share = 0;  // of the volume's box, by its bricks
+    double occupied_share = 0;  // of the bricks
     DepthRange occupied_depth;  // eye-space depths of `occupied`
     // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
     std::array<double, 3> extinction_quantiles{};

@@ -3,7 +3,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,32 +11,31 @@
 
 namespace lamina {
 
-// Which bricks of MinMaxBricks the transfer function shows something in.
+// Which bricks of MinMaxBricks the transfer function shows something in, and how far it is to them.
 struct OccupiedBricks {
-    std::array<std::int64_t, 3> count{0, 0, 0};
-    std::vector<std::uint8_t> shown;  // 0, 1; x fastest
+    static constexpr int farthest = 255;
 
-    // Whether one of them touches the part of the volume between two points of index space. Its
-    // outermost bricks also hold what lies beyond them.
-    bool any_in(const glm::dvec3& min, const glm::dvec3& max) const {
-        std::array<std::int64_t, 3> first{}, last{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<int>(axis);
-            const auto end = static_cast<double>(count[axis] - 1);
-            constexpr double edge = MinMaxBricks::edge;
-            first[axis] = static_cast<std::int64_t>(std::clamp(min[at] / edge, 0.0, end));
-            last[axis] = static_cast<std::int64_t>(std::clamp(max[at] / edge, 0.0, end));
-        }
-        for (std::int64_t z = first[2]; z <= last[2]; ++z) {
-            for (std::int64_t y = first[1]; y <= last[1]; ++y) {
-                const std::uint8_t* const row = shown.data() + (z * count[1] + y) * count[0];
-                for (std::int64_t x = first[0]; x <= last[0]; ++x) {
-                    if (row[x] != 0) return true;
-                }
-            }
-        }
-        return false;
+    std::array<std::int64_t, 3> count{0, 0, 0};
+    // From each brick to the nearest that shows something, in bricks along the axis on which they
+    // are farthest apart: 0 for those that do. At most `farthest`, also where there are none. x
+    // fastest.
+    std::vector<std::uint8_t> distance;
+
+    // Replaces distances of 0 and `farthest`, shown and not, by the true ones.
+    void measure_distances();
+
+    std::uint8_t distance_at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return distance[static_cast<std::size_t>((z * count[1] + y) * count[0] + x)];
     }
+
+    // Whether one that shows something touches the part of the volume between two points of index
+    // space. Its outermost bricks also hold what lies beyond them.
+    bool any_in(const glm::dvec3& min, const glm::dvec3& max) const;
+
+    // A part of index space with a point's brick in its middle: the largest known that shows
+    // nothing, or, where that brick does show something (false), it alone. Endless beyond the
+    // volume.
+    bool empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const;
 };
 
 }  // namespace lamina

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scene/brick_cuts.h"
 #include "scene/project_planner.h"
 #include "scene/slab_choice.h"
 #include "scene/target_choice.h"
@@ -41,54 +42,6 @@ const Omission no_context{"context", "the tracer runs on the processor: no OpenG
 
 std::string percent(double share) {
     return fmt::format("{:.3g} %", 100 * share);
-}
-
-std::uint64_t bytes_of_brick(const TextureBrick& brick, std::uint64_t texel) {
-    return static_cast<std::uint64_t>(brick.size[0]) * static_cast<std::uint64_t>(brick.size[1]) *
-           static_cast<std::uint64_t>(brick.size[2]) * texel;
-}
-
-// The fewest bricks that respect the context's limits: always the longest edge is cut once more.
-std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_bytes,
-                                          const Capabilities& capabilities) {
-    std::array<std::int64_t, 3> parts{1, 1, 1}, cells{};
-    TextureBrick largest;
-    while (true) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t all = std::max<std::int64_t>(grid.size[axis] - 1, 1);
-            cells[axis] = (all + parts[axis] - 1) / parts[axis];
-            largest.size[axis] = std::min(cells[axis] + 1, grid.size[axis]);
-        }
-        const std::size_t longest = static_cast<std::size_t>(
-            std::max_element(largest.size.begin(), largest.size.end()) - largest.size.begin());
-        if (largest.size[longest] <= capabilities.max_3d_texture_size &&
-            bytes_of_brick(largest, texel_bytes) <= capabilities.max_texture_bytes) {
-            break;
-        }
-        if (largest.size[longest] <= 2) {
-            fail("volume: a brick of {} bytes does not fit a texture of {}: {}",
-                 bytes_of_brick(largest, texel_bytes), capabilities.max_texture_bytes,
-                 capabilities.renderer);
-        }
-        ++parts[longest];
-    }
-    std::vector<TextureBrick> bricks;
-    std::array<std::int64_t, 3> at{};
-    const auto last_cell = [&](std::size_t axis) {
-        return std::max<std::int64_t>(grid.size[axis] - 1, 1);
-    };
-    for (at[2] = 0; at[2] < last_cell(2); at[2] += cells[2]) {
-        for (at[1] = 0; at[1] < last_cell(1); at[1] += cells[1]) {
-            for (at[0] = 0; at[0] < last_cell(0); at[0] += cells[0]) {
-                TextureBrick brick{at, {}};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    brick.size[axis] = std::min(cells[axis] + 1, grid.size[axis] - at[axis]);
-                }
-                bricks.push_back(brick);
-            }
-        }
-    }
-    return bricks;
 }
 
 }  // namespace
@@ -128,11 +81,12 @@ class SlicePlanner {
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
         choose_slabs();
         choose_precision();
-        choose_geometry();
         choose_sampling();
         choose_table();
         choose_bricks();
         choose_compositing();
+        choose_geometry();
+        choose_termination();
         return std::move(plan_);
     }
 
@@ -177,9 +131,12 @@ class SlicePlanner {
         const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
         const bool by_brick = skips_bricks();
         if (leave_out((smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
-                      fmt::format("only {} of the bricks can be seen: slabs are drawn where {}",
-                                  percent(facts_.occupied_share),
-                                  by_brick ? "rays come near them" : "the box around them is"))) {
+                      fmt::format("only {} of the bricks of {}^3 cells can be seen: {}",
+                                  percent(facts_.occupied_share), MinMaxBricks::edge,
+                                  by_brick ? fmt::format("rays leap over the others, by a map of "
+                                                         "{} bytes",
+                                                         facts_.occupied_bricks.distance.size())
+                                           : "slabs are drawn in the box around them"))) {
             slice.drawn = facts_.occupied;
             slice.occupied_only = by_brick;
         }
@@ -188,9 +145,39 @@ class SlicePlanner {
     // Between two bricks that show nothing scalars may jump over what can be seen where NaN parts
     // them: a segment from one into the other would show it.
     bool skips_bricks() const {
+        const SlicePlan& slice = plan_.slice;
         const bool jumps =
-            facts_.non_finite > 0 && plan_.slice.classification == Classification::preintegrated;
-        return capabilities_.tiles && facts_.occupied_share < 1 && !jumps;
+            facts_.non_finite > 0 && slice.classification == Classification::preintegrated;
+        const std::int64_t longest = std::ranges::max(facts_.occupied_bricks.count);
+        const bool leaps = capabilities_.tiles || (slice.has_tree(NodeArithmetic::shader) &&
+                                                   longest <= capabilities_.max_3d_texture_size);
+        return leaps && facts_.occupied_share < 1 && !jumps;
+    }
+
+    // A ray ends where all that may lie behind changes no channel by more than this share of the
+    // wanted error: too little to be told from the errors of a picture that meets it.
+    static constexpr double hidden_share = 1.0 / 32;
+
+    // In a tree, what is behind one leaf's part of a ray is another leaf's; on GL, of several
+    // bricks, another program's.
+    void choose_termination() {
+        SlicePlan& slice = plan_.slice;
+        if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;
+        if (slice.tree->factors.front() < slice.slabs) return;
+        if (!capabilities_.tiles && slice.bricks.size() > 1) return;
+        const double hidden = hidden_share * scene_.max_error;  // in 1/255
+        if (slice.error_bound && *slice.error_bound + hidden > scene_.max_error) return;
+        const double depth = -std::log(hidden / (255 * std::max(facts_.max_color, 1.0)));
+        const DepthRange& seen = facts_.occupied_depth;
+        const double deepest =
+            facts_.max_extinction * (seen.far - seen.near) * facts_.max_length_per_depth;
+        if (leave_out(deepest > depth, "early_termination",
+                      fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: "
+                                  "what lies behind changes no channel by more than {:.2g} / 255",
+                                  deepest, depth, hidden))) {
+            slice.opaque_depth = depth;
+            if (slice.error_bound) *slice.error_bound += hidden;
+        }
     }
 
     void choose_sampling() {
@@ -338,16 +325,6 @@ class SlicePlanner {
     const OmissionSwitch& omissions_;
     Plan plan_;
 };
-
-}  // namespace
-
-std::vector<std::string> omission_names() {
-    return {"blending",         "color",         "double_precision", "drawing", "empty_space",
-            "length_layers",    "order",         "perspective",      "scalars", "table",
-            "transparent_tets", "volume_texture"};
-}
-
-namespace {
 
 // The scene as if it had asked for what was chosen: one node that marches all slabs keeps the
 // bound of the choice.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -54,10 +55,13 @@ struct SlicePlan : CompositingPlan {
     bool nothing_visible = false;  // no slab is drawn
     TablePlan table;               // for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
-    bool occupied_only = false;  // tiles: slabs that come near no occupied brick are not evaluated
+    bool occupied_only = false;  // what comes near no occupied brick is not evaluated
+    // Marched rays end at this optical depth: what lies behind does not show.
+    double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
+    bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
     bool uses_table() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }

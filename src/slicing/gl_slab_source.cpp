@@ -17,6 +17,16 @@
 namespace lamina {
 namespace {
 
+constexpr int distances_unit = 8;  // those of compositing lie between
+
+gl::Texture upload_distances(const OccupiedBricks& bricks) {
+    const int width = static_cast<int>(bricks.count[0]), height = static_cast<int>(bricks.count[1]);
+    const int depth = static_cast<int>(bricks.count[2]);
+    gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::r8, width, height, depth);
+    texture.upload({0, 0, 0, width, height, depth}, std::span<const std::uint8_t>(bricks.distance));
+    return texture;
+}
+
 int sampling_define(VolumeSampling sampling) {
     switch (sampling) {
         case VolumeSampling::none:
@@ -64,6 +74,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     table_ms_ = table_watch.milliseconds();
     const Stopwatch upload_watch;
     volume_ = upload_volume(volume, range_, plan);
+    if (plan_.occupied_only) distances_.emplace(upload_distances(facts_.occupied_bricks));
     glFinish();
     upload_ms_ = upload_watch.milliseconds();
     gl::check("uploading the volume");
@@ -76,6 +87,15 @@ gl::Defines GlSlabSource::defines() const {
 
 void GlSlabSource::bind(gl::Program& program) const {
     program.set("single_color", single_color_);
+    if (plan_.ends_early()) program.set("opaque_depth", static_cast<float>(plan_.opaque_depth));
+    if (distances_) {
+        distances_->bind(distances_unit);
+        program.set("distances", distances_unit);
+        program.set("brick_edge", static_cast<float>(MinMaxBricks::edge));
+        program.set(
+            "last_distance",
+            glm::vec3(distances_->width(), distances_->height(), distances_->depth()) - 1.0f);
+    }
     if (tables_) {
         tables_->bind(program);
         program.set("volume", GlTransferTables::first_free_unit);
@@ -126,6 +146,7 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     const IndexBox box = box_of(texture, facts_.grid);
     set_real(program, "origin_middle",
              facts_.grid.to_index(view.eye + slabs.near * view.forward) - first);
+    if (distances_) program.set("first_sample", glm::vec3(first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
     program.set("last_sample",

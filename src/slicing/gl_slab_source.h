@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gl/program.h"
+#include "gl/texture.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
 #include "scene/facts.h"
@@ -52,6 +53,7 @@ class GlSlabSource {
     OpticalProperties constant_;              // where no scalar is fetched
     std::optional<GlTransferTables> tables_;  // elsewhere
     VolumeTextures volume_;
+    std::optional<gl::Texture> distances_;  // of OccupiedBricks, where the plan leaps by them
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

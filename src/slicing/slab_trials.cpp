@@ -69,17 +69,19 @@ class SlabTrials {
     SlabTrial try_slabs(int slabs) {
         if (fine_slabs_ < finer * slabs) {
             fine_slabs_ = 2 * slabs;
-            fine_ = draw(fine_slabs_);
+            OmissionSwitch exact;  // the error of early termination is one of the trial's
+            exact.kept = {"early_termination"};
+            fine_ = draw(fine_slabs_, exact);
         }
-        const double found = image_error(draw(slabs), *fine_).all.linf;
+        const double found = image_error(draw(slabs, {}), *fine_).all.linf;
         const double share = static_cast<double>(slabs) / fine_slabs_;
         return {slabs, found / (1 - share * share),
                 static_cast<std::int64_t>(scene_.width) * scene_.height};
     }
 
-    Image draw(int slabs) {
+    Image draw(int slabs, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
-        const Plan plan = make_plan(scene_, facts_, tile_capabilities(), {});
+        const Plan plan = make_plan(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height);
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());

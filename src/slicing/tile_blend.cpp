@@ -44,20 +44,21 @@ class SlabBlender {
     void composite(const TileGrid::Tile& area, std::size_t group, Pixel* pixels) {
         for (const TileBrickView& brick : slabs_.bricks) {
             rays_.set_pixels(slabs_.rays, brick, area, group);
-            rays_.set_slabs(slabs_.rays, span_.first, span_.end());
+            rays_.set_slabs(slabs_, span_.first, span_.end());
             if (rays_.first_slab >= rays_.end_slab) continue;
             const int first = (rays_.first_slab - span_.first) / tile_block_slabs;
             const int last = (rays_.end_slab - 1 - span_.first) / tile_block_slabs;
             for (int k = 0; k <= last - first; ++k) {
                 const int number = behind_ ? first + k : last - k;
                 block_.first_slab = span_.first + number * tile_block_slabs;
-                const SampleSpan shown = rays_.shown(slabs_, block_.first_slab);
                 for (std::size_t p = 0; p < group_packets; ++p) {
+                    block_.wanted = rays_.wanted(slabs_, p, number);
+                    if (block_.wanted == 0) continue;
                     const TileGrid::Place at =
                         TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
                     column_ = area.column + at.column;
                     row_ = area.row + at.row;
-                    composite_packet(brick, rays_.packets[p], shown, pixels[p]);
+                    composite_packet(brick, rays_.packets[p], pixels[p]);
                 }
             }
         }
@@ -67,8 +68,7 @@ class SlabBlender {
 
   private:
     HWY_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
-                                     const SampleSpan& shown, Pixel& pixel) {
-        if (!block_.set_slabs(rays, shown)) return;
+                                     Pixel& pixel) {
         const bool colored = !plan_.single_color && !opacity_only_;
         segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
                                : set_segments(slabs_, brick, rays, colored, block_);
@@ -97,9 +97,13 @@ class SlabBlender {
     template <class Body>
     HWY_INLINE void for_each_slab(const Body& body) const {
         if (behind_) {
-            for (int i = block_.from; i < block_.end; ++i) body(i);
+            for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
+                for (int i = first; i < end; ++i) body(i);
+            });
         } else {
-            for (int i = block_.end; i-- > block_.from;) body(i);
+            for_each_run_backwards(block_.wanted, [&](int first, int end) HWY_ATTR {
+                for (int i = end; i-- > first;) body(i);
+            });
         }
     }
 

@@ -14,7 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Slab i of a block is slab first_slab + i; slabs from .. end - 1 are wanted. A vector a slab.
+// Slab i of a block is slab first_slab + i; those `wanted` are computed run by run, slabs from ..
+// end - 1 at a time. A vector a slab.
 struct SlabBlock {
     static constexpr std::size_t size = tile_block_slabs * most_lanes;
     alignas(64) float edge_scalars[size + most_lanes];  // of pre-integration
@@ -27,13 +28,7 @@ struct SlabBlock {
     // Of codes, which are computed in double precision: optical depths.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
-
-    // The slabs among `shown`, all of the block, that a packet wants; false where there are none.
-    bool set_slabs(const PacketRays& rays, const SampleSpan& shown) {
-        from = std::max(rays.first_slab, shown.first) - first_slab;
-        end = std::min(rays.end_slab, shown.end()) - first_slab;
-        return from < end;
-    }
+    BlockMask wanted;
 };
 
 constexpr std::size_t at(int slab) {

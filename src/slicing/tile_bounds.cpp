@@ -2,55 +2,80 @@
 #include "slicing/tile_bounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 namespace lamina {
+namespace {
 
-TileBounds::TileBounds(const TileRays& rays, const TileBrickView& brick, int column, int row,
-                       int edge)
-    : margin_(brick.margin) {
-    const double left = column + 0.5 - rays.middle_column, top = row + 0.5 - rays.middle_row;
-    const glm::dvec3 middle = brick.origin_middle + brick.first;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        const double x = left + ((corner & 1) != 0 ? edge - 1 : 0);
-        const double y = top + ((corner & 2) != 0 ? edge - 1 : 0);
-        const glm::dvec3 origin = middle + x * rays.origin_column + y * rays.origin_row;
-        const glm::dvec3 direction =
-            rays.direction_middle + x * rays.direction_column + y * rays.direction_row;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            origin_[axis][corner] = origin[static_cast<int>(axis)];
-            direction_[axis][corner] = direction[static_cast<int>(axis)];
-        }
-    }
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// The depth at which a point that moves along an axis leaves the part between two places.
+double depth_of_exit(double place, double change, double min, double max) {
+    if (change > 0) return (max - place) / change;
+    return change < 0 ? (min - place) / change : never;
 }
 
-TileBounds::Box TileBounds::box_at(double depth) const {
-    Box box{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<double, 4> place{};
-        for (std::size_t corner = 0; corner < 4; ++corner)
-            place[corner] = origin_[axis][corner] + depth * direction_[axis][corner];
-        const auto [least, most] = std::ranges::minmax(place);
-        box.min[static_cast<int>(axis)] = least;
-        box.max[static_cast<int>(axis)] = most;
-    }
-    return box;
+// Slabs before `end` that lie in front of a depth as a whole.
+int slabs_before(double depth, double thickness, int first, int end) {
+    return static_cast<int>(std::clamp(std::floor(depth / thickness), static_cast<double>(first),
+                                       static_cast<double>(end)));
+}
+
+}  // namespace
+
+// Points of one depth are linear in column and row: all lie within the reach of the corners. Beyond
+// a pixel, origins and directions change alike, or directions not at all: so reach is linear too.
+TileBounds::TileBounds(const TileRays& rays, const TileBrickView& brick, int column, int row,
+                       int edge) {
+    const double half = 0.5 * (edge - 1);
+    const double x = column + 0.5 + half - rays.middle_column;
+    const double y = row + 0.5 + half - rays.middle_row;
+    middle_ = brick.origin_middle + brick.first + x * rays.origin_column + y * rays.origin_row;
+    middle_change_ = rays.direction_middle + x * rays.direction_column + y * rays.direction_row;
+    reach_ = half * (glm::abs(rays.origin_column) + glm::abs(rays.origin_row)) + brick.margin;
+    reach_change_ = half * (glm::abs(rays.direction_column) + glm::abs(rays.direction_row));
 }
 
 // Along a ray points are linear in depth: all lie between those at the front and at the back.
 bool TileBounds::shows(const TileSlabs& slabs, int first, int end) const {
-    const Box front = box_at(first * slabs.rays.slab_thickness);
-    const Box back = box_at(end * slabs.rays.slab_thickness);
-    return slabs.occupied->any_in(glm::min(front.min, back.min) - margin_,
-                                  glm::max(front.max, back.max) + margin_);
+    const double front = first * slabs.rays.slab_thickness;
+    const double back = end * slabs.rays.slab_thickness;
+    const glm::dvec3 near = middle_ + front * middle_change_, far = middle_ + back * middle_change_;
+    const glm::dvec3 reach = reach_ + back * reach_change_;
+    return slabs.occupied->any_in(glm::min(near, far) - reach, glm::max(near, far) + reach);
 }
 
-SampleSpan TileBounds::shown(const TileSlabs& slabs, int first, int end) const {
-    const int step = slabs.rays.tested_slabs;
-    while (first < end && !shows(slabs, first, std::min(first + step, end)))
-        first = std::min(first + step, end);
-    while (end - first > step && !shows(slabs, end - step, end)) end -= step;
-    return {first, end - first};
+TileBounds::Stretch TileBounds::next_stretch(const TileSlabs& slabs, int first, int end) const {
+    const double thickness = slabs.rays.slab_thickness;
+    const double front = first * thickness;
+    const glm::dvec3 middle = middle_ + front * middle_change_;
+    const glm::dvec3 reach = reach_ + front * reach_change_;
+    glm::dvec3 min, max;
+    const bool empty = slabs.occupied->empty_around(middle, min, max);
+    double exit = never;
+    if (!empty) {
+        for (int axis = 0; axis < 3; ++axis)
+            exit = std::min(
+                exit, depth_of_exit(middle_[axis], middle_change_[axis], min[axis], max[axis]));
+        return {slabs_before(exit, thickness, first + 1, end), true};
+    }
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        inside = inside && middle[axis] - reach[axis] >= min[axis] &&
+                 middle[axis] + reach[axis] <= max[axis];
+        exit = std::min(
+            {exit,
+             depth_of_exit(middle_[axis] - reach_[axis], middle_change_[axis] - reach_change_[axis],
+                           min[axis], never),
+             depth_of_exit(middle_[axis] + reach_[axis], middle_change_[axis] + reach_change_[axis],
+                           -never, max[axis])});
+    }
+    const int empty_end = inside ? slabs_before(exit, thickness, first, end) : first;
+    if (empty_end > first) return {empty_end, false};
+    const int tested_end = std::min(first + slabs.rays.tested_slabs, end);
+    return {tested_end, shows(slabs, first, tested_end)};
 }
 
 }  // namespace lamina

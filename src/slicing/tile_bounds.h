@@ -3,31 +3,40 @@
 
 #include <array>
 
-#include "compositing/tree_shape.h"
+#include "slicing/slab_mask.h"
 #include "slicing/tile_slabs.h"
 
 namespace lamina {
 
-// Where the rays of a square of pixels run, by those of its corners.
+// Where the rays of a square of pixels run: between two straight lines on each axis.
 class TileBounds {
   public:
+    TileBounds() = default;
     // `column`, `row`: of the first of edge x edge pixels.
     TileBounds(const TileRays& rays, const TileBrickView& brick, int column, int row, int edge);
 
-    // Slabs first .. end - 1 without those, at either end, in which no ray comes near an occupied
-    // brick. slabs.occupied must be set.
-    SampleSpan shown(const TileSlabs& slabs, int first, int end) const;
+    // Calls found(first, end) for runs of slabs among first .. end - 1, nearest first: in no other
+    // does a ray come near an occupied brick. slabs.occupied must be set.
+    template <class Found>
+    void for_each_shown(const TileSlabs& slabs, int first, int end, const Found& found) const {
+        while (first < end) {
+            const Stretch stretch = next_stretch(slabs, first, end);
+            if (stretch.shown) found(first, stretch.end);
+            first = stretch.end;
+        }
+    }
 
   private:
-    struct Box {
-        glm::dvec3 min, max;
+    struct Stretch {
+        int end;  // slab
+        bool shown;
     };
-    // At each depth, points are linear in column and row: all lie between the corners'.
-    Box box_at(double depth) const;
+    Stretch next_stretch(const TileSlabs& slabs, int first, int end) const;
     bool shows(const TileSlabs& slabs, int first, int end) const;
 
-    std::array<std::array<double, 4>, 3> origin_{}, direction_{};  // index space of the volume
-    double margin_;                                                // of points in float, in voxels
+    // Index space of the volume, by depth from the nearest slab's front on.
+    glm::dvec3 middle_{0}, middle_change_{0};
+    glm::dvec3 reach_{0}, reach_change_{0};  // from the middle, with what points may be wrong by
 };
 
 }  // namespace lamina

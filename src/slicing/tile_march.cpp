@@ -118,18 +118,24 @@ class Marcher {
     void march(const SampleSpan& leaf, NodeSum* sums) {
         LeafSum leaves[group_packets];
         for (LeafSum& sum : leaves) sum = {{all(0), all(0), all(0)}, all(0), all(1)};
+        bool opaque[group_packets] = {};
         for (const TileBrickView& brick : slabs_.bricks) {
             if (slabs_.bricks.size() > 1) rays_.set_pixels(slabs_.rays, brick, area_, group_);
-            rays_.set_slabs(slabs_.rays, leaf.first, leaf.end());
-            const int skipped = (rays_.first_slab - leaf.first) / tile_block_slabs;
-            block_.first_slab = leaf.first + skipped * tile_block_slabs;
-            for (; block_.first_slab < rays_.end_slab; block_.first_slab += tile_block_slabs) {
-                const SampleSpan shown = rays_.shown(slabs_, block_.first_slab);
+            rays_.set_slabs(slabs_, leaf.first, leaf.end());
+            const int blocks_end =
+                (rays_.end_slab - leaf.first + tile_block_slabs - 1) / tile_block_slabs;
+            for (int number = (rays_.first_slab - leaf.first) / tile_block_slabs;
+                 number < blocks_end; ++number) {
+                block_.first_slab = leaf.first + number * tile_block_slabs;
                 for (std::size_t p = 0; p < group_packets; ++p) {
-                    if (!block_.set_slabs(rays_.packets[p], shown)) continue;
+                    if (opaque[p]) continue;
+                    block_.wanted = rays_.wanted(slabs_, p, number);
+                    if (block_.wanted == 0) continue;
                     segments_ +=
                         set_segments(slabs_, brick, rays_.packets[p], !single_color_, block_);
+                    const LeafSum before = leaves[p];
                     add_block(leaves[p]);
+                    if (plan_.ends_early()) opaque[p] = end_rays(before, leaves[p]);
                 }
             }
         }
@@ -140,6 +146,24 @@ class Marcher {
         }
     }
 
+    // Takes back what a block added to rays that were opaque before: each pixel ends by itself,
+    // whatever its neighbours do. Whether all are opaque now.
+    HWY_INLINE bool end_rays(const LeafSum& before, LeafSum& leaf) const {
+        const DoubleTag d;
+        const auto opaque = hn::Set(d, plan_.opaque_depth);
+        const auto keep = [&](HalfDoubles depth, HalfDoubles then, HalfDoubles now)
+                              HWY_ATTR { return hn::IfThenElse(hn::Ge(depth, opaque), then, now); };
+        const auto keep_both = [&](const TwoDoubles& then, TwoDoubles& now) HWY_ATTR {
+            now = each_half<FloatTag>(keep, before.depth, then, now);
+        };
+        for (int channel = 0; channel < 3; ++channel)
+            keep_both(before.color[channel], leaf.color[channel]);
+        keep_both(before.transmittance, leaf.transmittance);
+        keep_both(before.depth, leaf.depth);
+        return hn::AllTrue(d, hn::Ge(leaf.depth.low, opaque)) &&
+               hn::AllTrue(d, hn::Ge(leaf.depth.high, opaque));
+    }
+
     static HWY_INLINE void add(TwoDoubles& sum, Floats v) {
         const auto plus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Add(a, b); };
         sum = each_half<FloatTag>(plus, sum, to_doubles(FloatTag(), v));
@@ -148,8 +172,10 @@ class Marcher {
     Floats block_depth() const {
         const FloatTag d;
         Floats depth = hn::Zero(d);
-        for (int i = block_.from; i < block_.end; ++i)
-            depth = hn::Add(depth, hn::Load(d, block_.depths + at(i)));
+        for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
+            for (int i = first; i < end; ++i)
+                depth = hn::Add(depth, hn::Load(d, block_.depths + at(i)));
+        });
         return depth;
     }
 
@@ -162,7 +188,7 @@ class Marcher {
         const DoubleTag dd;
         const Floats one = hn::Set(d, 1.0f);
         Floats red = hn::Zero(d), green = red, blue = red, opacity = red, sum = red;
-        for (int i = block_.from; i < block_.end; ++i) {
+        const auto put_slab_behind = [&](int i) HWY_ATTR {
             const Floats segment = hn::Load(d, block_.depths + at(i));
             const Floats weight = hn::Mul(hn::Sub(one, opacity), opacity_from_depth(d, segment));
             red = mul_add(weight, hn::Load(d, block_.colors[0] + at(i)), red);
@@ -170,7 +196,10 @@ class Marcher {
             blue = mul_add(weight, hn::Load(d, block_.colors[2] + at(i)), blue);
             opacity = hn::Add(opacity, weight);
             sum = hn::Add(sum, segment);
-        }
+        };
+        for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
+            for (int i = first; i < end; ++i) put_slab_behind(i);
+        });
         const auto behind = [](HalfDoubles transmittance, HalfDoubles part, HalfDoubles there)
                                 HWY_ATTR { return mul_add(transmittance, part, there); };
         const Floats parts[3] = {red, green, blue};

@@ -122,9 +122,9 @@ HWY_INLINE void classify_precisely(const TileTransfer& transfer, bool colored, b
     }
 }
 
-// Fills the block's precise depths and its colours; returns how many segments have a length.
-inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrickView& brick,
-                                         const PacketRays& rays, bool colored, SlabBlock& block) {
+// As set_run, with precise depths.
+inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView& brick,
+                                    const PacketRays& rays, bool colored, SlabBlock& block) {
     const FloatTag d;
     const SlicePlan& plan = *slabs.plan;
     const std::int64_t segments = set_precise_lengths(slabs.rays, rays, block);
@@ -152,6 +152,18 @@ inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrick
         } else {
             classify_precisely<lookup>(transfer, colored, plan.nan_transparent, block);
         }
+    });
+    return segments;
+}
+
+// As set_segments, with precise depths.
+inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrickView& brick,
+                                         const PacketRays& rays, bool colored, SlabBlock& block) {
+    std::int64_t segments = 0;
+    for_each_run(block.wanted, [&](int first, int end) {
+        block.from = first;
+        block.end = end;
+        segments += set_precise_run(slabs, brick, rays, colored, block);
     });
     return segments;
 }

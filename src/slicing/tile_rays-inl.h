@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "slicing/slab_mask.h"
 #include "slicing/tile_bounds.h"
 #include "slicing/tile_slabs.h"
 #include "tiles/arithmetic-inl.h"
@@ -160,7 +160,8 @@ HWY_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& 
 // Pixels that go through the volume side by side, so that what they fetch stays in the cache: a
 // square of 2 x 2 blocks.
 constexpr std::size_t group_blocks = 4;
-constexpr std::size_t group_packets = group_blocks * most_lanes / hn::MaxLanes(FloatTag());
+constexpr std::size_t block_packets = most_lanes / hn::MaxLanes(FloatTag());
+constexpr std::size_t group_packets = group_blocks * block_packets;
 constexpr std::size_t tile_groups = TileGrid::pixels / (group_blocks * most_lanes);
 
 // Where a tile keeps the first pixel of one of a group's packets.
@@ -178,37 +179,61 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 // The rays of a group through one brick. Packets outside the image want no slabs.
 struct GroupRays {
     PacketRays packets[group_packets];
-    std::optional<TileBounds> bounds;
-    int first_slab, end_slab;  // of all of them
+    TileBounds bounds, block_bounds[group_blocks];
+    SlabMask shown[group_blocks];      // of slabs from `origin` on, where not all are
+    int origin, first_slab, end_slab;  // of all packets
 
     HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
                                const TileGrid::Tile& area, std::size_t group) {
-        const TileGrid::Place corner = TileGrid::pixel_at(static_cast<int>(packet_place(group, 0)));
-        bounds.emplace(frame, brick, area.column + corner.column, area.row + corner.row,
-                       2 * TileGrid::block);
+        constexpr int edge = TileGrid::block;
+        const auto bounds_of = [&](std::size_t packet, int pixels) {
+            const TileGrid::Place at =
+                TileGrid::pixel_at(static_cast<int>(packet_place(group, packet)));
+            return TileBounds(frame, brick, area.column + at.column, area.row + at.row, pixels);
+        };
+        bounds = bounds_of(0, 2 * edge);
+        for (std::size_t i = 0; i < group_blocks; ++i)
+            block_bounds[i] = bounds_of(i * block_packets, edge);
         for (std::size_t p = 0; p < group_packets; ++p) {
             const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
             packets[p] = packet_rays(frame, brick, area.column + at.column, area.row + at.row);
         }
     }
 
-    HWY_INLINE void set_slabs(const TileRays& frame, int first, int end) {
+    // Of slabs first .. end - 1.
+    HWY_INLINE void set_slabs(const TileSlabs& slabs, int first, int end) {
+        origin = first;
         first_slab = end;
         end_slab = first;
         for (PacketRays& rays : packets) {
-            set_span(frame, first, end, rays);
+            set_span(slabs.rays, first, end, rays);
             if (rays.first_slab >= rays.end_slab) continue;
             first_slab = std::min(first_slab, rays.first_slab);
             end_slab = std::max(end_slab, rays.end_slab);
         }
+        if (slabs.occupied != nullptr) find_shown(slabs);
     }
 
-    // The slabs of a block that may show something.
-    SampleSpan shown(const TileSlabs& slabs, int block_first) const {
-        const int first = std::max(first_slab, block_first);
-        const int end = std::min(end_slab, block_first + tile_block_slabs);
-        if (slabs.occupied == nullptr) return {first, end - first};
-        return bounds->shown(slabs, first, end);
+    // First by all of the group, then block by block where that shows something.
+    void find_shown(const TileSlabs& slabs) {
+        for (SlabMask& mask : shown) mask.clear(end_slab - origin);
+        bounds.for_each_shown(slabs, first_slab, end_slab, [&](int first, int end) {
+            for (std::size_t i = 0; i < group_blocks; ++i) {
+                block_bounds[i].for_each_shown(slabs, first, end, [&](int from, int to) {
+                    shown[i].set(from - origin, to - origin);
+                });
+            }
+        });
+    }
+
+    // The slabs of block `number` from `origin` on that a packet wants and that may show something.
+    BlockMask wanted(const TileSlabs& slabs, std::size_t packet, int number) const {
+        const int begin = origin + number * tile_block_slabs;
+        const PacketRays& rays = packets[packet];
+        const BlockMask all = block_mask(std::max(rays.first_slab - begin, 0),
+                                         std::min(rays.end_slab - begin, tile_block_slabs));
+        if (slabs.occupied == nullptr) return all;
+        return all & shown[packet / block_packets].block(number);
     }
 };
 

@@ -160,10 +160,9 @@ HWY_INLINE void set_constant(const TileSlabs& slabs, SlabBlock& block) {
     }
 }
 
-// Fills the block's depths and colours for its slabs from .. end - 1; returns how many segments
-// have a length.
-inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,
-                                 const PacketRays& packet, bool colored, SlabBlock& block) {
+// Depths and colours of slabs from .. end - 1; returns how many segments have a length.
+inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
+                            const PacketRays& packet, bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
     const BlockRays rays = block_rays(packet, block.first_slab * slabs.rays.slab_thickness);
     const bool sampled = plan.sampling != VolumeSampling::none;
@@ -182,6 +181,19 @@ inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& br
         } else {
             classify<lookup>(transfer, colored, plan.nan_transparent, block);
         }
+    });
+    return segments;
+}
+
+// Fills the depths and colours of the slabs that are wanted; returns how many segments have a
+// length.
+inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,
+                                 const PacketRays& packet, bool colored, SlabBlock& block) {
+    std::int64_t segments = 0;
+    for_each_run(block.wanted, [&](int first, int end) {
+        block.from = first;
+        block.end = end;
+        segments += set_run(slabs, brick, packet, colored, block);
     });
     return segments;
 }

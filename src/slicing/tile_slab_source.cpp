@@ -115,7 +115,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
 }
 
 std::int64_t TileSlabSource::byte_count() const {
-    return static_cast<std::int64_t>(occupied_.shown.size()) +
+    return static_cast<std::int64_t>(occupied_.distance.size()) +
            (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
 }
 

@@ -13,26 +13,34 @@ namespace {
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// Minimum and maximum in the samples' own type.
+// Minima and maxima in the samples' own type; lo > hi where there is nothing finite.
 template <typename T>
 struct Extrema {
-    T lo = std::numeric_limits<T>::max();
-    T hi = std::numeric_limits<T>::lowest();
+    explicit Extrema(std::size_t count)
+        : lo(count, std::numeric_limits<T>::max()), hi(count, std::numeric_limits<T>::lowest()) {}
 
-    void include(const T* samples, std::int64_t count) {
-        for (std::int64_t i = 0; i < count; ++i) {
+    // Of each place of some lines, into element 0 .. size - 1: vectors of them at a time.
+    void include(const T* line) {
+        for (std::size_t i = 0; i < lo.size(); ++i) {
+            T low = line[i], high = line[i];
             if constexpr (std::is_floating_point_v<T>) {
-                if (!std::isfinite(samples[i])) continue;
+                const bool finite = std::abs(low) <= std::numeric_limits<T>::max();
+                low = finite ? low : std::numeric_limits<T>::max();
+                high = finite ? high : std::numeric_limits<T>::lowest();
             }
-            lo = std::min(lo, samples[i]);
-            hi = std::max(hi, samples[i]);
+            lo[i] = low < lo[i] ? low : lo[i];
+            hi[i] = high > hi[i] ? high : hi[i];
         }
     }
 
-    ValueRange range() const {
-        if (lo > hi) return {};
-        return {static_cast<double>(lo), static_cast<double>(hi)};
+    MinMaxBricks::Range range(std::int64_t first, std::int64_t count) const {
+        const T least = *std::min_element(lo.begin() + first, lo.begin() + first + count);
+        const T most = *std::max_element(hi.begin() + first, hi.begin() + first + count);
+        if (least > most) return {};
+        return {static_cast<float>(least), static_cast<float>(most)};
     }
+
+    std::vector<T> lo, hi;
 };
 
 template <typename T>
@@ -58,21 +66,19 @@ std::int64_t measure_row(const Grid& grid, const T* samples, std::int64_t by, st
     const std::int64_t z_end = std::min(nz, (bz + 1) * edge + 1);
     const std::int64_t owned_y_end = by + 1 == bricks.count[1] ? ny : (by + 1) * edge;
     const std::int64_t owned_z_end = bz + 1 == bricks.count[2] ? nz : (bz + 1) * edge;
-    std::vector<Extrema<T>> row(static_cast<std::size_t>(bricks.count[0]));
+    Extrema<T> row(static_cast<std::size_t>(nx));
     std::int64_t non_finite = 0;
     for (std::int64_t z = bz * edge; z < z_end; ++z) {
         for (std::int64_t y = by * edge; y < y_end; ++y) {
             const T* const line = samples + (z * ny + y) * nx;
-            for (std::int64_t bx = 0; bx < bricks.count[0]; ++bx) {
-                row[static_cast<std::size_t>(bx)].include(line + bx * edge,
-                                                          std::min(edge + 1, nx - bx * edge));
-            }
+            row.include(line);
             if (y < owned_y_end && z < owned_z_end) non_finite += count_non_finite(line, nx);
         }
     }
-    ValueRange* const out =
+    MinMaxBricks::Range* const out =
         &bricks.ranges[static_cast<std::size_t>((bz * bricks.count[1] + by) * bricks.count[0])];
-    std::transform(row.begin(), row.end(), out, [](const Extrema<T>& e) { return e.range(); });
+    for (std::int64_t bx = 0; bx < bricks.count[0]; ++bx)
+        out[bx] = row.range(bx * edge, std::min(edge + 1, nx - bx * edge));
     return non_finite;
 }
 
@@ -93,13 +99,13 @@ MinMaxBricks measure_bricks(const Volume& volume) {
     const std::int64_t rows = bricks.count[1] * bricks.count[2];
     std::vector<std::int64_t> non_finite(static_cast<std::size_t>(rows));
     volume.visit([&](const auto* samples) {
-        parallel_for(rows, 1, [&](std::int64_t row) {
+        parallel_for(rows, 16, [&](std::int64_t row) {
             non_finite[static_cast<std::size_t>(row)] = measure_row(
                 volume.grid(), samples, row % bricks.count[1], row / bricks.count[1], bricks);
         });
     });
     for (const std::int64_t count : non_finite) bricks.non_finite += count;
-    for (const ValueRange& range : bricks.ranges) include(bricks.whole, range);
+    for (const MinMaxBricks::Range& range : bricks.ranges) include(bricks.whole, range);
     return bricks;
 }
 

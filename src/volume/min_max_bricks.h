@@ -18,16 +18,23 @@ struct ValueRange {
 
 // The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation
 // inside the brick can touch (its own samples and the next one along each axis), so neighbours
-// share their border samples.
+// share their border samples. Takes an eighth of the memory of a volume of bytes.
 struct MinMaxBricks {
-    static constexpr std::int64_t edge = 16;
+    static constexpr std::int64_t edge = 4;
+
+    // A ValueRange: float32 holds every sample type exactly.
+    struct Range {
+        float lo = 1;
+        float hi = 0;
+        operator ValueRange() const { return {lo, hi}; }
+    };
 
     std::array<std::int64_t, 3> count{0, 0, 0};  // bricks along each axis
-    std::vector<ValueRange> ranges;              // x fastest
+    std::vector<Range> ranges;                   // x fastest
     ValueRange whole;
     std::int64_t non_finite = 0;  // NaN and infinite samples in the volume
 
-    const ValueRange& at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    ValueRange at(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return ranges[static_cast<std::size_t>((z * count[1] + y) * count[0] + x)];
     }
 };

@@ -51,7 +51,7 @@ TEST(Facts, TransferFunctionIsJudgedOverTheVolumesRangeOnly) {
     EXPECT_EQ(facts.occupied_share, 1);
 }
 
-// A step in x: bricks 0, 1 of three have what is seen from .5 on, at their common border sample.
+// A sheet in x, on the common border of bricks 3 and 4 of twelve: both show it.
 TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
     const Volume volume =
         test::volume_of<float>(test::grid_of({49, 17, 33}, Centering::node),
@@ -61,12 +61,15 @@ TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
         TransferFunction::linear({test::knot(.5, {1, 1, 1}, 0), test::knot(1, {1, 1, 1}, 1)});
     const Facts facts = measure(scene, volume, measure_bricks(volume));
     const OccupiedBricks& bricks = facts.occupied_bricks;
-    EXPECT_EQ(bricks.count, (std::array<std::int64_t, 3>{3, 1, 2}));
-    EXPECT_EQ(bricks.shown, (std::vector<std::uint8_t>{1, 1, 0, 1, 1, 0}));
-    EXPECT_DOUBLE_EQ(facts.occupied_share, 2. / 3);
-    EXPECT_TRUE(bricks.any_in({31.9, 3, 40}, {70, 3, 40}));
-    EXPECT_FALSE(bricks.any_in({32, -2, 0}, {70, 20, 40}));
-    EXPECT_TRUE(bricks.any_in({-7, -2, 0}, {-6, 20, 40}));
+    EXPECT_EQ(bricks.count, (std::array<std::int64_t, 3>{12, 4, 8}));
+    for (std::int64_t x = 0; x < 12; ++x)
+        EXPECT_EQ(bricks.distance_at(x, x % 4, x % 8), x < 4 ? 3 - x : x - 4) << x;
+    EXPECT_DOUBLE_EQ(facts.occupied_share, 2. / 12);
+    EXPECT_EQ(facts.occupied.min.x, 12);
+    EXPECT_EQ(facts.occupied.max.x, 20);
+    EXPECT_TRUE(bricks.any_in({19.9, 3, 40}, {70, 3, 40}));
+    EXPECT_FALSE(bricks.any_in({20, -2, 0}, {70, 20, 40}));
+    EXPECT_TRUE(bricks.any_in({-7, -2, 0}, {12.1, 20, 40}));
 }
 
 // In float32 codes of 16 bits, from 32768 on, are good to 2^-24 of them, .002 each rounding.

@@ -140,6 +140,11 @@ std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
                     plans.back().tree =
                         TreePlan{.factors = {4}, .code = code, .alpha_bits = alpha_bits};
                     plans.back().bricks.resize(static_cast<std::size_t>(bricks));
+                    for (const bool ends_early : {false, true}) {
+                        plans.push_back(plans.back());
+                        plans.back().occupied_only = true;
+                        if (ends_early) plans.back().opaque_depth = 9;
+                    }
                 }
             }
         }
@@ -171,6 +176,9 @@ void add_nodes(Specialisations& all) {
     for (SlicePlan plan : every_segment_plan()) {
         plan.tree = TreePlan{.factors = {4}};
         for (const int intervals : {1, 6}) add_leaf(plan, intervals, NodePlace::inner);
+        plan.occupied_only = true;
+        plan.opaque_depth = 9;
+        add_leaf(plan, 6, NodePlace::inner);
     }
     for (const SlicePlan& segments : two_segment_plans()) {
         for (const SlicePlan& plan : every_node_plan(segments)) {
@@ -202,7 +210,7 @@ TEST_F(SlicingTest, EverySlabShaderCompiles) {
 TEST_F(SlicingTest, EveryNodeShaderCompiles) {
     Specialisations all;
     add_nodes(all);
-    EXPECT_GE(all.size(), 250u);
+    EXPECT_GE(all.size(), 450u);
     expect_to_compile(all, capabilities().framebuffer_fetch);
 }
 

@@ -24,6 +24,12 @@ inline OmissionSwitch leave_nothing_out() {
     return omissions;
 }
 
+inline OmissionSwitch keep(const std::string& name) {
+    OmissionSwitch omissions;
+    omissions.kept = {name};
+    return omissions;
+}
+
 inline Image render(const Volume& volume, const Scene& scene, const Capabilities& capabilities,
                     const OmissionSwitch& omissions = {}) {
     const Facts facts = measure(scene, volume, measure_bricks(volume));

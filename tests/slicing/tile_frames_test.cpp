@@ -25,6 +25,10 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
     std::vector<Case> all{{"post", scene, {}}, {"blended", scene, leave_nothing_out()}};
     scene.slice.classification = Classification::preintegrated;
     all.push_back({"preintegrated", scene, {}});
+    scene.transfer_function =
+        TransferFunction::linear({knot(seen_from, {.3, .6, .9}, 0), knot(1, {.9, .6, .1}, 900)});
+    all.push_back({"opaque", scene, {}});  // rays end early
+    scene.transfer_function = colored;
     for (const Target target : {Target::float16, Target::fixed8, Target::emulated}) {
         scene.target = target;
         scene.emulate = {10, AlphaRounding::stochastic, OverRounding::fused, 3};
@@ -158,28 +162,6 @@ TEST(TileFramesTest, EmptySpaceIsSkippedInEveryView) {
                 << trial << " " << slabs;
         }
     }
-}
-
-// A segment from scalars below what can be seen to scalars above it shows what lies between, though
-// where NaN parts the two no brick does.
-TEST(TileFramesTest, PreintegratedSegmentsAcrossNanAreNotSkipped) {
-    const Volume volume = test::volume_of<float>(
-        reference_test::make_grid({129, 17, 17}, Centering::node, glm::dvec3(1. / 128)),
-        [](double i, double, double) {
-            return i > 100 ? .5f : i > 32 ? 1.f : i < 32 ? 0.f : std::nanf("");
-        });
-    const OpticalProperties nothing{{1, 1, 1}, 0}, something{{1, 1, 1}, 9};
-    Scene scene =
-        unit_box_scene(TransferFunction::linear({{.3, nothing}, {.5, something}, {.7, nothing}}),
-                       Projection::orthographic);
-    scene.nan = NanPolicy::transparent;
-    const auto skips = [&](Classification classification) {
-        scene.slice.classification = classification;
-        const Facts facts = measure(scene, volume, measure_bricks(volume));
-        return make_plan(scene, facts, tile_capabilities(), {}).slice.occupied_only;
-    };
-    EXPECT_TRUE(skips(Classification::post));
-    EXPECT_FALSE(skips(Classification::preintegrated));
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ class TileTreeTest : public SlicingTest {
 // tree_test.cpp
 TEST_F(TileTreeTest, FloatNodesAreStraightCompositing) {
     for (const int samples : {1000, 1021, 1024}) {
-        const Image straight = render_tiles(volume_, scene_of(samples, Target::float32, {}));
+        const Image straight = render_tiles(volume_, scene_of(samples, Target::float32, {}),
+                                            keep("early_termination"));
         for (const std::vector<int>& factors :
              {std::vector<int>{32, 32}, {7, 3, 5}, {1}, {2, 2, 2, 2, 2, 2, 2, 2, 2, 2}}) {
             EXPECT_LE(

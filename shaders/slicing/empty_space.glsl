@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a ray comes near something that is seen, by the distances of bricks of the volume to the nearest that shows
+// something (scene/occupied_bricks.h).
+uniform sampler3D distances;    // over 255
+uniform float brick_edge;       // cells
+uniform vec3 first_sample;      // of the texture brick, in the volume
+uniform vec3 last_distance;     // number of bricks less one
+
+// A ray in bricks of the volume, by depth from where it enters the box on.
+struct BrickRay {
+    vec3 start;
+    vec3 change;
+    vec3 inverse;   // 1 / change
+    float margin;   // points may be wrong by so much
+    REAL entry;     // depth
+};
+
+BrickRay brick_ray(Ray ray, REAL entry) {
+    BrickRay bricks;
+    vec3 change = vec3(ray.direction) / brick_edge;
+    bricks.start = (point_at(ray, entry) + first_sample) / brick_edge;
+    bricks.change = mix(change, vec3(1e-20), lessThan(abs(change), vec3(1e-20)));
+    bricks.inverse = 1.0 / bricks.change;
+    // Of a voxel .01, and 16 roundings of float where its rays begin far from the box.
+    vec3 size = abs(vec3(ray.origin)) / brick_edge + last_distance + 1.0;
+    bricks.margin = 0.01 / brick_edge + 1e-6 * max(size.x, max(size.y, size.z));
+    bricks.entry = entry;
+    return bricks;
+}
+
+struct Stretch {
+    float end;   // the slab after it
+    bool shown;
+};
+
+// Slabs from number `slab` on that show nothing, or that may show something: then it ends where it should be asked again.
+Stretch next_stretch(BrickRay ray, float slab) {
+    float depth = float(REAL(slab) * slab_thickness - ray.entry);
+    vec3 place = ray.start + depth * ray.change;
+    vec3 brick = floor(clamp(place, vec3(0.0), last_distance));
+    float to_shown = floor(texelFetch(distances, ivec3(brick), 0).r * 255.0 + 0.5);
+    float reach = max(to_shown, 1.0);
+    vec3 ahead = vec3(reach - ray.margin), behind = vec3(1.0 - reach + ray.margin);
+    vec3 leave = (brick + mix(behind, ahead, greaterThan(ray.change, vec3(0.0))) - place) * ray.inverse;
+    // Where a side lies closer than the margin the point is not known to be between the sides.
+    bool between = all(greaterThanEqual(place - brick, behind)) && all(lessThanEqual(place - brick, ahead));
+    float exit = float(ray.entry) + depth + min(leave.x, min(leave.y, leave.z));
+    float end = floor(exit / float(slab_thickness));
+    bool empty = to_shown > 0.0 && between && end > slab;
+    return Stretch(empty ? end : to_shown > 0.0 ? slab + 1.0 : max(end, slab + 1.0), !empty);
+}
