@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Volumes of bytes, shorts or floats from NRRD files with the data in them, as lamina places them in the world."""
+import gzip
+
+import numpy
+
+TYPES = {"uint8": "u1", "uchar": "u1", "unsigned char": "u1", "uint16": "<u2", "ushort": "<u2", "int16": "<i2",
+         "short": "<i2", "float": "<f4"}
+
+
+def read(path):
+    """Samples (x fastest, flat), sizes and spacings."""
+    header, _, data = path.read_bytes().partition(b"\n\n")
+    fields = dict(line.split(": ", 1) for line in header.decode("ascii", "replace").splitlines()
+                  if ": " in line and not line.startswith("#"))
+    if fields.get("type") not in TYPES or "data file" in fields or "space directions" in fields \
+            or fields.get("encoding") not in ("raw", "gzip", "gz") or fields.get("endian", "little") != "little":
+        raise SystemExit(f"bench: {path}: expected an attached NRRD of {', '.join(TYPES)}, little endian, raw or gzip, "
+                         "with spacings")
+    if fields["encoding"] != "raw":
+        data = gzip.decompress(data)
+    sizes = [int(size) for size in fields["sizes"].split()]
+    spacings = [float(spacing) for spacing in fields.get("spacings", "1 1 1").split()]
+    return numpy.frombuffer(data, TYPES[fields["type"]]), sizes, spacings

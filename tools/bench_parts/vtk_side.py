@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""VTK's mappers on a scene of lamina's: same camera, same transfer function, black background, no shading.
+
+A frame runs from the camera's change to glFinish; no files, no read-back. Frames are timed as VTK draws them, into 8
+bits. For its errors the same picture is drawn once more into a float32 target that takes the place of the window's
+colour buffer, so that rounding to 8 bits is not counted against VTK (its own intermediate roundings are).
+"""
+import math
+import statistics
+import time
+
+import numpy
+import vtk
+from vtk.util import numpy_support
+
+from bench_parts import nrrd
+
+DEGREES_PER_FRAME = 0.1  # as `lamina render --frames`
+STEPS = 64  # opacity points between two points of the scene
+GL_RGBA, GL_RGBA32F, GL_FLOAT = 0x1908, 0x8814, 0x1406
+
+
+def extinction_of(point, unit_length):
+    return point.get("extinction", -math.log1p(-min(point.get("opacity", 0), 1 - 1e-9)) / unit_length)
+
+
+def make_property(scene):
+    """VTK is linear in opacity between points and a scene in extinction: opacities are resampled. The unit distance is
+    such that the largest is 0.95."""
+    function = scene.json["transfer_function"]
+    if function.get("interpolation") == "nearest" or "points" not in function:
+        raise SystemExit(f"bench: {scene.path}: transfer_function: expected points and linear interpolation")
+    points = [(p["value"], p["color"], extinction_of(p, function.get("unit_length", 1))) for p in function["points"]]
+    color, opacity, result = vtk.vtkColorTransferFunction(), vtk.vtkPiecewiseFunction(), vtk.vtkVolumeProperty()
+    color.AllowDuplicateScalarsOn()  # steps
+    opacity.AllowDuplicateScalarsOn()
+    unit = 3 / (max(extinction for _, _, extinction in points) or 3)
+    for (x0, _, e0), (x1, _, e1) in zip(points, points[1:] + points[-1:]):
+        for t in [i / STEPS for i in range(STEPS if x1 > x0 else 1)]:
+            opacity.AddPoint(x0 + t * (x1 - x0), -math.expm1(-unit * (e0 + t * (e1 - e0))))
+    for value, rgb, _ in points:
+        color.AddRGBPoint(value, *rgb)
+    result.SetColor(color)
+    result.SetScalarOpacity(opacity)
+    result.SetScalarOpacityUnitDistance(unit)
+    result.SetInterpolationTypeToLinear()
+    return result
+
+
+class Window:
+    """A scene's volume or mesh in a window of VTK's."""
+
+    def __init__(self, scene, mapper, size):
+        self.scene, self.mapper, self.size = scene, mapper, size
+        volume = vtk.vtkVolume()  # a plain volume: no level of detail
+        volume.SetMapper(mapper)
+        volume.SetProperty(make_property(scene))
+        self.renderer, self.window = vtk.vtkRenderer(), vtk.vtkRenderWindow()
+        self.renderer.AddVolume(volume)
+        self.renderer.SetBackground(0, 0, 0)
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(*size)
+        self.window.AddRenderer(self.renderer)
+        self.frame_ms(0)  # opens the window
+        self.gl = self.window.ReportCapabilities().partition("renderer string:")[2].partition("\n")[0].strip()
+
+    def set_camera(self, degrees):
+        """The scene's camera, its eye turned about `up` through the centre."""
+        wanted, turn = self.scene.json["camera"], vtk.vtkTransform()
+        turn.Translate(wanted["center"])
+        turn.RotateWXYZ(degrees, wanted["up"])
+        turn.Translate([-x for x in wanted["center"]])
+        camera = self.renderer.GetActiveCamera()
+        camera.SetPosition(turn.TransformPoint(wanted["eye"]))
+        camera.SetFocalPoint(wanted["center"])
+        camera.SetViewUp(wanted["up"])
+        if wanted.get("projection") == "orthographic":
+            camera.ParallelProjectionOn()
+            camera.SetParallelScale(wanted["height"] / 2)
+        else:
+            camera.SetViewAngle(wanted["fov_y"])
+        self.renderer.ResetCameraClippingRange()  # VTK drops whole tets that cross the near plane
+
+    def frame_ms(self, degrees):
+        start = time.perf_counter()
+        self.set_camera(degrees)
+        self.window.Render()
+        self.window.WaitForCompletion()  # glFinish
+        return (time.perf_counter() - start) * 1e3
+
+    def median_ms(self, frames):
+        """Of this many frames after one to warm up."""
+        return statistics.median([self.frame_ms(DEGREES_PER_FRAME * i) for i in range(frames + 1)][1:])
+
+    def write_picture(self, path):
+        """The scene's own frame as .npy: linear associated R, G, B (over black) in float32."""
+        width, height = self.size
+        target = vtk.vtkTextureObject()
+        target.SetContext(self.window)
+        target.SetInternalFormat(GL_RGBA32F)
+        target.SetFormat(GL_RGBA)
+        target.SetDataType(GL_FLOAT)
+        target.Allocate2D(width, height, 4, vtk.VTK_FLOAT)
+        framebuffer = self.window.GetRenderFramebuffer()
+        eight_bits = framebuffer.GetColorAttachmentAsTextureObject(0)
+        framebuffer.Bind()
+        framebuffer.AddColorAttachment(0, target)
+        self.frame_ms(0)
+        pixels = vtk.vtkFloatArray()
+        self.window.GetRGBAPixelData(0, 0, width - 1, height - 1, 0, pixels)
+        framebuffer.Bind()
+        framebuffer.AddColorAttachment(0, eight_bits)
+        rgb = numpy_support.vtk_to_numpy(pixels).reshape(height, width, 4)[::-1, :, :3]
+        if numpy.abs(rgb * 255 - numpy.round(rgb * 255)).max() < 1e-3:
+            raise SystemExit("bench: VTK's picture came in 8 bits, expected float32")
+        numpy.save(path, numpy.ascontiguousarray(rgb))
+
+    def close(self):
+        self.window.Finalize()
+
+
+def volume_window(scene, size, steps_a_voxel):
+    """The GPU ray caster, at its default of one sample a unit (a voxel, where the spacing is 1) for steps_a_voxel 1."""
+    samples, sizes, spacings = nrrd.read(scene.data_file())
+    image, mapper = vtk.vtkImageData(), vtk.vtkOpenGLGPUVolumeRayCastMapper()
+    image.SetDimensions(sizes)
+    image.SetSpacing(spacings)
+    image.GetPointData().SetScalars(numpy_support.numpy_to_vtk(samples, deep=True))
+    mapper.SetInputData(image)
+    mapper.AutoAdjustSampleDistancesOff()  # else it may draw fewer pixels
+    mapper.SetSampleDistance(min(spacings) / steps_a_voxel)
+    return Window(scene, mapper, size)
+
+
+def mesh_window(scene, size):
+    """Projected tetrahedra: sorted by cell centres, classified at the vertices, interpolated without perspective."""
+    path = scene.data_file()
+    if path.suffix not in (".vtu", ".vtk"):
+        raise SystemExit(f"bench: {scene.path}: mesh: expected a .vtu or .vtk file, which VTK can read")
+    reader = vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    name = scene.json.get("scalar", grid.GetPointData().GetArrayName(0))
+    if not name or not grid.GetPointData().HasArray(name):
+        raise SystemExit(f"bench: {path}: no point array {name!r}")
+    if not grid.GetNumberOfCells() or not grid.IsHomogeneous() or grid.GetCellType(0) != vtk.VTK_TETRA:
+        raise SystemExit(f"bench: {path}: expected tetrahedra only: VTK's mapper draws no other cells")
+    mapper = vtk.vtkProjectedTetrahedraMapper()
+    mapper.SetInputData(grid)
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectScalarArray(name)
+    return Window(scene, mapper, size)
