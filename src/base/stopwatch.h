@@ -2,17 +2,23 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 namespace lamina {
 
 class Stopwatch {
   public:
-    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double seconds() const { return 1e-9 * static_cast<double>(now() - start_ns_); }
     double milliseconds() const { return 1e3 * seconds(); }
 
+    // Of the clock that is measured with: nanoseconds since some moment.
+    static std::int64_t now() {
+        using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::steady_clock;
+        return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+    }
+
   private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point start_ = Clock::now();
+    std::int64_t start_ns_ = now();
 };
 
 }  // namespace lamina

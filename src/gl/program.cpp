@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "base/error.h"
+#include "base/stage.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -77,6 +78,7 @@ Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
     : handle_(glCreateProgram()),
       names_(vertex.name + " + " + fragment.name),
       source_(vertex.text + fragment.text) {
+    const Stage compiling("compile");
     const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
     const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
     glAttachShader(id(), vertex_shader.id());

@@ -9,7 +9,7 @@ namespace lamina::gl {
 namespace {
 
 GLenum target_of(Query::Kind kind) {
-    return kind == Query::Kind::samples_passed ? GL_SAMPLES_PASSED : GL_TIME_ELAPSED;
+    return kind == Query::Kind::samples_passed ? GL_SAMPLES_PASSED : GL_TIMESTAMP;
 }
 
 unsigned new_query(Query::Kind kind) {
@@ -30,6 +30,10 @@ void Query::begin() {
 
 void Query::end() {
     glEndQuery(target_of(kind_));
+}
+
+void Query::stamp() {
+    glQueryCounter(handle_.id(), GL_TIMESTAMP);
 }
 
 std::uint64_t Query::result() const {

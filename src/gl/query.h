@@ -7,17 +7,18 @@
 
 namespace lamina::gl {
 
-// Counts what the draws between begin() and end() do. Two queries of the same kind must not
-// overlap.
+// Counts what the draws between begin() and end() do; two queries of the same kind must not
+// overlap. A timestamp has no span: stamp() asks when all that was submitted before is done.
 class Query {
   public:
-    enum class Kind { samples_passed, nanoseconds };
+    enum class Kind { samples_passed, timestamp };
 
     explicit Query(Kind kind);
 
     void begin();
     void end();
-    std::uint64_t result() const;  // waits for the draws
+    void stamp();
+    std::uint64_t result() const;  // waits for the draws; nanoseconds of OpenGL's clock
 
   private:
     Kind kind_;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/stage.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/view_distance.h"
 
@@ -37,6 +38,7 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
     std::iota(order_.begin(), order_.end(), 0);
     if (method == OrderMethod::centroid) distances_.resize(order_.size());
     if (method != OrderMethod::mpvo && method != OrderMethod::exact) return;
+    const Stage building("order graph");
     const Convexity shape = convexity(mesh);
     graph_ = std::make_unique<OrderGraph>(
         mesh, method == OrderMethod::exact && shape != Convexity::exact);

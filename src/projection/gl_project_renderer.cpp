@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
@@ -87,8 +87,10 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
         const auto kind = static_cast<FragmentKind>(i);
         if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));
     }
+    Stage cutting("visible parts");
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
+    cutting.end();
     if (parts_->count() == 0) return;
     const auto parts = static_cast<std::size_t>(parts_->count());
     if (is_fan(plan_)) {
@@ -128,22 +130,30 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = draw_ms_ = 0;
     tets_drawn_ = 0;
     if (!stream_) return;
-    const Stopwatch order_watch;
+    Stage ordering("order");
     const auto parts = list_parts(view);
-    order_ms_ = order_watch.milliseconds();
-    const Stopwatch draw_watch;
+    order_ms_ = ordering.end();
+    Stage drawing("draw");
     for (auto& program : programs_) {
         if (program) set_view(*program, view);
     }
     draw_parts(parts, view, progress);
+    Stage finishing("finish");
     glFinish();
-    draw_ms_ = draw_watch.milliseconds();
+    finishing.end();
+    drawing.count("tets", static_cast<double>(tets_drawn_));
+    draw_ms_ = drawing.end();
+    stream_->end_frame();
 }
 
 std::span<const TetPart> GlProjectRenderer::list_parts(const View& view) {
     const Eye eye = eye_of(view);
-    if (!plan_.scattered) return parts_->list(order_.sort(eye), eye);
-    return parts_->scattered(parts_->is_scattered() ? order_.order() : order_.sort(eye), eye);
+    if (plan_.scattered && parts_->is_scattered()) return parts_->scattered(order_.order(), eye);
+    Stage sorting("sort");
+    const auto order = order_.sort(eye);
+    sorting.end();
+    const Stage listing("parts");
+    return plan_.scattered ? parts_->scattered(order, eye) : parts_->list(order, eye);
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {

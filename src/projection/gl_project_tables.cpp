@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
@@ -44,7 +44,7 @@ std::vector<Code> to_codes(const std::vector<float>& texels) {
 
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
     : plan_(plan) {
-    const Stopwatch watch;
+    Stage stage("tables");
     single_color_ = glm::vec3(first_color(transfer_function, plan.range.lo, plan.range.hi));
     switch (plan.source) {
         case SegmentSource::constant:
@@ -67,7 +67,7 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
         default:
             break;
     }
-    build_ms_ = watch.milliseconds();
+    build_ms_ = stage.end();
 }
 
 void GlProjectTables::upload_front_weights() {

@@ -7,7 +7,7 @@
 
 #include "base/interrupt.h"
 #include "base/parallel.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "gl/check.h"
 
 namespace lamina {
@@ -72,16 +72,21 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
     for (std::size_t first = 0; first < parts.size(); first += batch_parts_) {
         const auto batch_parts = parts.subspan(first, std::min(batch_parts_, parts.size() - first));
         Batch& batch = batches_[next_batch_++ % batches_.size()];
+        Stage waiting("wait for buffer");
         batch.drawn.wait();
-        const Stopwatch watch;
+        waiting.end();
+        Stage writing("geometry");
+        writing.count("parts", static_cast<double>(batch_parts.size()));
         write(geometry, batch_parts, batch);
-        write_ms_ += watch.milliseconds();
+        write_ms_ += writing.end();
         for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
             const Chunk& chunk = chunks_[i];
             if (chunk.tets == 0) continue;
             drawn += chunk.tets - (chunk.first_tet == last_tet);  // parts on both sides are one tet
             last_tet = chunk.last_tet;
         }
+        const Stage submitting("submit");
+        timeline_.begin("draw");
         batch.vertex_array.bind();
         if (size_.has_record) batch.records.bind_storage(0);
         if (barriers_) {
@@ -89,6 +94,7 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
         } else {
             submit(chunks_of(batch_parts.size()), programs);
         }
+        timeline_.end();
         batch.drawn.set();
         check_interrupt();
         batch_done();

@@ -10,6 +10,7 @@
 #include "gl/buffer.h"
 #include "gl/fence.h"
 #include "gl/program.h"
+#include "gl/timeline.h"
 #include "gl/vertex_array.h"
 #include "projection/tet_geometry.h"
 
@@ -41,6 +42,7 @@ class GlTetStream {
 
     std::size_t batch_count(std::size_t parts) const;
     void start_frame() { write_ms_ = 0; }
+    void end_frame() { timeline_.collect(); }
     double write_ms() const { return write_ms_; }  // of the frame's draws
 
   private:
@@ -73,6 +75,7 @@ class GlTetStream {
     std::vector<int> part_indices_;  // of each part of the batch, for barriers
     std::vector<int> counts_;        // of indices, of the chunks of one draw
     std::vector<const void*> offsets_;
+    gl::Timeline timeline_;
     double write_ms_ = 0;
 };
 

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "projection/tie_shift.h"
 
 namespace lamina {
@@ -58,8 +58,10 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     fragments_.output = output_of(plan_);
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
+    Stage cutting("visible parts");
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
+    cutting.end();
     if (!plan_.tree.empty() && parts_->count() > 0) {
         const glm::vec3& color = fragments_.single_color;
         fragments_.opacity_only = true;
@@ -109,10 +111,11 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     last_tet_ = -1;
     clear();
     if (!parts_) return;
-    const Stopwatch order_watch;
+    Stage ordering("order");
     const auto parts = list_parts(view);
-    order_ms_ = order_watch.milliseconds();
-    const Stopwatch draw_watch;
+    ordering.count("parts", static_cast<double>(parts.size()));
+    order_ms_ = ordering.end();
+    Stage drawing("draw");
     set_view(view);
     const Projectors projectors{
         {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
@@ -123,17 +126,19 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     } else {
         draw_parts(projectors, parts, nullptr, progress);
     }
-    draw_ms_ = draw_watch.milliseconds();
+    drawing.count("tets", static_cast<double>(tets_drawn_));
+    drawing.count("fragments", static_cast<double>(fragments()));
+    draw_ms_ = drawing.end();
 }
 
 void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
                                      TileTetTree::Node* leaf, Progress* progress) {
     const auto project_batch = [&](std::size_t batch) {
         const std::size_t first = batch * parts_a_batch();
-        if (first < parts.size())
-            project(projectors,
-                    parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
-                    batches_[batch % 2]);
+        if (first >= parts.size()) return;
+        const Stage setting_up("set-up");
+        project(projectors, parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
+                batches_[batch % 2]);
     };
     project_batch(0);
     for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
@@ -159,8 +164,12 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 
 std::span<const TetPart> TileProjectRenderer::list_parts(const View& view) {
     const Eye eye = eye_of(view);
-    if (!plan_.scattered) return parts_->list(order_.sort(eye), eye);
-    return parts_->scattered(parts_->is_scattered() ? order_.order() : order_.sort(eye), eye);
+    if (plan_.scattered && parts_->is_scattered()) return parts_->scattered(order_.order(), eye);
+    Stage sorting("sort");
+    const auto order = order_.sort(eye);
+    sorting.end();
+    const Stage listing("parts");
+    return plan_.scattered ? parts_->scattered(order, eye) : parts_->list(order, eye);
 }
 
 void TileProjectRenderer::set_view(const View& view) {
@@ -298,6 +307,7 @@ void TileProjectRenderer::count_tets(const Chunks& chunks) {
 }
 
 void TileProjectRenderer::draw(const Chunks& chunks, TileTetTree::Node* leaf) {
+    const Stage drawing("tiles");
     parallel_for(image_.grid().count(), 1, [&](std::int64_t tile) {
         draw_tile(chunks, static_cast<std::size_t>(tile), leaf);
     });

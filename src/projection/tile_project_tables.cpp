@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
@@ -14,7 +14,7 @@ TileProjectTables::TileProjectTables(const TransferFunction& transfer_function,
                                      const ProjectPlan& plan)
     : source_(plan.source),
       single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
-    const Stopwatch watch;
+    Stage stage("tables");
     switch (plan.source) {
         case SegmentSource::constant: {
             const OpticalProperties constant = transfer_function.at(plan.range.lo);
@@ -37,7 +37,7 @@ TileProjectTables::TileProjectTables(const TransferFunction& transfer_function,
         default:
             break;
     }
-    build_ms_ = watch.milliseconds();
+    build_ms_ = stage.end();
 }
 
 void TileProjectTables::set(TetFragments& fragments) const {

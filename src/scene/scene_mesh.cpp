@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/stage.h"
 #include "mesh/cell_average.h"
 #include "mesh/mesh_file.h"
 #include "mesh/volume_mesh.h"
@@ -50,21 +51,32 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     return taken;
 }
 
+MeshData mesh_of_volume(const Scene& scene, MeshReport& report) {
+    Stage loading("load volume");
+    const Volume volume = load_volume(scene);
+    loading.end();
+    const Stage making("make mesh");
+    return make_volume_mesh(volume, *scene.mesh_request, &scene.transfer_function, report);
+}
+
 }  // namespace
 
 SceneMesh load_mesh(const Scene& scene) {
     if (!scene.mesh_file.empty()) {
+        Stage reading("read file");
         MeshData data = read_mesh(scene.mesh_file);
+        reading.end();
         bool averaged = false;
         MeshScalar scalar = take_scalar(data, scene, averaged);
+        const Stage matching("neighbours");
         return {
             TetMesh(std::move(data), scene.mesh_file.string()), std::move(scalar), averaged, {}};
     }
     MeshReport report;
-    MeshData data =
-        make_volume_mesh(load_volume(scene), *scene.mesh_request, &scene.transfer_function, report);
+    MeshData data = mesh_of_volume(scene, report);
     MeshScalar scalar = std::move(data.point_scalars.front());
     data.point_scalars.clear();
+    const Stage matching("neighbours");
     return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, report};
 }
 

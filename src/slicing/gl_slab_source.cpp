@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
@@ -66,17 +66,17 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
       range_(drawn_range(transfer_function, facts.range)),
       single_color_(first_color(transfer_function, range_.lo, range_.hi)),
       constant_(transfer_function.at(range_.lo)) {
-    const Stopwatch table_watch;
+    Stage tables("tables");
     if (plan_.sampling != VolumeSampling::none) {
         tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,
                         plan_.table_filtered, sampled_step_advance);
     }
-    table_ms_ = table_watch.milliseconds();
-    const Stopwatch upload_watch;
+    table_ms_ = tables.end();
+    Stage upload("upload");
     volume_ = upload_volume(volume, range_, plan);
     if (plan_.occupied_only) distances_.emplace(upload_distances(facts_.occupied_bricks));
     glFinish();
-    upload_ms_ = upload_watch.milliseconds();
+    upload_ms_ = upload.end();
     gl::check("uploading the volume");
 }
 

@@ -4,7 +4,7 @@
 #include <glad/gl.h>
 
 #include "base/interrupt.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "gl/check.h"
 #include "slicing/gl_compositing.h"
 
@@ -40,22 +40,25 @@ void GlSliceRenderer::draw(const View& view, Progress* progress) {
     target_.clear(glm::vec4(0));
     geometry_ms_ = draw_ms_ = 0;
     if (!source_) return;
-    const Stopwatch geometry_watch;
+    Stage geometry("geometry");
     const DepthRange depth = depth_range(grid_, view);
     if (depth.far <= depth.near) return;
     const Slabs slabs{depth.near, depth.far, plan_.slabs};
     if (shader_tree_) shader_tree_->set_view(view, slabs);
     if (slabs_) slabs_->set_view(view, slabs);
-    geometry_ms_ = geometry_watch.milliseconds();
-    const Stopwatch draw_watch;
+    geometry_ms_ = geometry.end();
+    Stage drawing("draw");
+    timeline_.begin("draw");
     if (shader_tree_) shader_tree_->draw(target_, progress);
     if (fixed_tree_) {
         fixed_tree_->draw(*slabs_, target_, progress);
     } else if (slabs_) {
         draw_straight(progress);
     }
+    timeline_.end();
     glFinish();
-    draw_ms_ = draw_watch.milliseconds();
+    draw_ms_ = drawing.end();
+    timeline_.collect();
     gl::check("drawing the slabs");
 }
 

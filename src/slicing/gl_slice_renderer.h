@@ -6,6 +6,7 @@
 
 #include "base/progress.h"
 #include "gl/framebuffer.h"
+#include "gl/timeline.h"
 #include "image/image.h"
 #include "scene/frame_renderer.h"
 #include "slicing/gl_fixed_tree.h"
@@ -47,6 +48,7 @@ class GlSliceRenderer : public FrameRenderer {
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
+    gl::Timeline timeline_;
     double geometry_ms_ = 0, draw_ms_ = 0;
 };
 

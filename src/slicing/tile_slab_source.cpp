@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
 #include "slicing/shader_intervals.h"
@@ -49,14 +49,14 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
             dither_ranks(plan_.dither->period, std::uint64_t{plan_.dither->seed} + 1);
     }
     if (!sampled) return;
-    const Stopwatch table_watch;
+    Stage tables("tables");
     transfer_.emplace(transfer_function, range, plan_.uses_table() ? &plan_.table : nullptr,
                       sampled_step_advance);
     slabs_.transfer = &*transfer_;
-    table_ms_ = table_watch.milliseconds();
-    const Stopwatch upload_watch;
+    table_ms_ = tables.end();
+    Stage upload("upload");
     volume_.emplace(volume, range, plan_, largest_copy);
-    upload_ms_ = upload_watch.milliseconds();
+    upload_ms_ = upload.end();
 }
 
 void TileSlabSource::set_view(const View& view, const Slabs& slabs) {

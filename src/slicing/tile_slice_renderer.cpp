@@ -2,7 +2,7 @@
 #include "slicing/tile_slice_renderer.h"
 
 #include "base/parallel.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 
 namespace lamina {
 namespace {
@@ -47,15 +47,16 @@ void TileSliceRenderer::draw(const View& view, Progress* progress) {
             target_.tile(number) = TilePixels{};
         return;
     }
-    const Stopwatch geometry_watch;
+    Stage geometry("geometry");
     source_->set_view(view, {depth.near, depth.far, plan_.slabs});
-    geometry_ms_ = geometry_watch.milliseconds();
-    const Stopwatch draw_watch;
+    geometry_ms_ = geometry.end();
+    Stage drawing("draw");
     parallel_for(target_.grid().count(), 1, [&](std::int64_t number) {
         samples_ += draw_tile(static_cast<int>(number));
         if (progress != nullptr) progress->advance();
     });
-    draw_ms_ = draw_watch.milliseconds();
+    drawing.count("samples", static_cast<double>(samples_));
+    draw_ms_ = drawing.end();
 }
 
 std::int64_t TileSliceRenderer::draw_tile(int number) {

@@ -2,7 +2,7 @@
 #include "frame_job.h"
 
 #include "base/progress.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "clamped_colors.h"
 #include "gl/memory.h"
 #include "gl/query.h"
@@ -14,13 +14,13 @@ FrameJob::FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> me
 
 Plan FrameJob::plan(RenderStats& stats) {
     method_->load(stats);
-    const Stopwatch context_watch;
+    Stage opening("context");
     context_.emplace(request_.context);
-    stats.stages_ms["context"] = context_watch.milliseconds();
+    stats.stages_ms["context"] = opening.end();
     stats.context = context_->capabilities().renderer;
-    const Stopwatch plan_watch;
+    Stage planning("plan");
     Plan plan = method_->plan(context_->capabilities());
-    stats.stages_ms["plan"] = plan_watch.milliseconds();
+    stats.stages_ms["plan"] = planning.end();
     return plan;
 }
 
@@ -30,15 +30,16 @@ std::string FrameJob::explanation(const Plan& plan) const {
 
 void FrameJob::draw(const Plan& plan, const View& view, RenderStats& stats) {
     count_clamped_colors(request_, stats);
-    const Stopwatch set_up_watch;
+    Stage setting_up("set_up");
     renderer_ = method_->make_renderer(plan, context_->capabilities());
-    stats.stages_ms["set_up"] = set_up_watch.milliseconds();
-    const Stopwatch frame_watch;
+    stats.stages_ms["set_up"] = setting_up.end();
+    Stage frame("frame");
+    frame.count("frame", 0);
     draw_first(view, stats);
-    stats.frames_ms = {frame_watch.milliseconds()};
-    const Stopwatch read_watch;
+    stats.frames_ms = {frame.end()};
+    Stage reading("read");
     image_.emplace(renderer_->read());
-    stats.stages_ms["read"] = read_watch.milliseconds();
+    stats.stages_ms["read"] = reading.end();
     stats.bytes_gpu = gl::bytes_allocated();
     stats.bytes_host = renderer_->byte_count();
     stats.stages_ms.merge(renderer_->stages_ms());

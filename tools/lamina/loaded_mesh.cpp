@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 
 namespace lamina {
 namespace {
@@ -55,9 +55,9 @@ void count_findings(const RenderRequest& request, const LoadedMesh& mesh, Render
 }
 
 SceneMesh load(const RenderRequest& request, RenderStats& stats) {
-    const Stopwatch watch;
+    Stage loading("load");
     SceneMesh mesh = load_mesh(request.scene);
-    stats.stages_ms["load"] = watch.milliseconds();
+    stats.stages_ms["load"] = loading.end();
     return mesh;
 }
 
@@ -65,9 +65,9 @@ SceneMesh load(const RenderRequest& request, RenderStats& stats) {
 
 LoadedMesh::LoadedMesh(const RenderRequest& request, RenderStats& stats)
     : data(load(request, stats)) {
-    const Stopwatch watch;
+    Stage measuring("measure");
     facts = measure(request.scene, data);
-    stats.stages_ms["measure"] = watch.milliseconds();
+    stats.stages_ms["measure"] = measuring.end();
     count_findings(request, *this, stats);
 }
 

@@ -3,16 +3,16 @@
 
 #include <fmt/format.h>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "slicing/slab_trials.h"
 
 namespace lamina {
 namespace {
 
 Volume timed_load(const Scene& scene, RenderStats& stats) {
-    const Stopwatch watch;
+    Stage loading("load");
     Volume volume = load_volume(scene);
-    stats.stages_ms["load"] = watch.milliseconds();
+    stats.stages_ms["load"] = loading.end();
     return volume;
 }
 
@@ -20,9 +20,14 @@ Volume timed_load(const Scene& scene, RenderStats& stats) {
 
 LoadedVolume::LoadedVolume(const RenderRequest& request, RenderStats& stats)
     : volume(timed_load(request.scene, stats)) {
-    const Stopwatch watch;
-    facts = measure_slicing(request.scene, volume, measure_bricks(volume));
-    stats.stages_ms["measure"] = watch.milliseconds();
+    Stage measuring("measure");
+    Stage measuring_bricks("bricks");
+    const MinMaxBricks bricks = measure_bricks(volume);
+    measuring_bricks.end();
+    Stage finding("facts");
+    facts = measure_slicing(request.scene, volume, bricks);
+    finding.end();
+    stats.stages_ms["measure"] = measuring.end();
     stats.counts["non_finite_samples"] = facts.non_finite;
     if (facts.non_finite > 0) {
         request.message(fmt::format(

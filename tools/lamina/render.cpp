@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,7 +10,8 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
+#include "base/stage.h"
+#include "profile_file.h"
 #include "render_job.h"
 #include "scene_options.h"
 #include "study/context_choice.h"
@@ -20,7 +22,7 @@ namespace {
 
 struct RenderOptions {
     SceneOptions scene;
-    std::string output, stats;
+    std::string output, stats, profile;
     std::vector<std::string> kept;
     int frames = 0;
     std::string context = "auto";
@@ -43,7 +45,7 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
     return omissions;
 }
 
-// Scene, picture and statistics are three files.
+// Scene, picture, statistics and profile are different files.
 void check_paths(const RenderOptions& options) {
     const auto same = [](const std::string& a, const std::string& b) {
         std::error_code ignored;
@@ -51,12 +53,13 @@ void check_paths(const RenderOptions& options) {
                std::filesystem::weakly_canonical(a, ignored) ==
                    std::filesystem::weakly_canonical(b, ignored);
     };
-    for (const auto& [a, b] : {std::pair(options.output, options.stats),
-                               {options.output, options.scene.file},
-                               {options.stats, options.scene.file}}) {
-        if (same(a, b))
-            throw UsageError(
-                fmt::format("{}: expected different files for scene, -o and --stats", a));
+    const std::array files{options.scene.file, options.output, options.stats, options.profile};
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        for (std::size_t k = i + 1; k < files.size(); ++k) {
+            if (same(files[i], files[k]))
+                throw UsageError(fmt::format(
+                    "{}: expected different files for scene, -o, --stats and --profile", files[k]));
+        }
     }
 }
 
@@ -73,9 +76,10 @@ void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw&
     for (int i = 1; i <= frames; ++i) {
         check_interrupt();
         const Camera camera = turned(scene.camera, degrees_per_frame * i);
-        const Stopwatch watch;
+        Stage frame("frame");
+        frame.count("frame", i);
         draw(View(camera, scene.width, scene.height));
-        stats.frames_ms.push_back(watch.milliseconds());
+        stats.frames_ms.push_back(frame.end());
         progress.advance();
     }
 }
@@ -89,8 +93,12 @@ std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
 
 // One `lamina render`: from the files to the picture and what it cost.
 void run(const RenderOptions& options) {
+    std::optional<ProfileFile> profile;
+    if (!options.profile.empty()) profile.emplace(options.profile);
     std::string scene_text;
+    Stage reading("scene");
     const Scene scene = load_scene(options.scene, scene_text);
+    reading.end();
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
@@ -111,18 +119,19 @@ void run(const RenderOptions& options) {
     job->draw(plan, view, stats);
     time_frames(scene, options.frames, stats, [&](const View& turned) { job->draw_frame(turned); });
 
-    const Stopwatch write_watch;
+    Stage writing("write");
     const std::size_t clamped = job->write(*picture, {{"scene", scene_text},
                                                       {"plan", explanation},
                                                       {"renderer", stats.context},
                                                       {"software", "lamina " LAMINA_VERSION}});
-    stats.stages_ms["write"] = write_watch.milliseconds();
+    stats.stages_ms["write"] = writing.end();
     stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
     if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {
         stats_file->write(to_json(stats, plan).dump(2) + "\n");
         stats_file->commit();
     }
+    if (profile) profile->write("lamina render " + options.scene.file, stats.context);
     say(fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options.output, scene.width,
                     scene.height, stats.context, stats.frames_ms.back()));
 }
@@ -145,6 +154,10 @@ void add_render(CLI::App& app, int&) {
         ->check(CLI::Range(1, 1000000));
     verb->add_option("--stats", options->stats,
                      "Write times, counts and the plan to this JSON file");
+    verb->add_option(
+        "--profile", options->profile,
+        "Write when each stage ran to this JSON file, for Perfetto (ui.perfetto.dev) or "
+        "chrome://tracing");
     verb->add_flag("--explain", options->explain, "Print what runs and what is left out, and why");
     verb->add_flag("--no-omit{all}", options->kept,
                    "Leave out nothing, or with =NAME keep one thing in");
@@ -158,6 +171,8 @@ void add_render(CLI::App& app, int&) {
         if (options->output.empty() && !options->explain) {
             throw UsageError("render: expected -o FILE (only --explain works without a picture)");
         }
+        if (options->output.empty() && !options->profile.empty())
+            throw UsageError("--profile: expected -o FILE, too");
         check_paths(*options);
         Progress::set_quiet(options->quiet);
         run(*options);

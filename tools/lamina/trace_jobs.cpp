@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "base/stopwatch.h"
+#include "base/stage.h"
 #include "loaded_mesh.h"
 #include "loaded_volume.h"
 #include "reference/mesh_tracer.h"
@@ -34,9 +34,10 @@ class VolumeTraceJob : public RenderJob {
     }
 
     void draw(const Plan&, const View& view, RenderStats& stats) override {
-        const Stopwatch watch;
+        Stage frame("frame");
+        frame.count("frame", 0);
         result_.emplace(trace(view));
-        record(watch.milliseconds(), result_->error_estimate, stats);
+        record(frame.end(), result_->error_estimate, stats);
     }
 
     void draw_frame(const View& view) override { trace(view); }
@@ -47,6 +48,7 @@ class VolumeTraceJob : public RenderJob {
 
   private:
     TraceResult trace(const View& view) const {
+        const Stage tracing("trace");
         return trace_volume(data_->volume, request_.scene.transfer_function, view,
                             {request_.scene.trace_tolerance});
     }
@@ -62,9 +64,9 @@ class MeshTraceJob : public RenderJob {
 
     Plan plan(RenderStats& stats) override {
         data_.emplace(request_, stats);
-        const Stopwatch tree_watch;
+        Stage building("boundary_tree");
         tree_.emplace(data_->data.mesh, data_->data.mesh.open_faces());
-        stats.stages_ms["boundary_tree"] = tree_watch.milliseconds();
+        stats.stages_ms["boundary_tree"] = building.end();
         return make_plan(request_.scene, data_->facts, {}, request_.omissions);
     }
 
@@ -73,9 +75,10 @@ class MeshTraceJob : public RenderJob {
     }
 
     void draw(const Plan&, const View& view, RenderStats& stats) override {
-        const Stopwatch watch;
+        Stage frame("frame");
+        frame.count("frame", 0);
         result_.emplace(trace(view));
-        record(watch.milliseconds(), result_->error_estimate, stats);
+        record(frame.end(), result_->error_estimate, stats);
         stats.counts["segments"] = result_->segments;
         stats.counts["overlapping_rays"] = result_->overlapping_rays;
         if (result_->overlapping_rays > 0) {
@@ -94,6 +97,7 @@ class MeshTraceJob : public RenderJob {
 
   private:
     MeshTraceResult trace(const View& view) const {
+        const Stage tracing("trace");
         return trace_mesh(data_->data.mesh, *tree_, data_->data.scalar.values,
                           request_.scene.transfer_function, view);
     }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "base/stopwatch.h"
+
+namespace lamina {
+
+// What happened when in this process, as spans of time on rows: one row for each thread that has
+// a Stage, and one for OpenGL. Records from its making to its end; only one does at a time. Where
+// none does, a Stage is a stopwatch.
+class Profile {
+  public:
+    struct Count {
+        const char* name;  // null: none
+        double value;
+    };
+    using Counts = std::array<Count, 4>;
+
+    static constexpr int opengl_row = 0, first_row = 1;  // first_row: the thread that made it
+
+    // Times are Stopwatch::now(). Names are literals: they are kept as they are.
+    struct Span {
+        const char* name;
+        std::int64_t begin_ns, end_ns;
+        Counts counts;
+        int row;
+    };
+
+    Profile();
+    ~Profile();
+    Profile(const Profile&) = delete;
+    Profile& operator=(const Profile&) = delete;
+
+    static Profile* recording();  // null: none
+
+    // Safe from any thread.
+    void add(const char* name, std::int64_t begin_ns, std::int64_t end_ns, const Counts& counts);
+    void add_opengl(const char* name, std::int64_t begin_ns, std::int64_t end_ns);
+
+    // In the order in which they ended; to be asked when no other thread is at work.
+    const std::vector<Span>& spans() const { return spans_; }
+    int row_count() const;  // OpenGL's among them
+
+  private:
+    std::mutex adding_;
+    std::vector<Span> spans_;
+    std::map<std::thread::id, int> rows_;
+};
+
+}  // namespace lamina

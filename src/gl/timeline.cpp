@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gl/timeline.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/profile.h"
+
+namespace lamina::gl {
+namespace {
+
+bool is_recording() {
+    if (Profile::recording() == nullptr) return false;
+    GLint bits = 0;
+    glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    return bits > 0;
+}
+
+// To be added to OpenGL's clock: it is read between two looks at the host's, some times, and the
+// shortest time between them counts.
+std::int64_t clock_offset() {
+    constexpr int looks = 5;
+    std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
+    for (int i = 0; i < looks; ++i) {
+        GLint64 opengl = 0;
+        const std::int64_t before = Stopwatch::now();
+        glGetInteger64v(GL_TIMESTAMP, &opengl);
+        const std::int64_t between = Stopwatch::now() - before;
+        if (between >= shortest) continue;
+        shortest = between;
+        offset = before + between / 2 - opengl;
+    }
+    return offset;
+}
+
+}  // namespace
+
+// A renderer that draws tile after tile (llvmpipe) comes by a query once a tile and keeps the last
+// time: what is submitted before and after a span's beginning must not be drawn together.
+void Timeline::begin(const char* name) {
+    if (!is_recording()) return;
+    glFlush();
+    if (count_ == spans_.size()) spans_.emplace_back();
+    spans_[count_].name = name;
+    spans_[count_].begin.stamp();
+    glFlush();
+}
+
+void Timeline::end() {
+    if (is_recording()) spans_[count_++].end.stamp();
+}
+
+void Timeline::collect() {
+    if (count_ == 0) return;
+    glFinish();
+    const std::int64_t offset = clock_offset();
+    for (std::size_t i = 0; i < count_; ++i) {
+        const auto begin = static_cast<std::int64_t>(spans_[i].begin.result());
+        const auto end = static_cast<std::int64_t>(spans_[i].end.result());
+        if (Profile* const profile = Profile::recording())
+            profile->add_opengl(spans_[i].name, begin + offset, std::max(begin, end) + offset);
+    }
+    count_ = 0;
+}
+
+}  // namespace lamina::gl

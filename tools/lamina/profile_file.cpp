@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "profile_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int process = 1;
+
+Json metadata(const char* name, int row, const char* key, const Json& value) {
+    return {{"name", name}, {"ph", "M"}, {"pid", process}, {"tid", row}, {"args", {{key, value}}}};
+}
+
+std::string name_of_row(int row) {
+    if (row == Profile::opengl_row) return "OpenGL";
+    if (row == Profile::first_row) return "main thread";
+    return fmt::format("worker {}", row - Profile::first_row);
+}
+
+double microseconds(std::int64_t nanoseconds) {
+    return 1e-3 * static_cast<double>(nanoseconds);
+}
+
+Json counts_of(const Profile::Span& span) {
+    Json counts = Json::object();
+    for (const Profile::Count& count : span.counts) {
+        if (count.name != nullptr) counts[count.name] = count.value;
+    }
+    return counts;
+}
+
+Json event(const Profile::Span& span, std::int64_t start_ns) {
+    return {{"name", span.name},
+            {"ph", "X"},
+            {"pid", process},
+            {"tid", span.row},
+            {"ts", microseconds(span.begin_ns - start_ns)},
+            {"dur", microseconds(span.end_ns - span.begin_ns)},
+            {"args", counts_of(span)}};
+}
+
+}  // namespace
+
+void ProfileFile::write(const std::string& title, const std::string& context) {
+    Json events = Json::array({metadata("process_name", Profile::first_row, "name", title)});
+    const auto has_spans = [&](int row) {
+        return std::ranges::any_of(profile_.spans(),
+                                   [&](const Profile::Span& span) { return span.row == row; });
+    };
+    for (int row = 0; row < profile_.row_count(); ++row) {
+        if (!has_spans(row)) continue;
+        events.push_back(metadata("thread_name", row, "name", name_of_row(row)));
+        // OpenGL's below those of the host.
+        const int place = row == Profile::opengl_row ? profile_.row_count() : row;
+        events.push_back(metadata("thread_sort_index", row, "sort_index", place));
+    }
+    for (const Profile::Span& span : profile_.spans()) events.push_back(event(span, start_ns_));
+    const Json document{{"displayTimeUnit", "ms"},
+                        {"otherData", {{"context", context}}},
+                        {"traceEvents", std::move(events)}};
+    // Paths need not be UTF-8.
+    file_.write(document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    file_.commit();
+}
+
+}  // namespace lamina
