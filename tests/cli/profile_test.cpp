@@ -209,7 +209,7 @@ TEST_F(ProfileOption, OfProjectionByOpenGL) {
 
 TEST_F(ProfileOption, OfTheTracers) {
     profile("trace", "auto");
-    expect_stages({"load", "boundary_tree", "trace"});
+    expect_stages({"load", "measure", "trace"});
 }
 
 TEST_F(ProfileOption, DoesNotChangeThePicture) {

@@ -24,37 +24,57 @@ def extinction_of(point, unit_length):
     return point.get("extinction", -math.log1p(-min(point.get("opacity", 0), 1 - 1e-9)) / unit_length)
 
 
-def make_property(scene):
-    """VTK is linear in opacity between points and a scene in extinction: opacities are resampled. The unit distance is
-    such that the largest is 0.95."""
+def transfer_points(scene):
+    """Value, colour and extinction of each point of the scene's transfer function."""
     function = scene.json["transfer_function"]
     if function.get("interpolation") == "nearest" or "points" not in function:
         raise SystemExit(f"bench: {scene.path}: transfer_function: expected points and linear interpolation")
-    points = [(p["value"], p["color"], extinction_of(p, function.get("unit_length", 1))) for p in function["points"]]
+    return [(p["value"], p["color"], extinction_of(p, function.get("unit_length", 1))) for p in function["points"]]
+
+
+def make_property(points, opacities, unit_distance):
+    """Colours of the points; opacities by value, in VTK's unit distance."""
     color, opacity, result = vtk.vtkColorTransferFunction(), vtk.vtkPiecewiseFunction(), vtk.vtkVolumeProperty()
     color.AllowDuplicateScalarsOn()  # steps
     opacity.AllowDuplicateScalarsOn()
-    unit = 3 / (max(extinction for _, _, extinction in points) or 3)
-    for (x0, _, e0), (x1, _, e1) in zip(points, points[1:] + points[-1:]):
-        for t in [i / STEPS for i in range(STEPS if x1 > x0 else 1)]:
-            opacity.AddPoint(x0 + t * (x1 - x0), -math.expm1(-unit * (e0 + t * (e1 - e0))))
     for value, rgb, _ in points:
         color.AddRGBPoint(value, *rgb)
+    for value, alpha in opacities:
+        opacity.AddPoint(value, alpha)
     result.SetColor(color)
     result.SetScalarOpacity(opacity)
-    result.SetScalarOpacityUnitDistance(unit)
+    result.SetScalarOpacityUnitDistance(unit_distance)
     result.SetInterpolationTypeToLinear()
     return result
+
+
+def volume_property(scene):
+    """The ray caster takes the opacity of a step as 1 - (1 - opacity)^(step / unit distance). It is linear in opacity
+    between points and a scene in extinction: opacities are resampled, the largest is 0.95."""
+    points = transfer_points(scene)
+    unit = 3 / (max(extinction for _, _, extinction in points) or 3)
+    opacities = [(x0 + i / STEPS * (x1 - x0), -math.expm1(-unit * (e0 + i / STEPS * (e1 - e0))))
+                 for (x0, _, e0), (x1, _, e1) in zip(points, points[1:] + points[-1:])
+                 for i in range(STEPS if x1 > x0 else 1)]
+    return make_property(points, opacities, unit)
+
+
+def mesh_property(scene):
+    """The tets' program takes 1 - exp(-opacity * length / unit distance): its opacity is an extinction, linear between
+    points like a scene's. It is kept in 8 bits: the largest is 1."""
+    points = transfer_points(scene)
+    unit = 1 / (max(extinction for _, _, extinction in points) or 1)
+    return make_property(points, [(value, unit * extinction) for value, _, extinction in points], unit)
 
 
 class Window:
     """A scene's volume or mesh in a window of VTK's."""
 
-    def __init__(self, scene, mapper, size):
+    def __init__(self, scene, mapper, properties, size):
         self.scene, self.mapper, self.size = scene, mapper, size
         volume = vtk.vtkVolume()  # a plain volume: no level of detail
         volume.SetMapper(mapper)
-        volume.SetProperty(make_property(scene))
+        volume.SetProperty(properties)
         self.renderer, self.window = vtk.vtkRenderer(), vtk.vtkRenderWindow()
         self.renderer.AddVolume(volume)
         self.renderer.SetBackground(0, 0, 0)
@@ -130,7 +150,7 @@ def volume_window(scene, size, steps_a_voxel):
     mapper.SetInputData(image)
     mapper.AutoAdjustSampleDistancesOff()  # else it may draw fewer pixels
     mapper.SetSampleDistance(min(spacings) / steps_a_voxel)
-    return Window(scene, mapper, size)
+    return Window(scene, mapper, volume_property(scene), size)
 
 
 def mesh_window(scene, size):
@@ -151,4 +171,4 @@ def mesh_window(scene, size):
     mapper.SetInputData(grid)
     mapper.SetScalarModeToUsePointFieldData()
     mapper.SelectScalarArray(name)
-    return Window(scene, mapper, size)
+    return Window(scene, mapper, mesh_property(scene), size)
