@@ -33,10 +33,11 @@ std::string with_reason(const char* name, const std::string& reason) {
 }
 
 std::string left_out(const Plan& plan) {
-    std::string text = "left out\n";
+    std::string text = "left out         saves a frame, as predicted           because\n";
     for (const Omission& omission : plan.omitted)
-        text += line(omission.name.c_str(), omission.reason);
-    return plan.omitted.empty() ? text + "  nothing\n" : text;
+        text += fmt::format("  {:<17} {:<36} {}\n", omission.name, to_text(omission.saves),
+                            omission.reason);
+    return plan.omitted.empty() ? "left out\n  nothing\n" : text;
 }
 
 const char* text_of(Blending blending) {
@@ -174,6 +175,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
         }
     }
+    if (!plan.work.amounts().empty()) row("work", to_text(plan.work) + " a frame, as predicted");
     return text + left_out(plan);
 }
 
@@ -188,6 +190,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         row("context", capabilities.renderer);
         explain_projection(plan.project, facts, capabilities.tiles, row);
     }
+    if (!plan.work.amounts().empty()) row("work", to_text(plan.work) + " a frame, as predicted");
     return text + left_out(plan);
 }
 

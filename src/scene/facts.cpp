@@ -189,6 +189,7 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
     measure_view(scene, facts);
+    facts.ray_shares = measure_ray_shares(scene, volume, facts);
     return facts;
 }
 

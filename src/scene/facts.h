@@ -9,6 +9,7 @@
 
 #include "scene/camera.h"
 #include "scene/occupied_bricks.h"
+#include "scene/ray_shares.h"
 #include "scene/scene.h"
 #include "scene/slab_trial.h"
 #include "volume/min_max_bricks.h"
@@ -64,6 +65,8 @@ struct Facts {
     double voxels_along_view = 0;  // index-space length of the forward direction over that depth
     double max_length_per_depth =
         1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+
+    RayShares ray_shares;
 
     // For "samples": "auto" (slicing/slab_trials.h); else none.
     std::vector<SlabTrial> slab_trials;

@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "scene/work.h"
+
 namespace lamina {
 
 // What was left out because this scene does not need it.
 struct Omission {
     std::string name;    // as in --no-omit=NAME
-    std::string reason;  // the fact that decided, and what it saves
+    std::string reason;  // the fact that decided
+    Work saves{};        // a frame, as predicted
 };
 
 // Which omissions the user has switched off.

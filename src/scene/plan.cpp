@@ -1,359 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/plan.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/error.h"
-#include "scene/brick_cuts.h"
+#include "scene/picture_limits.h"
+#include "scene/planned_work.h"
 #include "scene/project_planner.h"
-#include "scene/slab_choice.h"
+#include "scene/slice_planner.h"
 #include "scene/target_choice.h"
-#include "scene/tree_check.h"
 
 namespace lamina {
 namespace {
 
-// A software frame may take a minute: it is drawn in so many parts, at no cost that could be
-// measured.
-constexpr int software_batches = 64;
-
-// A table that knows only the limit of short segments has at most this optical depth in one
-// segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
-// segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
-constexpr double thin_depth = 0.02;
-// Above: layers so close that linear interpolation between them is good to .0025 (steps of depth 1
-// or less), as far as that is affordable; deeper segments are nearly opaque and change little with
-// length.
-constexpr int max_length_layers = 9;
-
-// A table's colours cost about nodes^2 * layers * knots segment integrals: at most this many, some
-// seconds on two cores. Palettes of hundreds of points get fewer layers, down to the limit alone,
-// which has a fast way.
-constexpr double max_table_work = 5e7;
-
-// Rays in float32 lose the digits of this ratio of a box's sides. In software, doubles cost some 12
-// % of a frame.
-constexpr double thin_box_ratio = 20;
-
-constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
-
 const Omission no_context{"context", "the tracer runs on the processor: no OpenGL context is made"};
-
-std::string percent(double share) {
-    return fmt::format("{:.3g} %", 100 * share);
-}
-
-}  // namespace
-
-void check_limits(const Scene& scene, const Capabilities& capabilities) {
-    const int edge = std::max(scene.width, scene.height);
-    if (edge > capabilities.max_texture_size) {
-        fail("{}: image: found {} x {} pixels, expected at most {} along an edge: {}",
-             scene.file.string(), scene.width, scene.height, capabilities.max_texture_size,
-             capabilities.renderer);
-    }
-    const std::uint64_t bytes =
-        16 * static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
-    if (bytes > capabilities.max_texture_bytes) {
-        fail("{}: image: found {} x {} pixels, expected at most {} in all: {}", scene.file.string(),
-             scene.width, scene.height, capabilities.max_texture_bytes / 16, capabilities.renderer);
-    }
-}
-
-namespace {
-
-class SlicePlanner {
-  public:
-    SlicePlanner(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                 const OmissionSwitch& omissions)
-        : scene_(scene), facts_(facts), capabilities_(capabilities), omissions_(omissions) {}
-
-    Plan make() {
-        check_limits(scene_, capabilities_);
-        SlicePlan& slice = plan_.slice;
-        slice.target = scene_.target;
-        slice.classification = scene_.slice.classification;
-        slice.order = scene_.slice.order;
-        slice.batches = capabilities_.software ? software_batches : 1;
-        slice.nan_transparent = facts_.non_finite > 0;
-        slice.table_filtered =
-            scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
-        choose_slabs();
-        choose_precision();
-        choose_sampling();
-        choose_table();
-        choose_bricks();
-        choose_compositing();
-        choose_geometry();
-        choose_termination();
-        return std::move(plan_);
-    }
-
-  private:
-    // True, and said, where the scene does not need `name`.
-    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
-        if (!unneeded || !omissions_.allows(name)) return false;
-        plan_.omitted.push_back({name, reason});
-        return true;
-    }
-
-    void choose_slabs() {
-        SlicePlan& slice = plan_.slice;
-        if (scene_.slice.samples) {
-            slice.slabs = *scene_.slice.samples;
-            return;
-        }
-        const SlabTrial chosen = chosen_slabs(scene_, facts_);
-        slice.slabs = chosen.slabs;
-        if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
-    }
-
-    void choose_precision() {
-        plan_.slice.precise_rays = !leave_out(
-            !capabilities_.software && facts_.side_ratio < thin_box_ratio, "double_precision",
-            "a GPU is slow with doubles and the box is not thin: rays are float32, chords good to "
-            "1e-5");
-    }
-
-    void choose_geometry() {
-        SlicePlan& slice = plan_.slice;
-        slice.orthographic =
-            leave_out(facts_.orthographic, "perspective",
-                      "parallel rays: one direction and one length per depth for all fragments");
-        const IndexBox whole{facts_.grid.index_min(), facts_.grid.index_max()};
-        slice.drawn = whole;
-        slice.nothing_visible = leave_out(
-            facts_.occupied.empty() || facts_.far_depth <= facts_.near_depth, "drawing",
-            facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
-                                    : "the volume lies behind the eye");
-        if (slice.nothing_visible) return;
-        const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
-        const bool by_brick = skips_bricks();
-        if (leave_out((smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
-                      fmt::format("only {} of the bricks of {}^3 cells can be seen: {}",
-                                  percent(facts_.occupied_share), MinMaxBricks::edge,
-                                  by_brick ? fmt::format("rays leap over the others, by a map of "
-                                                         "{} bytes",
-                                                         facts_.occupied_bricks.distance.size())
-                                           : "slabs are drawn in the box around them"))) {
-            slice.drawn = facts_.occupied;
-            slice.occupied_only = by_brick;
-        }
-    }
-
-    // Between two bricks that show nothing scalars may jump over what can be seen where NaN parts
-    // them: a segment from one into the other would show it.
-    bool skips_bricks() const {
-        const SlicePlan& slice = plan_.slice;
-        const bool jumps =
-            facts_.non_finite > 0 && slice.classification == Classification::preintegrated;
-        const std::int64_t longest = std::ranges::max(facts_.occupied_bricks.count);
-        const bool leaps = capabilities_.tiles || (slice.has_tree(NodeArithmetic::shader) &&
-                                                   longest <= capabilities_.max_3d_texture_size);
-        return leaps && facts_.occupied_share < 1 && !jumps;
-    }
-
-    // A ray ends where all that may lie behind changes no channel by more than this share of the
-    // wanted error: too little to be told from the errors of a picture that meets it.
-    static constexpr double hidden_share = 1.0 / 32;
-
-    // In a tree, what is behind one leaf's part of a ray is another leaf's; on GL, of several
-    // bricks, another program's.
-    void choose_termination() {
-        SlicePlan& slice = plan_.slice;
-        if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;
-        if (slice.tree->factors.front() < slice.slabs) return;
-        if (!capabilities_.tiles && slice.bricks.size() > 1) return;
-        const double hidden = hidden_share * scene_.max_error;  // in 1/255
-        if (slice.error_bound && *slice.error_bound + hidden > scene_.max_error) return;
-        const double depth = -std::log(hidden / (255 * std::max(facts_.max_color, 1.0)));
-        const DepthRange& seen = facts_.occupied_depth;
-        const double deepest =
-            facts_.max_extinction * (seen.far - seen.near) * facts_.max_length_per_depth;
-        if (leave_out(deepest > depth, "early_termination",
-                      fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: "
-                                  "what lies behind changes no channel by more than {:.2g} / 255",
-                                  deepest, depth, hidden))) {
-            slice.opaque_depth = depth;
-            if (slice.error_bound) *slice.error_bound += hidden;
-        }
-    }
-
-    void choose_sampling() {
-        SlicePlan& slice = plan_.slice;
-        if (leave_out(facts_.constant && facts_.non_finite == 0, "volume_texture",
-                      "the transfer function is constant over the volume's range: no scalar is "
-                      "fetched")) {
-            slice.sampling = VolumeSampling::none;
-            return;
-        }
-        const std::uint64_t float_bytes =
-            4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
-        if (scene_.slice.filter == Filter::hardware) {
-            slice.sampling = VolumeSampling::hardware;
-        } else if (capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes) {
-            slice.sampling = VolumeSampling::filtered;
-        }
-        slice.float_texture =
-            slice.sampling == VolumeSampling::filtered || facts_.type == SampleType::float32;
-    }
-
-    void choose_table() {
-        SlicePlan& slice = plan_.slice;
-        slice.single_color =
-            leave_out(facts_.single_color, "color",
-                      "one colour in all that can be seen: only extinction is looked up");
-        if (slice.classification != Classification::preintegrated) return;
-        if (slice.sampling == VolumeSampling::none) {
-            leave_out(true, "table",
-                      "the transfer function is constant: opacity has a closed form");
-            return;
-        }
-        TablePlan& table = slice.table;
-        table.colored = !slice.single_color;
-        table.max_length =
-            (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
-        if (!table.colored) return;
-        const double depth = facts_.max_extinction * table.max_length;
-        const double knots = static_cast<double>(facts_.knots);
-        const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);  // at most
-        const double affordable = std::floor(max_table_work / (nodes * nodes * (knots + 1)));
-        table.length_layers = static_cast<int>(
-            std::clamp(std::min(std::ceil(depth) + 1, affordable), 1.0, double{max_length_layers}));
-        if (leave_out(depth < thin_depth, "length_layers",
-                      fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
-                                  "not depend on its length",
-                                  depth))) {
-            table.length_layers = 1;
-        }
-    }
-
-    void choose_bricks() {
-        SlicePlan& slice = plan_.slice;
-        if (slice.sampling == VolumeSampling::none) {
-            slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
-            return;
-        }
-        slice.bricks = cut_into_bricks(facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type),
-                                       capabilities_);
-    }
-
-    void choose_compositing() {
-        SlicePlan& slice = plan_.slice;
-        if (scene_.target == Target::emulated) slice.emulation = scene_.emulate;
-        if (scene_.slice.tree) {
-            choose_tree_for(*scene_.slice.tree);
-        } else if (leave_out(slice.target == Target::float32, "blending",
-                             "one node marches all slabs in registers: what blending in float32 "
-                             "would give, with one write a pixel and without its roundings")) {
-            slice.tree = TreePlan{.factors = {slice.slabs}};
-        }
-        if (slice.tree && is_fixed_point(slice.target)) {
-            slice.tree->largest_color = std::max(facts_.max_color, 1.0);
-        }
-        if (slice.emulation) {
-            slice.blending = programmable_blending(capabilities_);
-        }
-        if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
-    }
-
-    void choose_tree_for(const TreeSettings& settings) {
-        SlicePlan& slice = plan_.slice;
-        if (!settings.automatic) {
-            slice.tree =
-                TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
-            check_slice_tree(scene_, facts_.single_color);
-            return;
-        }
-        try {
-            const TreeChoice choice = choose_tree(tree_question());
-            slice.tree = choice.tree;
-            slice.error_bound = choice.error_bound;
-            slice.tree_reason = choice.reason;
-        } catch (const Error& error) {
-            fail("{}: {}", scene_.file.string(), error.what());
-        }
-    }
-
-    TreeQuestion tree_question() const {
-        const SlicePlan& slice = plan_.slice;
-        TreeQuestion question;
-        question.target = slice.target;
-        question.emulation = scene_.emulate;
-        question.slabs = slice.slabs;
-        const double thickness = (facts_.far_depth - facts_.near_depth) / slice.slabs;
-        const DepthRange& seen = facts_.occupied_depth;
-        const double visible =
-            thickness > 0 ? std::ceil((seen.far - seen.near) / thickness) + 1 : 0.0;
-        // A slab that lies in several bricks is composited in parts.
-        question.visible_slabs =
-            static_cast<int>(std::clamp(visible, 0.0, static_cast<double>(slice.slabs))) +
-            static_cast<int>(slice.bricks.size()) - 1;
-        question.order = slice.order;
-        if (scene_.slice.dither && is_fixed_point(slice.target)) {
-            question.dither = dither_of(*scene_.slice.dither);
-        }
-        question.largest_color = facts_.max_color;
-        question.max_error = scene_.max_error;
-        if (slice.slab_trial) {
-            question.max_error = std::max(scene_.max_error - slice.slab_trial->error,
-                                          scene_.max_error * target_share);
-        }
-        return question;
-    }
-
-    Dither dither_of(const DitherSettings& settings) const {
-        return {settings.period.value_or(dither_period_for(plan_.slice.slabs)), settings.seed,
-                settings.color, settings.increment};
-    }
-
-    void choose_dither(const DitherSettings& settings) {
-        SlicePlan& slice = plan_.slice;
-        const bool codes = is_fixed_point(slice.target) && !slice.has_tree(NodeArithmetic::shader);
-        if (!codes) {
-            plan_.omitted.push_back(
-                {"dither", "slabs are composited in float: there is nothing to dither"});
-            return;
-        }
-        slice.dither = dither_of(settings);
-    }
-
-    const Scene& scene_;
-    const Facts& facts_;
-    const Capabilities& capabilities_;
-    const OmissionSwitch& omissions_;
-    Plan plan_;
-};
-
-// The scene as if it had asked for what was chosen: one node that marches all slabs keeps the
-// bound of the choice.
-Scene with_target(Scene scene, Target target) {
-    scene.target = target;
-    scene.automatic_target = false;
-    if (target != Target::float32 && scene.method == Method::slice && !scene.slice.tree)
-        scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
-    return scene;
-}
-
-Plan plan_with_target(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                      const OmissionSwitch& omissions) {
-    const TargetChoice choice = choose_target(scene, facts);
-    const Scene chosen = with_target(scene, choice.target);
-    Plan plan = make_plan(chosen, facts, capabilities, omissions);
-    plan.slice.target_reason = choice.reason;
-    return plan;
-}
 
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions) {
-    if (scene.method == Method::slice && scene.automatic_target)
-        return plan_with_target(scene, facts, capabilities, omissions);
-    if (scene.method == Method::slice)
-        return SlicePlanner(scene, facts, capabilities, omissions).make();
     Plan plan;
+    if (scene.method == Method::slice) {
+        const TargetChoice choice =
+            scene.automatic_target ? choose_target(scene, facts) : TargetChoice{scene.target, {}};
+        const Scene chosen = with_target(scene, choice.target);
+        plan = plan_slicing(chosen, facts, capabilities, omissions);
+        plan.slice.target_reason = choice.reason;
+        add_savings(plan, chosen, facts, capabilities, omissions);
+        return plan;
+    }
     plan.method = scene.method;
     plan.omitted.push_back(no_context);
     if (scene.has_mesh())
@@ -372,6 +44,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
         plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
                                        omissions, plan.omitted);
         plan.project.target_reason = choice.reason;
+        add_savings(plan, scene, facts);
         return plan;
     }
     plan.omitted.push_back(no_context);

@@ -72,6 +72,7 @@ struct Plan {
     Method method = Method::slice;
     SlicePlan slice;      // for Method::slice
     ProjectPlan project;  // for Method::project
+    Work work;            // of a frame, as predicted
     std::vector<Omission> omitted;
 };
 

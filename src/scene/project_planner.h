@@ -17,7 +17,4 @@ ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
                             const Capabilities& capabilities, const OmissionSwitch& omissions,
                             std::vector<Omission>& omitted);
 
-// Throws Error where the picture does not fit the context's render targets.
-void check_limits(const Scene& scene, const Capabilities& capabilities);
-
 }  // namespace lamina

@@ -47,6 +47,15 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts) {
     return smallest_target(question, one_level_error_bound);
 }
 
+Scene with_target(Scene scene, Target target) {
+    scene.target = target;
+    if (scene.automatic_target && target != Target::float32 && scene.method == Method::slice &&
+        !scene.slice.tree)
+        scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+    scene.automatic_target = false;
+    return scene;
+}
+
 TargetChoice choose_project_target(const Scene& scene) {
     if (scene.project.tree)
         return {Target::fixed16, "the most bits that a tree over tets can have"};

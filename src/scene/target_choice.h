@@ -23,4 +23,8 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts);
 // Of projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);
 
+// The scene as if it had asked for the target; where that was chosen for slicing without a tree and
+// is smaller than float32, with a tree, so that the bound of the choice is kept.
+Scene with_target(Scene scene, Target target);
+
 }  // namespace lamina

@@ -92,7 +92,7 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
                   .exit_code,
               0);
     const json stats = json::parse(read_bytes_of(folder / "s.json"));
-    for (const char* key : {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu",
+    for (const char* key : {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu", "work",
                             "peak_rss_mb", "context", "plan", "omitted", "counts"}) {
         EXPECT_TRUE(stats.contains(key)) << key;
     }

@@ -18,6 +18,7 @@ Plan FrameJob::plan(RenderStats& stats) {
     context_.emplace(request_.context);
     stats.stages_ms["context"] = opening.end();
     stats.context = context_->capabilities().renderer;
+    stats.on_tiles = context_->capabilities().tiles;
     Stage planning("plan");
     Plan plan = method_->plan(context_->capabilities());
     stats.stages_ms["plan"] = planning.end();

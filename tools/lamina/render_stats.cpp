@@ -105,6 +105,22 @@ Json slice_to_json(const SlicePlan& slice) {
     return json;
 }
 
+Json to_json(const Work& work) {
+    Json json = Json::object();
+    for (const auto& [name, amount] : work.amounts()) json[name] = amount;
+    return json;
+}
+
+// What was counted of what Plan::work predicts.
+Json actual_work(const RenderStats& stats, const Plan& plan) {
+    Json json = Json::object();
+    if (plan.method == Method::slice && stats.on_tiles) json["segments"] = stats.fragments;
+    if (plan.method == Method::project) json["tets"] = stats.tets_drawn;
+    if (plan.method != Method::trace)
+        json["bytes"] = stats.on_tiles ? stats.bytes_host : stats.bytes_gpu;
+    return json;
+}
+
 Json plan_to_json(const Plan& plan) {
     switch (plan.method) {
         case Method::slice:
@@ -136,8 +152,11 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     json["plan"] = plan_to_json(plan);
     json["omitted"] = Json::array();
     for (const Omission& omission : plan.omitted) {
-        json["omitted"].push_back({{"name", omission.name}, {"reason", omission.reason}});
+        json["omitted"].push_back({{"name", omission.name},
+                                   {"reason", omission.reason},
+                                   {"saves", to_json(omission.saves)}});
     }
+    json["work"] = {{"predicted", to_json(plan.work)}, {"actual", actual_work(stats, plan)}};
     json["counts"] = stats.counts;
     if (stats.mesh_error) json["mesh_error"] = *stats.mesh_error;
     if (stats.error_estimate) json["error_estimate"] = *stats.error_estimate;
