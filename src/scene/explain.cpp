@@ -156,8 +156,8 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
             fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
                         facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
         if (slice.slab_trial) {
-            row("slab error", fmt::format("{:.2g} / 255 at most on {} rays",
-                                          slice.slab_trial->error, slice.slab_trial->rays));
+            row("slab error", fmt::format("{:.2g} / 255 found on {} rays", slice.slab_trial->error,
+                                          slice.slab_trial->rays));
         }
         row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification", name_of(slice.classification));

@@ -64,18 +64,20 @@ double largest_color(const TransferFunction& transfer_function, const ValueRange
 void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                          Facts& facts) {
     const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;
-    std::vector<double> extinctions(bricks.ranges.size());
+    std::vector<float> extinctions(bricks.ranges.size());
     parallel_for(static_cast<std::int64_t>(extinctions.size()), 4096, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
         const MinMaxBricks::Range& range = bricks.ranges[i];
-        if (distance[i] == 0) extinctions[i] = transfer_function.max_extinction(range.lo, range.hi);
+        if (distance[i] == 0)
+            extinctions[i] =
+                static_cast<float>(transfer_function.max_extinction(range.lo, range.hi));
     });
     const auto quantile = [&](double share) {
         const auto last = static_cast<double>(extinctions.size() - 1);
         const auto place =
             extinctions.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * last));
         std::nth_element(extinctions.begin(), place, extinctions.end());
-        return *place;
+        return double{*place};
     };
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }

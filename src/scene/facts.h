@@ -70,6 +70,7 @@ struct Facts {
 
     // For "samples": "auto" (slicing/slab_trials.h); else none.
     std::vector<SlabTrial> slab_trials;
+    double slab_goal = 0;  // slab_error_goal() of the scene, in 1/255
 };
 
 // Throws Error when the volume has samples that are no finite numbers and the scene does not say

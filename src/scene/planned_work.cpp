@@ -25,13 +25,14 @@ double bytes_per_pixel(Target target) {
     }
 }
 
-// The native engine keeps every pixel in four floats, and bytes as words of four neighbours.
+// The native engine keeps bytes as words of four neighbours.
 double volume_bytes(const SlicePlan& plan, const Facts& facts, bool tiles) {
     if (plan.sampling == VolumeSampling::none || plan.nothing_visible) return 0;
     const auto sample = static_cast<double>(plan.float_texture ? 4 : bytes_of(facts.type));
     const auto samples = static_cast<double>(facts.grid.sample_count());
     if (!tiles) return samples * sample;
-    return facts.type == SampleType::uint8 ? 4 * samples : 0;
+    return facts.type == SampleType::uint8 || facts.type == SampleType::float32 ? 4 * samples
+                                                                                : 2 * samples;
 }
 
 double table_bytes(const TablePlan& table) {
@@ -58,7 +59,7 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
 
 // The plan as it would be without one of its omissions.
 ProjectPlan without(ProjectPlan plan, const std::string& name) {
-    if (name == "transparent_tets") plan.draw_transparent = true;
+    if (name == "transparent_tets") plan.draw_transparent = plan.tree.empty();
     if (name == "drawing") plan.nothing_visible = false;
     if (name == "order") plan.visibility = OrderMethod::exact;
     if (name == "color") plan.table.colored = plan.aligned.colored = true;
@@ -75,6 +76,8 @@ Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene,
     work.segments = pixels_of(scene) * plan.slabs * share_of_rays(plan, facts.ray_shares);
     work.passes = passes_of(plan);
     if (plan.uses_table()) work.bytes += table_bytes(plan.table);
+    if (plan.occupied_only)
+        work.bytes += static_cast<double>(facts.occupied_bricks.distance.size());
     return work;
 }
 

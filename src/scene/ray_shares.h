@@ -18,8 +18,9 @@ struct RayShares {
 };
 
 // A ray ends where all that may lie behind changes no channel by more than this share of the wanted
-// error: too little to be told from the errors of a picture that meets it.
-inline constexpr double hidden_share = 1.0 / 32;
+// error: less than the errors
+// of tables and roundings, so that it may stand in what is measured, too.
+inline constexpr double hidden_share = 1.0 / 1024;
 
 // Optical depth behind which nothing changes a channel by more than hidden_share of max_error.
 double opaque_depth(double max_error, double max_color);

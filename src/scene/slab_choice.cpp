@@ -3,11 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/target_choice.h"
 #include "scene/tree_choice.h"
 
 namespace lamina {
+namespace {
+
+// The largest error on a quarter of a picture's rays was up to 4 % below that on all.
+constexpr double tried_share = 0.92;
+
+// What more slabs gain less than is not worth their time.
+constexpr double near_least = 1.2;
+
+}  // namespace
 
 int slabs_per_voxel(const Facts& facts, double slabs) {
     return static_cast<int>(
@@ -15,24 +25,30 @@ int slabs_per_voxel(const Facts& facts, double slabs) {
 }
 
 double slab_error_goal(const Scene& scene) {
-    if (scene.automatic_target) return scene.max_error * (1 - target_share);
-    if (!scene.slice.tree || !scene.slice.tree->automatic) return scene.max_error;
+    if (scene.automatic_target) return tried_share * scene.max_error * (1 - target_share);
+    if (!scene.slice.tree || !scene.slice.tree->automatic) return tried_share * scene.max_error;
     TreeQuestion question;  // of a tree that needs no more than its root's rounding
     question.target = scene.target;
     question.emulation = scene.emulate;
     const double root = one_level_error_bound(question);
-    return std::max(scene.max_error - root, scene.max_error * target_share);
+    return tried_share * std::max(scene.max_error - root, scene.max_error * target_share);
 }
 
-SlabTrial chosen_slabs(const Scene& scene, const Facts& facts) {
-    if (facts.slab_trials.empty()) return {slabs_per_voxel(facts, 2), NAN, 0};
-    const double goal = slab_error_goal(scene);
-    const auto kept = [goal](const SlabTrial& trial) { return trial.error <= goal; };
-    const auto better = [&](const SlabTrial& a, const SlabTrial& b) {
-        if (kept(a) != kept(b)) return kept(a);
-        return kept(a) ? a.slabs < b.slabs : a.error < b.error;
+SlabTrial chosen_slabs(const Facts& facts) {
+    const SlabTrial two_per_voxel{slabs_per_voxel(facts, 2), NAN, 0};
+    if (facts.slab_trials.empty()) return two_per_voxel;
+    const double least = std::ranges::min(facts.slab_trials, {}, &SlabTrial::error).error;
+    const bool kept = least <= facts.slab_goal;
+    const double most = kept ? facts.slab_goal : near_least * least;
+    const auto unwanted = [&](const SlabTrial& trial) {
+        return trial.error > most || (!kept && trial.slabs < two_per_voxel.slabs);
     };
-    return *std::ranges::min_element(facts.slab_trials, better);
+    SlabTrial chosen{std::numeric_limits<int>::max(), 0, 0};
+    for (const SlabTrial& trial : facts.slab_trials) {
+        if (!unwanted(trial) && trial.slabs < chosen.slabs) chosen = trial;
+    }
+    if (chosen.rays > 0) return chosen;
+    return std::ranges::min(facts.slab_trials, {}, &SlabTrial::error);
 }
 
 }  // namespace lamina

@@ -12,13 +12,14 @@ namespace lamina {
 // So many slabs a voxel along the view, 1 .. max_slabs.
 int slabs_per_voxel(const Facts& facts, double slabs);
 
-// What slabs may add to the picture's error where their number is automatic, in 1/255: what
-// compositing that is automatic, too, leaves of max_error.
+// What slabs may be found to add to the picture's error where their number is automatic, in 1/255:
+// what compositing that is automatic, too, leaves of max_error, and a little less, for the rays
+// that are not tried.
 double slab_error_goal(const Scene& scene);
 
 // "samples": "auto": of what was tried (Facts::slab_trials) the fewest slabs that keep the goal;
-// where none does, those of the least error. Where nothing was tried, two a voxel, of an error that
-// is not known (NaN).
-SlabTrial chosen_slabs(const Scene& scene, const Facts& facts);
+// where none does, of two a voxel and more the fewest whose error is near the least. Where nothing
+// was tried, two a voxel, of an error that is not known (NaN).
+SlabTrial chosen_slabs(const Facts& facts);
 
 }  // namespace lamina

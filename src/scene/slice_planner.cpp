@@ -87,7 +87,7 @@ class SlicePlanner {
             slice.slabs = *scene_.slice.samples;
             return;
         }
-        const SlabTrial chosen = chosen_slabs(scene_, facts_);
+        const SlabTrial chosen = chosen_slabs(facts_);
         slice.slabs = chosen.slabs;
         if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
     }
@@ -133,7 +133,9 @@ class SlicePlanner {
             facts_.non_finite > 0 && slice.classification == Classification::preintegrated;
         const std::int64_t longest = std::ranges::max(facts_.occupied_bricks.count);
         const bool leaps = capabilities_.tiles || (slice.has_tree(NodeArithmetic::shader) &&
-                                                   longest <= capabilities_.max_3d_texture_size);
+                                                   longest <= capabilities_.max_3d_texture_size &&
+                                                   facts_.occupied_bricks.distance.size() <=
+                                                       capabilities_.max_texture_bytes);
         return leaps && facts_.occupied_share < 1 && !jumps;
     }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,6 +50,7 @@ HWY_INLINE void for_each_run_backwards(BlockMask mask, const Body& body) {
 class SlabMask {
   public:
     void clear(int slabs) {
+        assert(slabs <= max_slabs);
         std::fill_n(blocks_.begin(), (slabs + tile_block_slabs - 1) / tile_block_slabs,
                     BlockMask{0});
     }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/progress.h"
+#include "base/stage.h"
 #include "image/metrics.h"
 #include "scene/plan.h"
 #include "scene/slab_choice.h"
@@ -24,6 +26,10 @@ constexpr int most_trials = 8;
 // Of the goal: what is aimed at, and what is near enough to it.
 constexpr double aim = 0.9, near_aim = 0.78;
 
+// From one trial to the next at most so many times the slabs; where twice as many and more leave
+// more than this share of the error, more of them do not help.
+constexpr double most_growth = 4, stubborn = 0.7;
+
 // Slabs of the picture that another is compared with, at least so many times as many.
 constexpr double finer = 1.5;
 
@@ -34,21 +40,27 @@ class SlabTrials {
           volume_(volume),
           facts_(measure(scene_, volume, bricks)),
           goal_(slab_error_goal(scene)),
-          most_(std::max(fewest_most_slabs, slabs_per_voxel(facts_, most_slabs_per_voxel))) {}
+          most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
+                           max_slabs / 2)) {}  // the picture to compare with has twice as many
 
     std::vector<SlabTrial> run() {
         std::vector<SlabTrial> trials;
+        double error_of_too_few = std::numeric_limits<double>::infinity();
         int slabs = slabs_per_voxel(facts_, 1), too_few = 0, enough = most_ + 1;
         while (trials.size() < most_trials && too_few + 1 < enough) {
             slabs = std::clamp(slabs, too_few + 1, enough - 1);
             const double error = trials.emplace_back(try_slabs(slabs)).error;
             const bool kept = error <= goal_;
             if (kept && error >= near_aim * goal_) break;
+            if (!kept && slabs >= 2 * too_few && error > stubborn * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
-            // The error falls with the square of the number.
+            if (!kept) error_of_too_few = error;
+            // The error falls with the square of the number, but where there are steps.
             const double next = std::ceil(slabs * std::sqrt(error / (aim * goal_)));
-            slabs = static_cast<int>(std::min(next, double(most_)));
+            slabs = static_cast<int>(std::min({next, double(most_), most_growth * slabs}));
         }
+        if (enough > most_)
+            trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_)));
         return trials;
     }
 
@@ -84,6 +96,7 @@ class SlabTrials {
         const Plan plan = make_plan(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height);
+        const Stage trial("trial");
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());
         renderer.draw(View(scene_.camera, scene_.width, scene_.height), &progress);
         return renderer.read();
@@ -106,8 +119,10 @@ bool shows_something(const Facts& facts) {
 
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure(scene, volume, bricks);
-    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
+    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts)) {
+        facts.slab_goal = slab_error_goal(scene);
         facts.slab_trials = SlabTrials(scene, volume, bricks).run();
+    }
     return facts;
 }
 

@@ -8,9 +8,9 @@ namespace lamina {
 
 // measure(), and, where the scene is sliced into an automatic number of slabs, what numbers of
 // slabs cost in accuracy: pictures of N and of more slabs are drawn with the native engine, in
-// float32, until the fewest that keep slab_error_goal() are known to some 10 %, or 16 a voxel do
-// not keep it. Pictures are smaller than the scene's where that has more than 2^17 pixels; what
-// they miss between their rays, aiming at .9 of the goal leaves room for.
+// float32, until the fewest that keep slab_error_goal() are known to some 10 %, or more of
+// them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too. Pictures are
+// smaller than the scene's where that has more than 2^17 pixels.
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
 }  // namespace lamina

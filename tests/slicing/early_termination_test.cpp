@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays end where what lies behind changes the picture by less than a 32nd of the wanted error.
+// Rays end where what lies behind changes the picture by less than a 1024th of the wanted error.
 #include <random>
 
 #include "support/volume_of.h"
@@ -21,7 +21,7 @@ class EarlyTerminationTest : public SlicingTest {
         return tiles;
     }
 
-    // What lies behind the end: transmittance times the largest colour, max_error / 32; and the
+    // What lies behind the end: transmittance times the largest colour, max_error / 1024; and the
     // roundings of a float32 picture.
     void expect_bound(const Volume& volume, const Scene& scene, const std::string& what) const {
         const OmissionSwitch all = keep("early_termination");
@@ -29,7 +29,7 @@ class EarlyTerminationTest : public SlicingTest {
         for (const TransferKnot& each : scene.transfer_function.knots())
             largest =
                 std::max({largest, each.optics.color.r, each.optics.color.g, each.optics.color.b});
-        const double bound = scene.max_error / 32 + 255 * largest * 1.2e-7;
+        const double bound = scene.max_error / 1024 + 255 * largest * 1.2e-7;
         EXPECT_LE(
             image_error(render_tiles(volume, scene), render_tiles(volume, scene, all)).all.linf,
             bound)
@@ -88,7 +88,8 @@ TEST_F(EarlyTerminationTest, KeepsItsBoundWithOneColor) {
 }
 
 // Segments that are not evaluated, as the tiles count them. A ray of depth 100 and more ends before
-// half of it, and at the latest a block of 32 slabs after depth 9.01 = ln(255 * 32), 16 slabs here.
+// half of it, and at the latest a block of 32 slabs after depth 12.5 = ln(255 * 1024), 23 slabs
+// here.
 TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     const Volume volume = gaussians(24);
     const Scene scene = fog(130);  // 400 slabs over the depth of the box, 1.7 or so: .55 a slab
@@ -105,7 +106,7 @@ TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
 TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     const Volume volume = gaussians(24);
     const Facts facts = measure(fog(1), volume, measure_bricks(volume));
-    const double depth = std::log(255 * 32.) / (facts.far_depth - facts.near_depth);
+    const double depth = std::log(255 * 1024.) / (facts.far_depth - facts.near_depth);
     EXPECT_FALSE(ends_early(volume, fog(.99 * depth)));
     EXPECT_TRUE(ends_early(volume, fog(1.01 * depth)));
 
@@ -116,8 +117,8 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     scene.camera.eye = {-2, .06, .06};
     scene.camera.center = {.5, .0625, .0625};
     scene.camera.height = .1;
-    // 11 deep in front, .005 of 1e4 behind: half of full scale in a picture of which 1 / 255 / 32
-    // counts.
+    // 11 deep in front, .005 of 1e4 behind: half of full scale in a picture of which
+    // 1 / 255 / 1024 counts.
     scene.transfer_function = TransferFunction::linear(
         {knot(0, {1, 0, 0}, 22), knot(.5, {1, 0, 0}, 22), knot(.5, {1, 1e4, 1}, 22)});
     ASSERT_TRUE(ends_early(ramp, scene));

@@ -34,7 +34,7 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
                 scene.max_error = max_error;
                 scene.slice.samples.reset();
                 const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-                const SlabTrial chosen = chosen_slabs(scene, facts);
+                const SlabTrial chosen = chosen_slabs(facts);
                 EXPECT_LE(chosen.error, max_error);
                 EXPECT_EQ(chosen.rays, 64 * 48);
                 EXPECT_LE(image_error(draw(volume, scene, facts), traced).all.linf, max_error)
@@ -45,6 +45,16 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
             }
         }
     }
+}
+
+// A picture of more rays than are tried.
+TEST(SlabTrials, KeepTheErrorBetweenTheRaysThatAreTried) {
+    const Volume volume = gaussians(16);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
+    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    EXPECT_LE(chosen_slabs(facts).rays, 1.01 * (1 << 17));
+    EXPECT_LE(image_error(draw(volume, scene, facts), trace(volume, scene, 1e-6)).all.linf,
+              scene.max_error);
 }
 
 TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
@@ -68,7 +78,7 @@ TEST(SlabTrials, OneSlabOfAConstant) {
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 2)}),
                                  Projection::perspective);
     const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    EXPECT_EQ(chosen_slabs(scene, facts).slabs, 1);
+    EXPECT_EQ(chosen_slabs(facts).slabs, 1);
 }
 
 // An opaque step: its silhouette moves with the slabs, whatever their number.
@@ -80,9 +90,11 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
         Projection::perspective, 160, 120);
     scene.max_error = .01;
     const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    const SlabTrial chosen = chosen_slabs(scene, facts);
+    const SlabTrial chosen = chosen_slabs(facts);
     EXPECT_GT(chosen.error, scene.max_error);
-    EXPECT_LE(chosen.slabs, 1024);
+    // 15 cells and their diagonal: 26 voxels along the view at most. More than some slabs a voxel
+    // would not help.
+    EXPECT_LE(chosen.slabs, 4 * 26);
 }
 
 }  // namespace

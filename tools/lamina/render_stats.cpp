@@ -115,7 +115,7 @@ Json to_json(const Work& work) {
 Json actual_work(const RenderStats& stats, const Plan& plan) {
     Json json = Json::object();
     if (plan.method == Method::slice && stats.on_tiles) json["segments"] = stats.fragments;
-    if (plan.method == Method::project) json["tets"] = stats.tets_drawn;
+    if (plan.method == Method::project) json["tets_drawn"] = stats.tets_drawn;
     if (plan.method != Method::trace)
         json["bytes"] = stats.on_tiles ? stats.bytes_host : stats.bytes_gpu;
     return json;

@@ -21,11 +21,14 @@ class SliceMethod : public FrameMethod {
     Plan plan(const Capabilities& capabilities) const override {
         Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
         const auto& trial = plan.slice.slab_trial;
-        if (trial && trial->error > request_.scene.max_error) {
+        if (!trial) return plan;
+        const double error = trial->error + plan.slice.error_bound.value_or(0);
+        if (error > request_.scene.max_error) {
             request_.message(fmt::format(
-                "render.max_error: found {:.4g}, {} slabs keep {:.2g}: the transfer function has "
-                "steps that more slabs would show more of (render.slice.samples)",
-                request_.scene.max_error, trial->slabs, trial->error));
+                "render.max_error: found {:.4g}, not kept: of the numbers of slabs that were "
+                "tried, "
+                "{} are taken, with an error of {:.2g} (render.slice.samples sets another)",
+                request_.scene.max_error, trial->slabs, error));
         }
         return plan;
     }
