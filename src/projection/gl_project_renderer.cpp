@@ -131,7 +131,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     tets_drawn_ = 0;
     if (!stream_) return;
     Stage ordering("order");
-    const auto parts = list_parts(view);
+    const auto parts = parts_->sorted(order_, eye_of(view), plan_.scattered);
     order_ms_ = ordering.end();
     Stage drawing("draw");
     for (auto& program : programs_) {
@@ -144,16 +144,6 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     drawing.count("tets", static_cast<double>(tets_drawn_));
     draw_ms_ = drawing.end();
     stream_->end_frame();
-}
-
-std::span<const TetPart> GlProjectRenderer::list_parts(const View& view) {
-    const Eye eye = eye_of(view);
-    if (plan_.scattered && parts_->is_scattered()) return parts_->scattered(order_.order(), eye);
-    Stage sorting("sort");
-    const auto order = order_.sort(eye);
-    sorting.end();
-    const Stage listing("parts");
-    return plan_.scattered ? parts_->scattered(order, eye) : parts_->list(order, eye);
 }
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {

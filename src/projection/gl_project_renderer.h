@@ -56,7 +56,6 @@ class GlProjectRenderer : public ProjectRenderer {
   private:
     gl::Program make_program(FragmentKind kind) const;
     void make_tree();
-    std::span<const TetPart> list_parts(const View& view);
     void set_view(gl::Program& program, const View& view) const;
     void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
 

@@ -112,7 +112,7 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     clear();
     if (!parts_) return;
     Stage ordering("order");
-    const auto parts = list_parts(view);
+    const auto parts = parts_->sorted(order_, eye_of(view), plan_.scattered);
     ordering.count("parts", static_cast<double>(parts.size()));
     order_ms_ = ordering.end();
     Stage drawing("draw");
@@ -160,16 +160,6 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
                    nullptr);
     };
     tree_->draw(std::ref(draw_leaf), image_, progress);
-}
-
-std::span<const TetPart> TileProjectRenderer::list_parts(const View& view) {
-    const Eye eye = eye_of(view);
-    if (plan_.scattered && parts_->is_scattered()) return parts_->scattered(order_.order(), eye);
-    Stage sorting("sort");
-    const auto order = order_.sort(eye);
-    sorting.end();
-    const Stage listing("parts");
-    return plan_.scattered ? parts_->scattered(order, eye) : parts_->list(order, eye);
 }
 
 void TileProjectRenderer::set_view(const View& view) {

@@ -66,7 +66,6 @@ class TileProjectRenderer : public ProjectRenderer {
     std::size_t parts_a_chunk() const;
     std::size_t parts_a_batch() const { return batches_[0].size() * parts_a_chunk(); }
     std::size_t batch_count(std::size_t parts) const;
-    std::span<const TetPart> list_parts(const View& view);
     void set_view(const View& view);
     void clear();
     void draw_parts(const Projectors& projectors, std::span<const TetPart> parts,

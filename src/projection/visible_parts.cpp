@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/stage.h"
 #include "compositing/random_bits.h"
 #include "projection/part_field.h"
 
@@ -58,10 +59,19 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
     return parts_;
 }
 
-std::span<const TetPart> VisibleParts::scattered(std::span<const std::int32_t> order,
-                                                 const Eye& eye) {
+std::span<const TetPart> VisibleParts::sorted(VisibilityOrder& order, const Eye& eye,
+                                              bool scattered) {
     if (is_scattered_) return parts_;
-    list(order, eye);
+    Stage sorting("sort");
+    const auto tets = order.sort(eye);
+    sorting.end();
+    const Stage listing("parts");
+    list(tets, eye);
+    if (scattered) scatter();
+    return parts_;
+}
+
+void VisibleParts::scatter() {
     // Whatever the eye.
     std::ranges::sort(parts_, {},
                       [](const TetPart& part) { return std::pair(part.tet, part.piece); });
@@ -69,7 +79,6 @@ std::span<const TetPart> VisibleParts::scattered(std::span<const std::int32_t> o
     for (std::size_t left = parts_.size(); left > 1; --left)
         std::swap(parts_[left - 1], parts_[random.next() % left]);
     is_scattered_ = true;
-    return parts_;
 }
 
 std::int64_t VisibleParts::parts_in(const TetPieces::Span& span) const {

@@ -7,6 +7,7 @@
 
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
+#include "mesh/visibility_order.h"
 #include "projection/tet_part.h"
 #include "scene/tet_pieces.h"
 
@@ -22,13 +23,14 @@ class VisibleParts {
 
     // Of tets in visibility order. Valid until the next call, which takes no memory.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
-    // In a random order that is the same for every view: parts of one region come to lie in
-    // different leaves of a tree. Stays valid; list() is not called beside it.
-    std::span<const TetPart> scattered(std::span<const std::int32_t> order, const Eye& eye);
-    bool is_scattered() const { return is_scattered_; }  // scattered() needs no new order
-    std::int64_t count() const { return count_; }        // of every list
+    // The same, of tets that are sorted for this eye first. `scattered`, always or never: in a
+    // random order that is the same for every view, so that parts of one region come to lie in
+    // different leaves of a tree; the first view's stays valid.
+    std::span<const TetPart> sorted(VisibilityOrder& order, const Eye& eye, bool scattered);
+    std::int64_t count() const { return count_; }  // of every list
 
   private:
+    void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
     void append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye);
     double scalar_at_eye(const Tet& tet, const Eye& eye) const;

@@ -32,12 +32,16 @@ std::string with_reason(const char* name, const std::string& reason) {
     return reason.empty() ? name : fmt::format("{}: {}", name, reason);
 }
 
-std::string left_out(const Plan& plan) {
-    std::string text = "left out         saves a frame, as predicted           because\n";
+std::string work_and_left_out(const Plan& plan) {
+    const std::string work = plan.work.amounts().empty()
+                                 ? ""
+                                 : line("work", to_text(plan.work) + " a frame, as predicted");
+    if (plan.omitted.empty()) return work + "left out\n  nothing\n";
+    std::string text = work + "left out         saves a frame, as predicted           because\n";
     for (const Omission& omission : plan.omitted)
         text += fmt::format("  {:<17} {:<36} {}\n", omission.name, to_text(omission.saves),
                             omission.reason);
-    return plan.omitted.empty() ? "left out\n  nothing\n" : text;
+    return text;
 }
 
 const char* text_of(Blending blending) {
@@ -175,8 +179,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
         }
     }
-    if (!plan.work.amounts().empty()) row("work", to_text(plan.work) + " a frame, as predicted");
-    return text + left_out(plan);
+    return text + work_and_left_out(plan);
 }
 
 std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities) {
@@ -190,8 +193,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         row("context", capabilities.renderer);
         explain_projection(plan.project, facts, capabilities.tiles, row);
     }
-    if (!plan.work.amounts().empty()) row("work", to_text(plan.work) + " a frame, as predicted");
-    return text + left_out(plan);
+    return text + work_and_left_out(plan);
 }
 
 }  // namespace lamina

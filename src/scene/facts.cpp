@@ -134,24 +134,6 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
     if (seen > 0) facts.occupied = box_of_bricks(facts.grid, bricks.count, first, last);
 }
 
-void measure_view(const Scene& scene, Facts& facts) {
-    const View view(scene.camera, scene.width, scene.height);
-    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
-    facts.orthographic = view.projection == Projection::orthographic;
-    const glm::dvec3 eye = facts.grid.to_index(view.eye);
-    facts.eye_inside = !facts.orthographic && glm::clamp(eye, lo, hi) == eye;
-    const DepthRange depth = depth_range(facts.grid, view);
-    facts.near_depth = depth.near;
-    facts.far_depth = depth.far;
-    const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
-    facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
-    facts.occupied_depth = depth_range(facts.grid, facts.occupied, view);
-    if (!facts.orthographic) {
-        const double x = view.x(scene.width - 1), y = view.y(0);
-        facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
-    }
-}
-
 }  // namespace
 
 DepthRange depth_range(const Grid& grid, const View& view) {
@@ -170,6 +152,24 @@ DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view) 
     }
     depth.near = std::max(depth.near, 0.0);
     return depth;
+}
+
+void measure_view(const Scene& scene, Facts& facts) {
+    const View view(scene.camera, scene.width, scene.height);
+    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
+    facts.orthographic = view.projection == Projection::orthographic;
+    const glm::dvec3 eye = facts.grid.to_index(view.eye);
+    facts.eye_inside = !facts.orthographic && glm::clamp(eye, lo, hi) == eye;
+    const DepthRange depth = depth_range(facts.grid, view);
+    facts.near_depth = depth.near;
+    facts.far_depth = depth.far;
+    const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
+    facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
+    facts.occupied_depth = depth_range(facts.grid, facts.occupied, view);
+    if (!facts.orthographic) {
+        const double x = view.x(scene.width - 1), y = view.y(0);
+        facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
+    }
 }
 
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {

@@ -77,4 +77,7 @@ struct Facts {
 // what to do with them, or has none but such.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
+// Of facts of the same volume and transfer function, those of the view anew, but for ray_shares.
+void measure_view(const Scene& scene, Facts& facts);
+
 }  // namespace lamina

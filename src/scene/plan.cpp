@@ -18,8 +18,7 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
                const OmissionSwitch& omissions) {
     Plan plan;
     if (scene.method == Method::slice) {
-        const TargetChoice choice =
-            scene.automatic_target ? choose_target(scene, facts) : TargetChoice{scene.target, {}};
+        const TargetChoice choice = choose_target(scene, facts);
         const Scene chosen = with_target(scene, choice.target);
         plan = plan_slicing(chosen, facts, capabilities, omissions);
         plan.slice.target_reason = choice.reason;
@@ -39,8 +38,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
     plan.method = scene.method;
     if (scene.method == Method::project) {
         check_limits(scene, capabilities);
-        const TargetChoice choice =
-            scene.automatic_target ? choose_project_target(scene) : TargetChoice{scene.target, {}};
+        const TargetChoice choice = choose_project_target(scene);
         plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
                                        omissions, plan.omitted);
         plan.project.target_reason = choice.reason;

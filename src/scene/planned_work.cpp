@@ -35,7 +35,9 @@ double volume_bytes(const SlicePlan& plan, const Facts& facts, bool tiles) {
                                                                                 : 2 * samples;
 }
 
-double table_bytes(const TablePlan& table) {
+// TablePlan, SegmentTableRequest.
+template <typename Table>
+double table_bytes(const Table& table) {
     return 4.0 * table.scalar_nodes * table.scalar_nodes *
            (table.colored ? 4 * table.length_layers : 1);
 }
@@ -92,10 +94,7 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
                 (plan.draw_transparent ? transparent : 0);
     work.ordered = plan.visibility == OrderMethod::none ? 0 : tets;
     if (plan.source == SegmentSource::cut_table) work.bytes += table_bytes(plan.aligned);
-    if (plan.source == SegmentSource::table) {
-        work.bytes += 4.0 * plan.table.scalar_nodes * plan.table.scalar_nodes *
-                      (plan.table.colored ? 4 * plan.table.length_layers : 1);
-    }
+    if (plan.source == SegmentSource::table) work.bytes += table_bytes(plan.table);
     return work;
 }
 

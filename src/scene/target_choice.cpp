@@ -34,6 +34,7 @@ TargetChoice smallest_target(TreeQuestion question, const Bound& bound) {
 }  // namespace
 
 TargetChoice choose_target(const Scene& scene, const Facts& facts) {
+    if (!scene.automatic_target) return {scene.target, {}};
     const auto& tree = scene.slice.tree;
     if (tree && !tree->automatic) {
         if (tree->nodes == NodeArithmetic::fixed)
@@ -57,6 +58,7 @@ Scene with_target(Scene scene, Target target) {
 }
 
 TargetChoice choose_project_target(const Scene& scene) {
+    if (!scene.automatic_target) return {scene.target, {}};
     if (scene.project.tree)
         return {Target::fixed16, "the most bits that a tree over tets can have"};
     return {Target::float32,

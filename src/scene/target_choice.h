@@ -14,7 +14,7 @@ inline constexpr double target_share = 0.15;
 
 struct TargetChoice {
     Target target = Target::float32;
-    std::string reason;
+    std::string reason;  // empty: as the scene asks
 };
 
 // "target": "auto", of slicing: the fewest bytes a pixel with which compositing keeps its share of

@@ -10,8 +10,8 @@
 #include "base/progress.h"
 #include "base/stage.h"
 #include "image/metrics.h"
-#include "scene/plan.h"
 #include "scene/slab_choice.h"
+#include "scene/slice_planner.h"
 #include "slicing/tile_slice_renderer.h"
 #include "tiles/tile_capabilities.h"
 
@@ -28,18 +28,18 @@ constexpr double aim = 0.9, near_aim = 0.78;
 
 // From one trial to the next at most so many times the slabs; where twice as many and more leave
 // more than this share of the error, more of them do not help.
-constexpr double most_growth = 4, stubborn = 0.7;
+constexpr double most_growth = 4, still_left = 0.7;
 
 // Slabs of the picture that another is compared with, at least so many times as many.
 constexpr double finer = 1.5;
 
 class SlabTrials {
   public:
-    SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks)
+    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts)
         : scene_(trial_scene(scene)),
           volume_(volume),
-          facts_(measure(scene_, volume, bricks)),
-          goal_(slab_error_goal(scene)),
+          facts_(seen_by(scene_, facts)),
+          goal_(facts.slab_goal),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
                            max_slabs / 2)) {}  // the picture to compare with has twice as many
 
@@ -52,7 +52,7 @@ class SlabTrials {
             const double error = trials.emplace_back(try_slabs(slabs)).error;
             const bool kept = error <= goal_;
             if (kept && error >= near_aim * goal_) break;
-            if (!kept && slabs >= 2 * too_few && error > stubborn * error_of_too_few) break;
+            if (!kept && slabs >= 2 * too_few && error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
             if (!kept) error_of_too_few = error;
             // The error falls with the square of the number, but where there are steps.
@@ -65,13 +65,16 @@ class SlabTrials {
     }
 
   private:
+    static Facts seen_by(const Scene& scene, Facts facts) {
+        measure_view(scene, facts);
+        return facts;
+    }
     static Scene trial_scene(Scene scene) {
         const double pixels = static_cast<double>(scene.width) * scene.height;
         const double scale = std::min(1.0, std::sqrt(most_rays / pixels));
         scene.width = std::max(1, static_cast<int>(std::lround(scale * scene.width)));
         scene.height = std::max(1, static_cast<int>(std::lround(scale * scene.height)));
         scene.target = Target::float32;
-        scene.automatic_target = false;
         scene.slice.tree.reset();
         scene.slice.dither.reset();
         return scene;
@@ -93,7 +96,7 @@ class SlabTrials {
 
     Image draw(int slabs, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
-        const Plan plan = make_plan(scene_, facts_, tile_capabilities(), omissions);
+        const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height);
         const Stage trial("trial");
@@ -121,7 +124,7 @@ Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBric
     Facts facts = measure(scene, volume, bricks);
     if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts)) {
         facts.slab_goal = slab_error_goal(scene);
-        facts.slab_trials = SlabTrials(scene, volume, bricks).run();
+        facts.slab_trials = SlabTrials(scene, volume, facts).run();
     }
     return facts;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/blobs_scene.h"
 #include "cli/run_program.h"
 #include "support/temporary_folder.h"
 
@@ -17,14 +18,7 @@ class Bench : public testing::Test {
   protected:
     void SetUp() override {
         if (run_program({"python3", "--version"}).exit_code != 0) GTEST_SKIP() << "no python3";
-        json scene = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
-            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
-                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 40, "height": 30},
-            "render": {"slice": {"samples": 60}}})");
+        json scene = gaussians_scene(24, 40, 30, 60);
         write_bytes_to(folder / "here.json", scene.dump());
         scene["volume"] = "${LAMINA_DATA}/nothing.nrrd";
         write_bytes_to(folder / "gone.json", scene.dump());

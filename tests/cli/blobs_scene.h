@@ -5,18 +5,25 @@
 
 namespace lamina {
 
-// A small coloured volume with a mesh of tolerance .1, to be sliced with `samples` slabs.
-inline nlohmann::json blobs_scene(int width, int height, int samples) {
+// A coloured volume of edge^3 samples, to be sliced with `samples` slabs.
+inline nlohmann::json gaussians_scene(int edge, int width, int height, int samples) {
     auto scene = nlohmann::json::parse(R"({
         "version": 1,
-        "volume": {"generate": "gaussians", "size": [16, 16, 16]},
-        "mesh": {"tolerance": 0.1},
+        "volume": {"generate": "gaussians"},
         "transfer_function": {"points": [
             {"value": 0, "color": [0, 0, 1], "extinction": 0},
             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
         "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]}})");
+    scene["volume"]["size"] = {edge, edge, edge};
     scene["image"] = {{"width", width}, {"height", height}};
     scene["render"]["slice"]["samples"] = samples;
+    return scene;
+}
+
+// A small one, with a mesh of tolerance .1.
+inline nlohmann::json blobs_scene(int width, int height, int samples) {
+    auto scene = gaussians_scene(16, width, height, samples);
+    scene["mesh"] = {{"tolerance", 0.1}};
     return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/blobs_scene.h"
 #include "cli/run_program.h"
 #include "image/exr.h"
 #include "support/temporary_folder.h"
@@ -17,15 +18,8 @@ using nlohmann::json;
 class NativeEngine : public testing::Test {
   protected:
     void SetUp() override {
-        const json scene = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
-            "mesh": {"tolerance": 0.1},
-            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
-                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 100, "height": 75},
-            "render": {"slice": {"samples": 60}}})");
+        json scene = gaussians_scene(24, 100, 75, 60);
+        scene["mesh"] = {{"tolerance", 0.1}};
         write_bytes_to(folder / "scene.json", scene.dump());
     }
 

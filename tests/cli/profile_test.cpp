@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/blobs_scene.h"
 #include "cli/lamina_run.h"
 #include "support/temporary_folder.h"
 
@@ -36,15 +37,8 @@ bool is_opengl(const std::string& row_name) {
 class ProfileOption : public testing::Test {
   protected:
     void SetUp() override {
-        scene = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
-            "mesh": {"kuhn": true},
-            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
-                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 40, "height": 30},
-            "render": {"slice": {"samples": 60}}})");
+        scene = gaussians_scene(24, 40, 30, 60);
+        scene["mesh"] = {{"kuhn", true}};
         write_bytes_to(folder / "scene.json", scene.dump());
     }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/blobs_scene.h"
 #include "cli/run_program.h"
 #include "image/exr.h"
 #include "image/metrics.h"
@@ -19,14 +20,7 @@ using nlohmann::json;
 class Render : public testing::Test {
   protected:
     void SetUp() override {
-        scene = json::parse(R"({
-            "version": 1,
-            "volume": {"generate": "gaussians", "size": [24, 24, 24]},
-            "transfer_function": {"points": [{"value": 0, "color": [0, 0, 1], "extinction": 0},
-                                             {"value": 255, "color": [1, 0.5, 0], "extinction": 8}]},
-            "camera": {"eye": [1.7, -0.9, 1.3], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
-            "image": {"width": 40, "height": 30},
-            "render": {"slice": {"samples": 60}}})");
+        scene = gaussians_scene(24, 40, 30, 60);
         write("scene.json", scene);
     }
 
@@ -92,8 +86,8 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
                   .exit_code,
               0);
     const json stats = json::parse(read_bytes_of(folder / "s.json"));
-    for (const char* key : {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu", "work",
-                            "peak_rss_mb", "context", "plan", "omitted", "counts"}) {
+    for (const char* key : {"frame_ms", "stages", "samples", "fragments", "tets_drawn", "bytes_gpu",
+                            "work", "peak_rss_mb", "context", "plan", "omitted", "counts"}) {
         EXPECT_TRUE(stats.contains(key)) << key;
     }
     EXPECT_EQ(stats["frame_ms"]["n"], 3);
