@@ -17,7 +17,11 @@ float front_weight(float p, float q) {
 uniform sampler2D front_weights;
 
 float front_weight(float p, float q) {
-    vec2 nodes = float(FRONT_WEIGHT_NODES - 1) * (1.0 - 1.0 / vec2(1.0 + p, sqrt(1.0 + q)));
+    p = min(p, 1e30);
+    q = min(q, 1e30);
+    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) without a difference: faint segments keep their digits.
+    float root = sqrt(1.0 + q);
+    vec2 nodes = float(FRONT_WEIGHT_NODES - 1) * vec2(p, q / root) / (1.0 + vec2(p, root));
 #ifdef TABLE_FILTERED
     return texture(front_weights, (nodes + 0.5) / float(FRONT_WEIGHT_NODES)).r;
 #else

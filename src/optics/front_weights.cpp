@@ -57,8 +57,12 @@ FrontWeightTable::FrontWeightTable() : texels_(std::size_t{nodes} * nodes) {
 }
 
 double FrontWeightTable::lookup(double p, double q) const {
-    const double x = (nodes - 1) * (1 - 1 / (1 + p));
-    const double y = (nodes - 1) * (1 - 1 / std::sqrt(1 + q));
+    p = std::min(p, opaque);
+    q = std::min(q, opaque);
+    // Without a difference: faint segments keep their digits.
+    const double root = std::sqrt(1 + q);
+    const double x = (nodes - 1) * (p / (1 + p));
+    const double y = (nodes - 1) * (q / root / (1 + root));
     const int column = std::min(static_cast<int>(x), nodes - 2);
     const int row = std::min(static_cast<int>(y), nodes - 2);
     const double right = x - column, down = y - row;

@@ -56,8 +56,14 @@ template <class D>
 HWY_INLINE hn::Vec<D> front_weight(D d, const float* table, int nodes, hn::Vec<D> p, hn::Vec<D> q) {
     const hn::RebindToSigned<D> di;
     const auto one = hn::Set(d, 1.0f), last = hn::Set(d, static_cast<float>(nodes - 1));
-    const auto x = hn::Mul(last, hn::Sub(one, hn::Div(one, hn::Add(one, p))));
-    const auto y = hn::Mul(last, hn::Sub(one, hn::Div(one, hn::Sqrt(hn::Add(one, q)))));
+    const auto finite = hn::Set(d, 1e30f);
+    p = hn::Min(p, finite);
+    q = hn::Min(q, finite);
+    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) without a difference: faint segments keep their
+    // digits.
+    const auto root = hn::Sqrt(hn::Add(one, q));
+    const auto x = hn::Mul(last, hn::Div(p, hn::Add(one, p)));
+    const auto y = hn::Mul(last, hn::Div(hn::Div(q, root), hn::Add(one, root)));
     const auto most = hn::Set(di, nodes - 2);
     const auto column = hn::Min(hn::ConvertTo(di, x), most),
                row = hn::Min(hn::ConvertTo(di, y), most);
