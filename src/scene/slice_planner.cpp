@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "compositing/tree_shape.h"
 #include "scene/brick_cuts.h"
+#include "scene/march_limit.h"
 #include "scene/picture_limits.h"
 #include "scene/ray_shares.h"
 #include "scene/slab_choice.h"
@@ -228,8 +230,11 @@ class SlicePlanner {
         } else if (leave_out(slice.target == Target::float32, "blending",
                              "one node marches all slabs in registers: what blending in float32 "
                              "would give, with one write a pixel and without its roundings")) {
+            const int most = most_marched_slabs(scene_, facts_, capabilities_);
             slice.tree = TreePlan{.factors = {slice.slabs}};
+            if (slice.slabs > most) slice.tree->factors = {(slice.slabs + most - 1) / most, most};
         }
+        check_leaves();
         if (slice.tree && is_fixed_point(slice.target)) {
             slice.tree->largest_color = std::max(facts_.max_color, 1.0);
         }
@@ -237,6 +242,21 @@ class SlicePlanner {
             slice.blending = programmable_blending(capabilities_);
         }
         if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
+    }
+
+    void check_leaves() const {
+        const SlicePlan& slice = plan_.slice;
+        if (!slice.has_tree(NodeArithmetic::shader)) return;
+        const int most = most_marched_slabs(scene_, facts_, capabilities_);
+        const TreeShape shape(slice.tree->factors, slice.slabs);
+        int leaf = slice.slabs;
+        for (int level = 0; level + 1 < shape.levels(); ++level)
+            leaf = (leaf + shape.factor(level) - 1) / shape.factor(level);
+        if (leaf <= most) return;
+        fail(
+            "{}: render.slice.tree.factors: found leaves of {} slabs, expected at most {} with {}, "
+            "which ends longer loops: add a level, or use --context cpu",
+            scene_.file.string(), leaf, most, capabilities_.renderer);
     }
 
     void choose_tree_for(const TreeSettings& settings) {

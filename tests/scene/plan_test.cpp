@@ -58,6 +58,37 @@ TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
     EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
 }
 
+// llvmpipe ends the loops of a fragment after 65535 rounds. With a table a slab takes 2 + 4 + 4, or
+// 10 with one knot in a cell of the search: with n more knots there, 4 n more.
+TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
+    nlohmann::json document =
+        with("/render/slice", {{"samples", 65536}, {"classification", "preintegrated"}});
+    const auto factors = [&](const Capabilities& capabilities) {
+        return plan_of(document, capabilities).slice.tree.value().factors;
+    };
+    const std::vector<int> levels = factors(usual());
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_GE(levels[0] * levels[1], 65536);
+    EXPECT_LE(levels[1] * 10, 65535);
+    Capabilities gpu = usual();
+    gpu.software = false;
+    EXPECT_EQ(factors(gpu), std::vector{65536});
+    Capabilities native = usual();
+    native.tiles = true;
+    EXPECT_EQ(factors(native), std::vector{65536});
+
+    nlohmann::json points = nlohmann::json::array();
+    for (int i = 0; i < 100; ++i)
+        points.push_back({{"value", 1e-6 * i}, {"color", {1, 1, 1}}, {"extinction", i}});
+    document["transfer_function"]["points"] = points;
+    EXPECT_LE(factors(usual())[1] * 4 * 100, 65535);
+
+    document["render"]["slice"]["tree"] = {{"factors", "2x32768"}};
+    expect_error([&] { plan_of(document, usual()); },
+                 {"render.slice.tree.factors", "32768", "--context cpu"});
+    EXPECT_EQ(factors(native), (std::vector{2, 32768}));
+}
+
 TEST(Plan, TracingMakesNoContext) {
     const Plan plan = plan_of(with("/render/method", "trace"), {});
     ASSERT_EQ(plan.omitted.size(), 1u);
