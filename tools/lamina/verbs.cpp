@@ -14,6 +14,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
     add_reproduce(app, exit_code);
     add_study(app, exit_code);
     add_crosscheck(app, exit_code);
+    add_selftest(app, exit_code);
 }
 
 }  // namespace lamina

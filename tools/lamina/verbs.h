@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verbs of the program, one file each. add_X() declares the verb's options; its callback does
 // the work and throws Error (exit 1) or UsageError (exit 2), or sets the exit code for an outcome
-// that is neither (compare: 3).
+// that is neither (compare, selftest: 3).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,5 +20,6 @@ void add_order(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
 void add_crosscheck(CLI::App& app, int& exit_code);
+void add_selftest(CLI::App& app, int& exit_code);
 
 }  // namespace lamina

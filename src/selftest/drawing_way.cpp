@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "selftest/drawing_way.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace lamina {
+namespace {
+
+// float32: some four roundings a blend. float16: fragment and result are stored with 11 bits, the
+// smallest ones in steps of 2^-24.
+constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
+constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
+
+// n bits: opacity truncated or rounded by chance, at most one code; colour and result one each,
+// whatever the driver rounds before and after its weights (NUMERICS section 2).
+constexpr BlendRounding of_codes(int bits) {
+    const double code = 1.0 / ((1 << bits) - 1);
+    return {code, code, code, 0};
+}
+
+DrawingWay slice(const std::string& name, const std::function<void(Scene&)>& set,
+                 const BlendRounding& rounding = of_float32) {
+    return {"slice " + name, Method::slice, TraceOf::volume, set, rounding};
+}
+
+DrawingWay project(const std::string& name, const std::function<void(Scene&)>& set,
+                   const BlendRounding& rounding = of_float32) {
+    return {"project " + name, Method::project, TraceOf::mesh, set, rounding};
+}
+
+void set_codes(Scene& scene, int bits, AlphaRounding alpha, OverRounding over) {
+    scene.target = Target::emulated;
+    scene.emulate = {bits, alpha, over, 1};
+}
+
+}  // namespace
+
+Scene DrawingWay::scene_of(const Scene& scene) const {
+    Scene drawn = scene;
+    drawn.method = method;
+    drawn.trace_of = trace_of;
+    if (set) set(drawn);
+    return drawn;
+}
+
+std::vector<DrawingWay> traces() {
+    const auto tolerance = [](Scene& scene) { scene.trace_tolerance = 1e-9; };
+    return {{"trace volume", Method::trace, TraceOf::volume, tolerance, {}},
+            {"trace mesh", Method::trace, TraceOf::mesh, tolerance, {}}};
+}
+
+std::vector<DrawingWay> float_ways() {
+    return {
+        slice("post float32", [](Scene&) {}),
+        slice("post float32 front_to_back",
+              [](Scene& scene) { scene.slice.order = Order::front_to_back; }),
+        slice("preintegrated float32",
+              [](Scene& scene) { scene.slice.classification = Classification::preintegrated; }),
+        project("float32", [](Scene&) {}),
+        project("analytic float32",
+                [](Scene& scene) { scene.project.coloring = Coloring::analytic; }),
+    };
+}
+
+std::vector<DrawingWay> coarse_ways() {
+    const auto target = [](Target which) {
+        return [which](Scene& scene) { scene.target = which; };
+    };
+    const auto codes = [](int bits, AlphaRounding alpha, OverRounding over) {
+        return [=](Scene& scene) { set_codes(scene, bits, alpha, over); };
+    };
+    const auto truncated = codes(8, AlphaRounding::truncate, OverRounding::separate);
+    const auto nearest = codes(12, AlphaRounding::nearest, OverRounding::fused);
+    const auto random = codes(8, AlphaRounding::stochastic, OverRounding::fused);
+    return {
+        slice("post float16", target(Target::float16), of_float16),
+        slice("post fixed16", target(Target::fixed16), of_codes(16)),
+        slice("post fixed8", target(Target::fixed8), of_codes(8)),
+        slice("post emulated 8 truncate separate", truncated, of_codes(8)),
+        slice("post emulated 12 nearest fused", nearest, of_codes(12)),
+        slice("post emulated 8 stochastic fused", random, of_codes(8)),
+        project("float16", target(Target::float16), of_float16),
+        project("fixed16", target(Target::fixed16), of_codes(16)),
+        project("fixed8", target(Target::fixed8), of_codes(8)),
+        project("emulated 8 truncate separate", truncated, of_codes(8)),
+        project("emulated 12 nearest fused", nearest, of_codes(12)),
+        project("emulated 8 stochastic fused", random, of_codes(8)),
+    };
+}
+
+DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target) {
+    // Slabs of a leaf are composited in float32; what an inner image's codes add is for the whole
+    // picture (picture_bounds.h).
+    return slice("tree " + name + " " + name_of(target), [factors, target](Scene& scene) {
+        scene.target = target;
+        scene.slice.tree =
+            TreeSettings{false, factors, NodeArithmetic::shader, NodeCode::minimax, 8};
+    });
+}
+
+std::vector<DrawingWay> tree_ways() {
+    return {tree_way("8x8", {8, 8}, Target::fixed8), tree_way("8x8", {8, 8}, Target::fixed16),
+            tree_way("4x4x4", {4, 4, 4}, Target::fixed8), tree_way("8x8", {8, 8}, Target::float32)};
+}
+
+DrawingWay way_named(const std::string& name) {
+    const std::vector<DrawingWay> ways = float_ways();
+    const auto found = std::ranges::find(ways, name, &DrawingWay::name);
+    assert(found != ways.end());
+    return *found;
+}
+
+}  // namespace lamina

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "selftest/pixel_bounds.h"
+
+namespace lamina {
+
+// A way to draw a self-test's scene: method, classification or colouring, target.
+struct DrawingWay {
+    std::string name;
+    Method method = Method::slice;
+    TraceOf trace_of = TraceOf::volume;
+    std::function<void(Scene&)> set;  // further keys of the scene
+    BlendRounding rounding;           // of one blend
+
+    bool draws_mesh() const {
+        return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
+    }
+    Scene scene_of(const Scene& scene) const;
+};
+
+// Both tracers.
+std::vector<DrawingWay> traces();
+// Slicing and projection in float32, with both classifications, both orders and two colourings.
+std::vector<DrawingWay> float_ways();
+// Both methods in float16, fixed16, fixed8 and emulated targets.
+std::vector<DrawingWay> coarse_ways();
+// Trees over 64 slabs: in fixed8 and float16.
+std::vector<DrawingWay> tree_ways();
+DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target);
+// Of float_ways().
+DrawingWay way_named(const std::string& name);
+
+}  // namespace lamina

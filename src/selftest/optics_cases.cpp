@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stiff optics: optical depths from 1e-8 to 1e6, jumps, spikes, steps.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "selftest/case_makers.h"
+#include "selftest/selftest_meshes.h"
+
+namespace lamina {
+namespace {
+
+constexpr const char* group = "optics";
+
+void append(std::vector<SelftestCase>& cases, std::vector<SelftestCase> more) {
+    for (SelftestCase& each : more) cases.push_back(std::move(each));
+}
+
+void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& scene) {
+    append(cases, cases_of(group, scene, traces()));
+    append(cases, cases_of(group, scene, float_ways()));
+}
+
+// A homogeneous box; for other shares of the depth see the ray's length, 0 to 1.7.
+void append_depths(std::vector<SelftestCase>& cases) {
+    for (const double depth : {1e-8, 1e-4, 1., 30., 1e3, 1e6}) {
+        SelftestScene scene = plain_scene(
+            fmt::format("homogeneous_{:g}", depth),
+            fmt::format("Extinction {:g} all over a unit box: optical depths up to 1.7 times that",
+                        depth));
+        scene.scene.transfer_function = optics_of({{0, {{.2, .6, 1}, depth}}});
+        append_float_ways(cases, scene);
+    }
+    for (const double extinction : {1e-6, 1e4}) {
+        SelftestScene scene = plain_scene(fmt::format("ramp_{:g}", extinction),
+                                          fmt::format("Extinction 0 to {:g} along one axis, "
+                                                      "colour turning from blue to red",
+                                                      extinction));
+        scene.scene.transfer_function =
+            optics_of({{0, {{0, .1, 1}, 0}}, {1, {{1, .4, 0}, extinction}}});
+        append_float_ways(cases, scene);
+    }
+}
+
+// Samples in float32, so that a volume holds them exactly.
+void append_jumps(std::vector<SelftestCase>& cases) {
+    SelftestScene jump = plain_scene(
+        "jump_1e8", "Extinction 1e-4 and 1e4 in turn, from one sample to the next, 16 layers");
+    jump.box.samples.clear();
+    for (int k = 0; k <= 16; ++k) jump.box.samples.push_back(k % 2);
+    jump.scene.transfer_function = optics_of({{0, {{.9, .9, .9}, 1e-4}}, {1, {{.9, .9, .9}, 1e4}}});
+    append_float_ways(cases, jump);
+
+    SelftestScene sheet = plain_scene(
+        "opaque_sheet", "One sample of 33 is opaque (extinction 1e7), the others faint");
+    sheet.box.samples.assign(33, 0);
+    sheet.box.samples[13] = 1;
+    sheet.scene.transfer_function = optics_of({{0, {{.2, .4, .6}, .1}}, {1, {{.2, .4, .6}, 1e7}}});
+    append_float_ways(cases, sheet);
+}
+
+void append_opacities(std::vector<SelftestCase>& cases) {
+    // As scene files give them (DESIGN section 4): opacity 1 is 1e7 per unit length.
+    const std::pair<const char*, double> opacities[] = {
+        {"opacity_1", 1e7}, {"opacity_1_less_1e-12", -std::log(1e-12)}, {"opacity_1e-12", 1e-12}};
+    for (const auto& [name, extinction] : opacities) {
+        SelftestScene scene = plain_scene(
+            name, fmt::format("Opacity over one unit of length: extinction {:g}", extinction));
+        scene.scene.transfer_function = optics_of(
+            {{.25, {{1, .5, .25}, 0}}, {.5, {{1, .5, .25}, extinction}}, {.75, {{1, .5, .25}, 0}}});
+        append_float_ways(cases, scene);
+    }
+}
+
+void append_spikes(std::vector<SelftestCase>& cases) {
+    SelftestScene spike = plain_scene(
+        "spike_1e-4", "A peak of width 1e-4 of the scalars, extinction 1e4: a sheet of depth .5");
+    spike.scene.transfer_function = optics_of(
+        {{.49995, {{1, .8, .2}, 0}}, {.5, {{1, .8, .2}, 1e4}}, {.50005, {{1, .8, .2}, 0}}});
+    append_float_ways(cases, spike);
+
+    SelftestScene steps = plain_scene(
+        "steps", "Two points at one value, three times: nothing, faint, dense, nothing");
+    steps.scene.transfer_function = optics_of({{.25, {{.7, .7, .7}, 0}},
+                                               {.25, {{.7, .7, .7}, .5}},
+                                               {.5, {{.7, .7, .7}, .5}},
+                                               {.5, {{.7, .7, .7}, 50}},
+                                               {.75, {{.7, .7, .7}, 50}},
+                                               {.75, {{.7, .7, .7}, 0}}});
+    append_float_ways(cases, steps);
+}
+
+void append_targets(std::vector<SelftestCase>& cases) {
+    SelftestScene faint = plain_scene("targets_faint", "A ramp of optical depth up to .4");
+    faint.scene.slice.samples = 16;
+    faint.scene.transfer_function = optics_of({{0, {{.3, .6, .9}, .05}}, {1, {{.3, .6, .9}, .3}}});
+    SelftestScene dense = plain_scene("targets_dense", "A ramp of optical depth up to 1000");
+    dense.scene.slice.samples = 16;
+    dense.scene.transfer_function = optics_of({{0, {{.3, .6, .9}, 0}}, {1, {{.3, .6, .9}, 1e3}}});
+    SelftestScene colored = plain_scene("targets_colored", "Colours from blue to red");
+    colored.scene.slice.samples = 16;
+    colored.scene.transfer_function = optics_of({{0, {{0, .1, 1}, 1}}, {1, {{1, .4, 0}, 3}}});
+    for (const SelftestScene* scene : {&faint, &dense, &colored})
+        append(cases, cases_of(group, *scene, coarse_ways()));
+    for (SelftestScene* scene : {&faint, &dense, &colored}) {
+        scene->scene.slice.samples = 64;
+        append(cases, cases_of(group, *scene, tree_ways()));
+    }
+}
+
+}  // namespace
+
+std::vector<SelftestCase> optics_cases() {
+    std::vector<SelftestCase> cases;
+    append_depths(cases);
+    append_jumps(cases);
+    append_opacities(cases);
+    append_spikes(cases);
+    append_targets(cases);
+    return cases;
+}
+
+}  // namespace lamina

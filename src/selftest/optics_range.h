@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "optics/transfer_function.h"
+#include "selftest/interval.h"
+
+namespace lamina {
+
+// What a transfer function shows over a closed interval of scalars; both sides of steps count.
+struct OpticsRange {
+    Interval extinction;
+    std::array<Interval, 3> color;
+
+    void include(const OpticsRange& other);
+};
+
+OpticsRange optics_range(const TransferFunction& transfer_function, const Interval& scalars);
+
+}  // namespace lamina

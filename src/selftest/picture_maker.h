@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "image/image.h"
+#include "mesh/visibility_order.h"
+#include "scene/capabilities.h"
+#include "scene/scene_mesh.h"
+#include "selftest/drawing_way.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// Draws as `lamina render` does: facts, plan, renderer. For checks of the self-test itself it can
+// make a mistake on purpose: what it draws is then not what it was asked for.
+class PictureMaker {
+  public:
+    // `mistake`: one of mistakes(), or empty. Throws UsageError where it is neither.
+    PictureMaker(const Capabilities& capabilities, std::string mistake);
+
+    PreciseImage draw(const Scene& scene, const Volume& volume) const;
+    // `order`: what was found of the visibility order, where something was drawn in one.
+    PreciseImage draw(const Scene& scene, const SceneMesh& mesh,
+                      OrderReport* order = nullptr) const;
+
+    static const std::vector<std::string>& mistakes();
+
+  private:
+    Scene mistaken(Scene scene) const;
+
+    const Capabilities& capabilities_;
+    std::string mistake_;
+};
+
+}  // namespace lamina

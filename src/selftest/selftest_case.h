@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "selftest/picture_maker.h"
+
+namespace lamina {
+
+enum class Verdict { passed, failed, refused };
+const char* name_of(Verdict verdict);
+
+struct CaseOutcome {
+    Verdict verdict = Verdict::passed;
+    double error = 0,
+           bound = 0;          // in 1/255, in the pixel and channel that comes nearest to its bound
+    double largest_error = 0;  // in 1/255, of all pixels
+    std::string note;          // what failed, or why it was refused
+};
+
+// One picture of the self-test, or two that must agree, with what they are held against.
+struct SelftestCase {
+    std::string group, scene, way;
+    std::string about;  // what is stiff or extreme, and what the bound follows from
+    std::function<CaseOutcome(const PictureMaker&)> run;
+
+    std::string name() const { return group + "/" + scene + "/" + way; }
+};
+
+// The groups in the order in which they run.
+const std::vector<std::string>& selftest_groups();
+// All cases, or those of the groups named. Throws UsageError for a name that is none.
+std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups);
+
+}  // namespace lamina

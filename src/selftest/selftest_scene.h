@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "mesh/mesh_data.h"
+#include "scene/scene.h"
+#include "selftest/layered_box.h"
+
+namespace lamina {
+
+// What a case of the self-test draws: a layered box, as a volume and as a mesh.
+struct SelftestScene {
+    std::string name;
+    std::string about;  // what is stiff or extreme here
+    LayeredBox box;
+    Scene scene;  // transfer function, camera, size, number of slabs; no files
+    // Tets that fill the box; none: no mesh is drawn.
+    std::function<MeshData(const LayeredBox&)> mesh;
+};
+
+}  // namespace lamina

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extreme views: angles, distances, eyes on and in the box, images of one pixel and of one row.
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "selftest/case_makers.h"
+#include "selftest/selftest_meshes.h"
+
+namespace lamina {
+namespace {
+
+constexpr const char* group = "views";
+
+const std::vector<DrawingWay>& ways() {
+    static const std::vector<DrawingWay> all = [] {
+        std::vector<DrawingWay> list = traces();
+        for (const char* name : {"slice post float32", "slice preintegrated float32",
+                                 "project float32", "project analytic float32"})
+            list.push_back(way_named(name));
+        return list;
+    }();
+    return all;
+}
+
+SelftestScene view_scene(const std::string& name, const std::string& about) {
+    SelftestScene scene = plain_scene(name, about);
+    scene.box.edges = {{{1, 0, 0}, {0, .8, 0}, {0, 0, 1.2}}};
+    scene.box.samples = {0, 1, .5, .75, 0};
+    scene.scene.transfer_function = optics_of({{0, {{.9, .5, .2}, .2}}, {1, {{.9, .5, .2}, 3}}});
+    scene.scene.camera = camera_at(scene.box, 1.5, 40);
+    scene.mesh = [](const LayeredBox& box) { return kuhn_tets(box, 2); };
+    return scene;
+}
+
+SelftestScene looking(const std::string& name, const std::string& about, const glm::dvec3& eye,
+                      const glm::dvec3& at, double fov_y) {
+    SelftestScene scene = view_scene(name, about);
+    scene.scene.camera.eye = scene.box.world(eye);
+    scene.scene.camera.center = scene.box.world(at);
+    scene.scene.camera.fov_y = fov_y;
+    return scene;
+}
+
+}  // namespace
+
+std::vector<SelftestCase> view_cases() {
+    std::vector<SelftestScene> scenes;
+    for (const double angle : {1., 10., 90., 170.}) {
+        SelftestScene scene = view_scene(fmt::format("fov_{:g}", angle),
+                                         fmt::format("A field of view of {:g} degrees", angle));
+        scene.scene.camera = camera_at(scene.box, angle < 90 ? 20 / angle : .7, angle);
+        scenes.push_back(scene);
+    }
+    const glm::dvec3 in{.52, .47, .51};
+    scenes.push_back(looking("eye_inside", "The eye inside the box", {.3, .6, .4}, in, 60));
+    scenes.push_back(
+        looking("eye_inside_wide", "The eye inside, 170 degrees", {.3, .6, .4}, in, 170));
+    scenes.push_back(looking("eye_on_vertex", "The eye on a corner of the mesh inside the box",
+                             {.5, .5, .5}, {.9, .8, .7}, 60));
+    scenes.push_back(looking("eye_on_corner", "The eye on the box's corner", {0, 0, 0}, in, 60));
+    scenes.push_back(
+        looking("eye_on_edge", "The eye on an edge of the mesh", {.5, .25, .5}, {.9, .8, .7}, 60));
+    scenes.push_back(looking("eye_in_face", "The eye in a face of the box", {.3, .4, 0}, in, 60));
+    scenes.push_back(looking("eye_1e-6", "The eye 1e-6 in front of a face, looking along it",
+                             {.3, .4, -1e-6}, {.9, .6, .1}, 60));
+    scenes.push_back(
+        looking("eye_1e-6_inside", "The eye 1e-6 behind a face", {.3, .4, 1e-6}, {.9, .6, .3}, 60));
+    SelftestScene far = view_scene("eye_1e6", "The eye 1e6 box lengths away");
+    far.scene.camera = camera_at(far.box, 1e6, 5.5e-5);
+    scenes.push_back(far);
+    SelftestScene small =
+        view_scene("box_in_a_pixel", "The box far smaller than a pixel, in the middle of one");
+    small.scene.camera = camera_at(small.box, 1e4, 40);
+    small.scene.width = 5;
+    small.scene.height = 3;
+    scenes.push_back(small);
+    SelftestScene one = view_scene("image_1x1", "A picture of one pixel");
+    one.scene.width = one.scene.height = 1;
+    scenes.push_back(one);
+    SelftestScene row = view_scene("image_16384x1", "A picture of one row of 16384 pixels");
+    row.scene.width = 16384;
+    row.scene.height = 1;
+    row.scene.slice.samples = 16;
+    row.scene.camera = camera_at(row.box, 1.5, .01);
+    scenes.push_back(row);
+    SelftestScene behind =
+        looking("box_behind", "The box behind the eye", {.5, .5, -3}, {.5, .5, -5}, 60);
+    scenes.push_back(behind);
+    for (const auto& [name, direction] : {std::pair{"along_axis", glm::dvec3(0, 0, -1)},
+                                          {"along_edges", glm::dvec3(-1, -.8, -1.2)},
+                                          {"oblique", glm::dvec3(-.7, .2, -.4)}}) {
+        SelftestScene scene = view_scene(fmt::format("orthographic_{}", name),
+                                         "Parallel rays, also along edges and faces of the mesh");
+        Camera& camera = scene.scene.camera;
+        camera.projection = Projection::orthographic;
+        camera.height = 1.9;
+        camera.eye = camera.center - 3.0 * direction;
+        scenes.push_back(scene);
+    }
+    std::vector<SelftestCase> cases;
+    for (const SelftestScene& scene : scenes) {
+        for (SelftestCase& each : cases_of(group, scene, ways())) cases.push_back(each);
+    }
+    return cases;
+}
+
+}  // namespace lamina

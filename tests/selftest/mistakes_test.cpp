@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// A battery that finds nothing proves nothing: wrong renderers must fail it, in the cases that see
+// what is wrong, and in no others.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "selftest/selftest.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+std::vector<SelftestResult> run_with(const std::string& mistake) {
+    static const Capabilities capabilities = tile_capabilities();
+    std::vector<SelftestCase> cases = selftest_cases({"optics", "meshes", "views", "metamorphic"});
+    std::erase_if(cases, [](const SelftestCase& each) { return each.scene == "hub_1e6"; });
+    return run_selftest(cases, PictureMaker(capabilities, mistake));
+}
+
+bool failed(const std::vector<SelftestResult>& results, const std::string& scene,
+            const std::string& way) {
+    const auto found = std::ranges::find_if(results, [&](const SelftestResult& result) {
+        return result.scene == scene && result.way == way;
+    });
+    EXPECT_NE(found, results.end()) << scene << ", " << way;
+    return found != results.end() && found->outcome.verdict == Verdict::failed;
+}
+
+bool starts_with(const std::string& text, const std::string& beginning) {
+    return text.rfind(beginning, 0) == 0;
+}
+
+TEST(Mistakes, ExtinctionOffByOnePercentShowsWhereverLightIsLeft) {
+    const auto results = run_with("extinction");
+    for (const char* way :
+         {"trace volume", "trace mesh", "slice post float32", "slice preintegrated float32",
+          "project float32", "project analytic float32"}) {
+        for (const char* scene : {"homogeneous_1e-08", "homogeneous_1", "ramp_1e-06", "steps"})
+            EXPECT_TRUE(failed(results, scene, way)) << scene << ", " << way;
+    }
+}
+
+TEST(Mistakes, RaysOffByAThousandthShow) {
+    const auto results = run_with("position");
+    for (const char* way : {"trace volume", "slice post float32", "project float32"}) {
+        for (const char* scene : {"jump_1e8", "fov_10", "eye_inside", "eye_on_corner"})
+            EXPECT_TRUE(failed(results, scene, way)) << scene << ", " << way;
+    }
+}
+
+TEST(Mistakes, OneSlabTooFewShowsInSlicingAlone) {
+    const auto results = run_with("slabs");
+    EXPECT_TRUE(failed(results, "jump_1e8", "slice post float32"));
+    EXPECT_TRUE(failed(results, "spike_1e-4", "slice post float32"));
+    for (const SelftestResult& result : results) {
+        if (starts_with(result.way, "slice")) continue;
+        EXPECT_EQ(result.outcome.verdict, Verdict::passed) << result.scene << ", " << result.way;
+    }
+}
+
+TEST(Mistakes, ThicknessAlongDepthShowsInPerspectiveProjectionAlone) {
+    const auto results = run_with("thickness");
+    EXPECT_TRUE(failed(results, "fov_90", "project float32"));
+    EXPECT_TRUE(failed(results, "fov_170", "project float32"));
+    for (const SelftestResult& result : results) {
+        if (starts_with(result.way, "project") && !starts_with(result.scene, "orthographic"))
+            continue;
+        EXPECT_EQ(result.outcome.verdict, Verdict::passed) << result.scene << ", " << result.way;
+    }
+}
+
+TEST(Mistakes, NoVisibilityOrderShowsInColoredMeshesAlone) {
+    const auto results = run_with("order");
+    EXPECT_TRUE(failed(results, "kuhn_8", "project float32"));
+    EXPECT_TRUE(failed(results, "irregular", "project analytic float32"));
+    EXPECT_TRUE(failed(results, "reorder_tets", "project float32"));
+    EXPECT_FALSE(failed(results, "edge_fan", "project float32"));
+    EXPECT_FALSE(failed(results, "homogeneous_1", "project float32"));
+}
+
+TEST(Mistakes, OneBitTooFewShowsInEmulatedTargetsAlone) {
+    const auto results = run_with("bits");
+    std::size_t failures = 0;
+    for (const SelftestResult& result : results) {
+        if (result.outcome.verdict == Verdict::passed) continue;
+        ++failures;
+        EXPECT_NE(result.way.find("emulated"), std::string::npos) << result.scene;
+    }
+    EXPECT_GE(failures, 1u);
+}
+
+TEST(Mistakes, OnlyThoseKnown) {
+    const Capabilities capabilities = tile_capabilities();
+    EXPECT_THROW(PictureMaker(capabilities, "luck"), UsageError);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/folder.h"
+#include "base/progress.h"
+#include "git_commit.h"
+#include "selftest/selftest.h"
+#include "study/context_choice.h"
+#include "study/draw_context.h"
+#include "study/machine.h"
+#include "study/text_file.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+constexpr int bound_exceeded = 3;
+
+struct SelftestOptions {
+    std::vector<std::string> groups;
+    std::string output, context = "auto";
+    bool quiet = false;
+};
+
+// Makes the renderer wrong on purpose, to see that the self-test finds it.
+std::string mistake_asked_for() {
+    const char* const mistake = std::getenv("LAMINA_SELFTEST_MISTAKE");
+    return mistake ? mistake : "";
+}
+
+int run(const SelftestOptions& options) {
+    const std::vector<SelftestCase> cases = selftest_cases(options.groups);
+    const ContextChoice choice = context_choice(options.context);
+    restrict_instructions_as_asked();
+    const std::filesystem::path folder = options.output;
+    make_folder(folder);
+    const DrawContext context(choice);
+    const PictureMaker maker(context.capabilities(), mistake_asked_for());
+    const std::vector<SelftestResult> results = run_selftest(cases, maker);
+
+    nlohmann::ordered_json document{{"version", LAMINA_VERSION},
+                                    {"commit", git_commit},
+                                    {"context", context.capabilities().renderer},
+                                    {"machine", describe_machine()}};
+    document.update(selftest_json(results));
+    write_text(folder / "selftest.json", document.dump(1) + "\n");
+    const std::string table = selftest_table(results);
+    write_text(folder / "selftest.txt", table);
+
+    if (!options.quiet) fmt::print("{}\n", table);
+    fmt::print("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
+               context.capabilities().renderer, count_of(results, Verdict::passed), results.size());
+    return count_of(results, Verdict::passed) == results.size() ? 0 : bound_exceeded;
+}
+
+}  // namespace
+
+void add_selftest(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<SelftestOptions>();
+    CLI::App* const verb = app.add_subcommand(
+        "selftest", "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
+    verb->add_option("-o,--output", options->output,
+                     "Folder for selftest.json and selftest.txt (made if need be)")
+        ->required();
+    verb->add_option("--group", options->groups,
+                     "Only this group (may be repeated): optics, depth, meshes, views, numbers, "
+                     "metamorphic")
+        ->allow_extra_args(false);
+    verb->add_option("--context", options->context,
+                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+    verb->add_flag("--quiet", options->quiet, "The summary alone, and no progress on stderr");
+    verb->callback([options, &exit_code] {
+        Progress::set_quiet(options->quiet);
+        exit_code = run(*options);
+    });
+}
+
+}  // namespace lamina
