@@ -158,8 +158,9 @@ void skip_bytes(const NrrdHeader& header, std::FILE* file, std::uint64_t count) 
         fseeko(file, header.byte_skip, SEEK_CUR);
         return;
     }
-    const off_t from_end = static_cast<off_t>(count) - (header.byte_skip + 1);
-    if (fseeko(file, -from_end, SEEK_END) != 0 || ftello(file) < header.data_offset) {
+    off_t from_end = 0;
+    if (__builtin_sub_overflow(static_cast<off_t>(count), header.byte_skip + 1, &from_end) ||
+        fseeko(file, -from_end, SEEK_END) != 0 || ftello(file) < header.data_offset) {
         fail("{}: byte skip {}: the file is too short for it", header.path.string(),
              header.byte_skip);
     }

@@ -22,7 +22,7 @@ constexpr std::size_t header_limit = std::size_t{1} << 20;
 
 // The lines of a header, as far as the format's framing goes; their meaning is teem's affair.
 struct HeaderText {
-    std::string text;                      // magic and fields, without `data file`
+    std::string text;  // magic and fields, without `data file`, comments and key/value pairs
     std::optional<std::string> data_file;  // what `data file` says
     std::int64_t length = 0;               // bytes up to and including the empty line
     bool ended = false;                    // by an empty line, not by the end of the file
@@ -62,10 +62,17 @@ struct Field {
     std::string value;
 };
 
+// What says nothing about the samples. teem keeps such lines in lists, and a header of a megabyte
+// of them takes it minutes.
+bool is_remark(const std::string& line) {
+    const auto colon = line.find(':');
+    return line[0] == '#' || (colon != std::string::npos && line.substr(colon, 2) == ":=");
+}
+
 // The field of a `name: value` line; nothing for comments and key/value pairs.
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
-    if (colon == std::string::npos || line[0] == '#' || line.substr(colon, 2) == ":=") return {};
+    if (colon == std::string::npos || is_remark(line)) return {};
     std::string name = trimmed(line.substr(0, colon));
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -119,7 +126,7 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
             check_data_file(path, field->value);
             if (header.data_file) fail("{}: line {}: second 'data file' field", path, number);
             header.data_file = field->value;
-        } else {
+        } else if (number == 1 || !is_remark(line)) {
             header.text += line + "\n";
         }
     }

@@ -173,6 +173,8 @@ TEST_F(NrrdErrors, SkipsBeyondTheEnd) {
     expect_says(error_of(write("a.nrrd", good + "byte skip: 1\n\n" + data)), {"23 bytes"});
     expect_says(error_of(write("a.nrrd", good + "byte skip: 9000000000000000000\n\n" + data)),
                 {"a.nrrd"});
+    expect_says(error_of(write("a.nrrd", good + "byte skip: -9223372036854775808\n\n" + data)),
+                {"a.nrrd", "byte skip"});
     const std::string packed = with("encoding", "encoding: gzip\n");
     expect_says(error_of(write("a.nrrd", packed + "byte skip: -1\n\n" + gzip(data))),
                 {"byte skip"});
