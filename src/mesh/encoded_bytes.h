@@ -17,6 +17,7 @@ class EncodedBytes {
 
     // At most so many bytes can still be read.
     std::size_t at_most_left() const { return base64_ ? left() / 4 * 3 + decoded_count_ : left(); }
+    std::size_t used() const { return position_; }  // of the text
     void read(char* bytes, std::size_t count);  // throws Error when there are fewer, or no base64
 
   private:

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -65,14 +67,17 @@ void append(std::vector<MeshScalar>& all, std::vector<MeshScalar> more, bool fir
         fail("{}: found {} scalars in its {}, expected {} as in the pieces before", piece.label,
              more.size(), kind, all.size());
     }
+    std::multimap<std::string_view, const MeshScalar*> by_name;  // of one name: in order
+    for (const MeshScalar& scalar : more) by_name.emplace(scalar.name, &scalar);
     for (MeshScalar& scalar : all) {
-        const auto same = std::ranges::find(more, scalar.name, &MeshScalar::name);
-        if (same == more.end()) {
+        const auto same = by_name.lower_bound(scalar.name);
+        if (same == by_name.end() || same->first != scalar.name) {
             fail("{}: no array '{}' in its {}, which the pieces before have", piece.label,
                  one_line(scalar.name), kind);
         }
-        scalar.values.insert(scalar.values.end(), same->values.begin(), same->values.end());
-        more.erase(same);
+        const std::vector<double>& values = same->second->values;
+        scalar.values.insert(scalar.values.end(), values.begin(), values.end());
+        by_name.erase(same);
     }
 }
 
@@ -103,7 +108,8 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
                                                   std::int32_t first_point) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
-    mesh_.tets.reserve(mesh_.tets.size() + piece.cells.types.size());
+    // Not for each of many small pieces: the vector would grow by a piece at a time.
+    if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
     std::array<std::int32_t, 10> corners{};
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {
         if ((cell & 0xfffff) == 0) check_interrupt();

@@ -29,6 +29,13 @@ class TextReader {
         while (at_ != end_ && is_blank(*at_)) ++at_;
         return at_ == end_;
     }
+    // Whether anything but blanks comes before the next newline. (Not by line(), which looks for
+    // that newline through all of a file that has none.)
+    bool line_goes_on() const {
+        const char* at = at_;
+        while (at != end_ && *at != '\n' && is_blank(*at)) ++at;
+        return at != end_ && *at != '\n';
+    }
     std::size_t position() const { return static_cast<std::size_t>(at_ - begin_); }
     std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
     const char* here() const { return at_; }

@@ -85,8 +85,7 @@ std::int64_t VtkTokens::count(const char* what) {
 }
 
 std::int64_t VtkTokens::count_in_line(std::int64_t otherwise) {
-    TextReader rest(TextReader(reader_).line());
-    return rest.at_end() ? otherwise : count("number of components");
+    return reader_.line_goes_on() ? count("number of components") : otherwise;
 }
 
 VtkType VtkTokens::type() {

@@ -104,7 +104,7 @@ std::string read_zlib(EncodedBytes& bytes, const VtuEncoding& encoding, std::uin
 }  // namespace
 
 template <typename To>
-std::vector<To> read_vtu_data(const VtuSource& source, const VtuEncoding& encoding, ValueType type,
+std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what) {
     if (count == 0) return {};
     std::uint64_t expected = 0;
@@ -123,13 +123,14 @@ std::vector<To> read_vtu_data(const VtuSource& source, const VtuEncoding& encodi
             "again with zlib or without compression (ParaView: Save Data, Compressor Type)",
             what, one_line(encoding.compressor));
     }
+    source.text.remove_prefix(bytes.used());
     return values_from_bytes<To>(type, values.data(), static_cast<std::size_t>(count),
                                  encoding.swap_bytes);
 }
 
-template std::vector<double> read_vtu_data(const VtuSource&, const VtuEncoding&, ValueType,
-                                           std::int64_t, const std::string&);
-template std::vector<std::int64_t> read_vtu_data(const VtuSource&, const VtuEncoding&, ValueType,
+template std::vector<double> read_vtu_data(VtuSource&, const VtuEncoding&, ValueType, std::int64_t,
+                                           const std::string&);
+template std::vector<std::int64_t> read_vtu_data(VtuSource&, const VtuEncoding&, ValueType,
                                                  std::int64_t, const std::string&);
 
 }  // namespace lamina

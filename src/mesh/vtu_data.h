@@ -19,7 +19,7 @@ struct VtuEncoding {
 
 // Where the bytes of one array begin.
 struct VtuSource {
-    std::string_view text;  // from there as far as it could go
+    std::string_view text;  // from there as far as it could go; once read, without what was read
     bool base64 = false;
 };
 
@@ -27,7 +27,7 @@ struct VtuSource {
 // or the lengths of the compressed blocks), then the values. Checks lengths before it takes memory.
 // Throws Error; `what`: the file and array, for messages.
 template <typename To>
-std::vector<To> read_vtu_data(const VtuSource& source, const VtuEncoding& encoding, ValueType type,
+std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what);
 
 }  // namespace lamina

@@ -152,6 +152,16 @@ VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) co
     return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
 }
 
+// Arrays that share their bytes would let a small file fill any memory.
+void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
+    appended_used_ += bytes;
+    if (appended_used_ > appended_.size()) {
+        fail(
+            "{}: offset: the arrays up to this one take {} bytes of appended data, the file has {}",
+            what, appended_used_, appended_.size());
+    }
+}
+
 template <typename To>
 std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                                 const std::string& what) const {
@@ -166,13 +176,18 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
     }
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "appended") {
-        return read_vtu_data<To>(appended_at(array, what), encoding_, type, count, what);
+        VtuSource source = appended_at(array, what);
+        const std::size_t from = source.text.size();
+        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        count_appended(from - source.text.size(), what);
+        return values;
     }
     std::string_view text;
     const std::string joined = text_of(array, text);
     if (!joined.empty()) text = joined;
     if (format == "binary") {
-        return read_vtu_data<To>({text, true}, encoding_, type, count, what);
+        VtuSource source{text, true};
+        return read_vtu_data<To>(source, encoding_, type, count, what);
     }
     if (format != "ascii") {
         fail("{}: format: found {}, expected 'ascii', 'binary' or 'appended'", what,

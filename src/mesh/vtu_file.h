@@ -39,12 +39,14 @@ class VtuFile {
     void read_root(pugi::xml_node root);
     ValueType type_of(pugi::xml_node array, const std::string& what) const;
     VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
+    void count_appended(std::size_t bytes, const std::string& what) const;
 
     std::string name_;
     std::string bytes_;          // of the file
     std::string xml_;            // without appended data; xml_nodes point into it
     std::string_view appended_;  // what follows the underscore
     bool has_appended_ = false, appended_base64_ = false;
+    mutable std::size_t appended_used_ = 0;  // by all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
     VtuEncoding encoding_;

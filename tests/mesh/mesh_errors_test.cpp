@@ -188,6 +188,17 @@ TEST_F(MeshErrors, VtuAppendedData) {
                {"Points", "expected base64"});
 }
 
+// A small file would fill any memory with arrays that are read from the same bytes.
+TEST_F(MeshErrors, VtuArraysThatShareTheirBytes) {
+    for (const VtuStyle& style : {VtuStyle{"raw"}, VtuStyle{"raw", true}, VtuStyle{"base64"}}) {
+        const std::string good = make_vtu(mixed_grid(), style);
+        const auto begin = good.find("<DataArray"), end = good.find("/>", begin) + 2;
+        std::string bad = good;
+        bad.insert(end, good.substr(begin, end - begin));
+        expect_bad("a.vtu", bad, {"offset", "bytes of appended data, the file has"});
+    }
+}
+
 TEST_F(MeshErrors, VtuCompressors) {
     for (const std::string name : {"vtkLZ4DataCompressor", "vtkLZMADataCompressor", "zip"}) {
         expect_bad("a.vtu",
