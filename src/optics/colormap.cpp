@@ -24,6 +24,8 @@ namespace {
 constexpr std::uintmax_t most_bytes = 16u << 20;
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
+constexpr std::size_t most_points = 4096;  // as of a scene's transfer function
+constexpr int most_depth = 16;             // of nested lists and objects; presets have 3
 
 nlohmann::json load(const std::filesystem::path& file) {
     const std::string name = file.string();
@@ -36,7 +38,11 @@ nlohmann::json load(const std::filesystem::path& file) {
     std::ifstream stream(file);
     if (!stream) fail("{}: cannot be read", name);
     try {
-        nlohmann::json root = nlohmann::json::parse(stream);
+        const auto check_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+            if (depth > most_depth) fail("{}: nested more than {} deep", name, most_depth);
+            return true;
+        };
+        nlohmann::json root = nlohmann::json::parse(stream, check_depth);
         if (root.is_array() && !root.empty()) root = nlohmann::json(root.front());
         if (!root.is_object()) {
             fail("{}: found {}, expected a ParaView preset: an object or an array with one", name,
@@ -72,6 +78,9 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     const nlohmann::json& flat = preset.at(key);
     if (!flat.is_array() || flat.empty() || flat.size() % 4 != 0) {
         fail("{}: {} has {} numbers, expected four for every point", name, key, flat.size());
+    }
+    if (flat.size() / 4 > most_points) {
+        fail("{}: {} has {} points, expected at most {}", name, key, flat.size() / 4, most_points);
     }
     std::vector<std::array<double, 4>> rows(flat.size() / 4);
     for (std::size_t i = 0; i < flat.size(); ++i) {

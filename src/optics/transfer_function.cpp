@@ -118,10 +118,10 @@ OpticalProperties TransferFunction::at(double value) const {
 
 double TransferFunction::max_extinction(double lo, double hi) const {
     double largest = std::max(at(lo).extinction, at(hi).extinction);
-    for (const TransferKnot& knot : knots_) {
-        if (knot.value >= lo && knot.value <= hi) {
-            largest = std::max(largest, knot.optics.extinction);
-        }
+    // Asked for every brick of a volume: not of all knots.
+    for (auto knot = std::ranges::lower_bound(knots_, lo, {}, &TransferKnot::value);
+         knot != knots_.end() && knot->value <= hi; ++knot) {
+        largest = std::max(largest, knot->optics.extinction);
     }
     return largest;
 }

@@ -210,7 +210,8 @@ glm::dvec3 JsonReader::vector_or(const std::string& key, const glm::dvec3& other
 
 std::filesystem::path JsonReader::path_of(const std::string& key) {
     const std::filesystem::path path = expand_data_folder(*this, key, text(key));
-    if (path.empty()) reject(key, "the path of a file");
+    if (path.empty() || path.native().find('\0') != std::string::npos)
+        reject(key, "the path of a file");
     return path.is_absolute() ? path : file_.parent_path() / path;
 }
 

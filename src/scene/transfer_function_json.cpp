@@ -57,9 +57,13 @@ void warn_of_opaque_ramp(const std::vector<TransferKnot>& points, const std::vec
 void stretch(Colormap& colormap, JsonReader& reader) {
     if (!reader.has("colormap_range")) return;
     const nlohmann::json& range = reader.value("colormap_range");
+    // Beyond, differences are no longer finite (optics/transfer_function.h).
+    constexpr double most = 1e300;
     if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number() ||
-        !(range[0].get<double>() < range[1].get<double>())) {
-        reader.reject("colormap_range", "two numbers [lo, hi] with lo < hi");
+        !(range[0].get<double>() < range[1].get<double>()) || range[0].get<double>() < -most ||
+        range[1].get<double>() > most) {
+        reader.reject("colormap_range",
+                      "two numbers [lo, hi] with lo < hi, between -1e300 and 1e300");
     }
     const double lo = range[0].get<double>(), hi = range[1].get<double>();
     const double from = colormap.colors.front().value, to = colormap.colors.back().value;

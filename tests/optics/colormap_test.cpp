@@ -165,5 +165,25 @@ TEST_F(ColormapTest, ErrorsNameFileAndKey) {
     EXPECT_THROW(read_paraview_colormap("no_such_file.json"), Error);
 }
 
+// Messages show what they found, and would need a stack as deep.
+TEST_F(ColormapTest, DeepNestingIsAnError) {
+    const std::string lists = std::string(100000, '[') + std::string(100000, ']');
+    for (const std::string& preset : {"{\"ColorSpace\": " + lists + ", \"RGBPoints\": [0,0,0,0]}",
+                                      "{\"RGBPoints\": [" + lists + ",0,0,0]}", lists}) {
+        EXPECT_EQ(message_of(preset), file_.string() + ": nested more than 16 deep");
+    }
+}
+
+TEST_F(ColormapTest, TooManyPointsAreAnError) {
+    const auto preset = [](int points) {
+        std::string numbers;
+        for (int i = 0; i < points; ++i) numbers += fmt::format("{}{},0,0,0", i > 0 ? "," : "", i);
+        return "{\"RGBPoints\": [" + numbers + "]}";
+    };
+    EXPECT_EQ(read(preset(4096)).colors.size(), 4096u);
+    EXPECT_EQ(message_of(preset(4097)),
+              file_.string() + ": RGBPoints has 4097 points, expected at most 4096");
+}
+
 }  // namespace
 }  // namespace lamina

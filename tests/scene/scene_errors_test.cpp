@@ -82,6 +82,13 @@ TEST(SceneErrors, ImagesThatNoMemoryHolds) {
     expect_error([&] { read_scene(document, "bad.json"); }, {"32000 x 32000", "at most"});
 }
 
+TEST(SceneErrors, PathsThatNoFileCanHave) {
+    for (const std::string& path : {std::string(), std::string("a\0b.nrrd", 8)}) {
+        expect_error([&] { read_scene(with("/volume", path), "bad.json"); },
+                     {"bad.json", "volume", "the path of a file"});
+    }
+}
+
 TEST(SceneErrors, FilesThatAreNoScenes) {
     const TemporaryFolder folder;
     expect_error([&] { load_json(folder / "none.json"); }, {"none.json", "no such file"});

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "scene_fixture.h"
+#include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -66,6 +67,9 @@ TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
     // sRGB .5 in linear light (IEC 61966-2-1); the map is resampled to 5e-4.
     EXPECT_NEAR(read.at(127.5).color.g, std::pow((.5 + .055) / 1.055, 2.4), 5e-4);
     EXPECT_DOUBLE_EQ(read.at(127.5).extinction, 1);
+    document["transfer_function"]["colormap_range"] = {-1.5e308, 1.5e308};  // no finite difference
+    expect_error([&] { read_scene(document, folder / "scene.json"); },
+                 {"transfer_function.colormap_range", "between -1e300 and 1e300"});
 }
 
 TEST(SceneReader, SetReachesKeysAndListElements) {
