@@ -15,6 +15,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "image/exr_header.h"
 #include "image/finite.h"
 #include "image/image_limits.h"
 
@@ -151,6 +152,7 @@ void write_exr(AtomicFile& file, const Image& image,
 
 Image read_exr(const std::filesystem::path& path) {
     const std::uint64_t file_bytes = length_of_file(path);
+    check_exr_header(path, file_bytes);
     // Makes OpenEXR refuse such headers before it takes memory for its own tables.
     Imf::Header::setMaxImageSize(max_image_side, max_image_side);
     Imf::Header::setMaxTileSize(max_image_side, max_image_side);

@@ -180,6 +180,8 @@ CodedImage read_png(const std::filesystem::path& path) {
     const bool has_header = succeeds(reader.png, [&] {
         png_init_io(reader.png, file.get());
         png_set_user_limits(reader.png, max_image_side, max_image_side);
+        // All chunks that codes do not depend on: libpng takes memory for some on their word.
+        png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(reader.png, reader.info);
     });
     if (!has_header) bad_file();

@@ -150,6 +150,36 @@ TEST(Exr, PromisedSizesAreCheckedBeforeMemoryIsTaken) {
     EXPECT_NE(with_window(0, 2), "");
 }
 
+// OpenEXR takes memory on an attribute's word, and for a table of tiles.
+TEST(Exr, AttributesThatPromiseTooMuchAreErrors) {
+    const TemporaryFolder folder;
+    write(folder / "a.exr", random_image(3, 2));
+    const std::string good = read_bytes_of(folder / "a.exr");
+    // In place of an attribute, name, type, size and value.
+    const std::string head("screenWindowWidth\0float\0\4\0\0\0", 28);
+    const std::size_t at = good.find(head), rest = at + head.size() + 4;
+    ASSERT_NE(at, std::string::npos);
+    const auto with_attribute = [&](const std::string& name, const std::string& type,
+                                    std::uint32_t size, const std::string& value) {
+        std::string bytes = good.substr(0, at) + name + '\0' + type + '\0';
+        bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+        write_bytes_to(folder / "b.exr", bytes + value + good.substr(rest));
+        return [&] { read_exr(folder / "b.exr"); };
+    };
+    const std::string four("\1\0\0\0", 4), most("\xff\xff\xff\x7f", 4);
+    expect_error(with_attribute("mine", "other", 0x7fffffff, four),
+                 {"b.exr", "\"mine\" of type \"other\"", "2147483647 bytes", "left"});
+    expect_error(with_attribute("x", "float", 3, "abc"), {"\"x\" of type \"float\"", "3 bytes"});
+    expect_error(with_attribute("x", "stringvector", 8, most + four), {"\"stringvector\""});
+    expect_error(with_attribute("x", "preview", 12, most + most + four), {"\"preview\""});
+    expect_error(with_attribute("x", "chlist", 4, "abc" + four.substr(1, 1)), {"\"chlist\""});
+    expect_error(with_attribute("chunkCount", "int", 4, most), {"2147483647 tiles"});
+    const std::string window("\0\0\0\0\0\0\0\0\xff\x3f\0\0\xff\x3f\0\0", 16);
+    const std::string tiled = std::string("dataWindow\0box2i\0\x10\0\0\0", 21) + window;
+    expect_error(with_attribute("tiles", "tiledesc", 9, four + four + '\0' + tiled),
+                 {"268435456 tiles"});  // 16384 x 16384, of a pixel each
+}
+
 TEST(Exr, WhatIsNotAnImageFileIsAnError) {
     const TemporaryFolder folder;
     expect_error([&] { read_exr(folder / "absent.exr"); }, {"absent.exr", "No such file"});
