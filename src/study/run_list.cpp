@@ -47,10 +47,10 @@ std::string run_id(const StudyRun& run, const StudyFile& file) {
 
 std::vector<std::string> swept_keys(const StudyFile& file) {
     std::vector<std::string> keys;
+    std::set<std::string> seen;
     for (const SweepGrid& grid : file.sweep) {
         for (const SweepAxis& axis : grid.axes) {
-            if (std::find(keys.begin(), keys.end(), axis.key) == keys.end())
-                keys.push_back(axis.key);
+            if (seen.insert(axis.key).second) keys.push_back(axis.key);
         }
     }
     return keys;

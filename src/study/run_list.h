@@ -42,7 +42,6 @@ struct RunList {
 };
 
 constexpr std::uint64_t most_runs_unasked = 10000;
-constexpr std::uint64_t most_runs = 100000;
 
 // How many runs the file's sweep has, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);

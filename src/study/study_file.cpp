@@ -12,6 +12,8 @@
 namespace lamina {
 namespace {
 
+constexpr std::size_t most_drops = 1000;  // each is held against every run
+
 Settings read_settings(JsonReader& reader, const std::string& key) {
     Settings settings;
     if (!reader.has(key)) return settings;
@@ -74,7 +76,12 @@ void check_swept(JsonReader& reader, const StudyFile& file, const std::string& f
 
 void read_drops(JsonReader& study, StudyFile& file) {
     if (!study.has("drop")) return;
-    for (JsonReader& reader : study.objects("drop")) {
+    std::vector<JsonReader> readers = study.objects("drop");
+    if (readers.size() > most_drops) {
+        study.fail_at(
+            "drop", fmt::format("found {} rules, expected at most {}", readers.size(), most_drops));
+    }
+    for (JsonReader& reader : readers) {
         StudyFile::Drop drop;
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::int64_t largest_product = 65536;  // slabs of a tree
 constexpr std::int64_t most_levels = 16;
+constexpr std::size_t most_keys = 256;  // of a grid: more than a scene has
 
+// Stops where there are more than most_runs.
 void append_factorizations(int of, int levels, std::vector<int>& factors,
                            std::vector<std::vector<int>>& all) {
     if (levels == 1) {
@@ -21,7 +23,7 @@ void append_factorizations(int of, int levels, std::vector<int>& factors,
         factors.pop_back();
         return;
     }
-    for (int factor = 2; factor <= of / 2; ++factor) {
+    for (int factor = 2; factor <= of / 2 && all.size() <= most_runs; ++factor) {
         if (of % factor != 0) continue;
         factors.push_back(factor);
         append_factorizations(of / factor, levels - 1, factors, all);
@@ -37,9 +39,14 @@ std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key
         const auto levels =
             reader.has("levels") ? reader.whole("levels", 1, most_levels) : most_levels;
         reader.close();
+        auto found_factors = factorizations(static_cast<int>(of), static_cast<int>(levels));
+        if (found_factors.size() > most_runs) {
+            grid.fail_at(key, fmt::format("{} has more than {} factorizations, expected fewer "
+                                          "\"levels\"",
+                                          of, most_runs));
+        }
         std::vector<nlohmann::json> values;
-        for (auto& factors : factorizations(static_cast<int>(of), static_cast<int>(levels)))
-            values.emplace_back(std::move(factors));
+        for (auto& factors : found_factors) values.emplace_back(std::move(factors));
         return values;
     }
     if (!found.is_array()) return {found};
@@ -47,16 +54,24 @@ std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key
     return {found.begin(), found.end()};
 }
 
+// A grid of so many runs that no study can have them is not read to its end: a short file can ask
+// for lists that no memory holds.
 SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::json& object) {
     if (!object.is_object() || object.empty())
         study.fail_at(at,
                       fmt::format("found {}, expected an object with a key of the scene and its "
                                   "values, as {{\"render.slice.samples\": [256, 512]}}",
                                   object.dump()));
+    if (object.size() > most_keys)
+        study.fail_at(at,
+                      fmt::format("found {} keys, expected at most {}", object.size(), most_keys));
     JsonReader reader(object, study.file(), at);
     SweepGrid grid;
-    for (const auto& [key, values] : object.items())
+    for (const auto& [key, values] : object.items()) {
         grid.axes.push_back({key, read_values(reader, key)});
+        if (grid.count() > most_runs)
+            study.fail_at(at, fmt::format("more than {} runs, the most of a study", most_runs));
+    }
     return grid;
 }
 
@@ -98,8 +113,14 @@ std::vector<SweepGrid> read_sweep(JsonReader& study) {
     const nlohmann::json& found = study.value("sweep");
     std::vector<SweepGrid> grids;
     if (found.is_array() && !found.empty()) {
-        for (const nlohmann::json& grid : found)
+        std::uint64_t runs = 0;
+        for (const nlohmann::json& grid : found) {
             grids.push_back(read_grid(study, fmt::format("sweep.{}", grids.size()), grid));
+            runs += grids.back().count();
+            if (runs > most_runs)
+                study.fail_at("sweep",
+                              fmt::format("more than {} runs, the most of a study", most_runs));
+        }
     } else {
         grids.push_back(read_grid(study, "sweep", found));
     }

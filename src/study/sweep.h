@@ -17,6 +17,8 @@ using Settings = std::vector<std::pair<std::string, nlohmann::json>>;
 
 const nlohmann::json* find_setting(const Settings& settings, const std::string& key);
 
+constexpr std::uint64_t most_runs = 100000;  // of a study
+
 // All values of one key.
 struct SweepAxis {
     std::string key;
@@ -32,11 +34,12 @@ struct SweepGrid {
 };
 
 // Of a study file: `sweep`, a grid {key: values, ...} or a list of them. Values: a list, one value,
-// or {"factorizations": N, "levels": k}. Throws KeyError.
+// or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs of one
+// scene.
 std::vector<SweepGrid> read_sweep(JsonReader& study);
 
 // All lists of factors of at least 2 with the product `of`, ordered, at most `levels` long; the
-// short ones first. of >= 2.
+// short ones first. of >= 2. Where there are more than most_runs, only some more than those.
 std::vector<std::vector<int>> factorizations(int of, int levels);
 
 // As a name and as a table's cell: "32x32" of a list of whole numbers, words without quotes, else

@@ -191,6 +191,12 @@ TEST_F(RunLists, DropRulesThatMatchNothingAreMistakes) {
     expect_error([&] { list(); }, {"study.json", "drop.0.where", "no run has these values"});
 }
 
+TEST_F(RunLists, DropRulesAreNotWithoutNumber) {
+    study["drop"] =
+        std::vector<json>(1001, {{"where", {{"render.target", "fixed8"}}}, {"because", "again"}});
+    expect_error([&] { list(); }, {"study.json", "drop", "1001 rules", "at most 1000"});
+}
+
 TEST_F(RunLists, BaselineIsOneRunOfEachScene) {
     study["baseline"] = {{"render.target", "float32"}, {"render.slice.samples", nullptr}};
     const RunList made = list();

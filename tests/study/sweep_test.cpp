@@ -152,6 +152,30 @@ TEST(Sweep, BadFactorizationsAreErrors) {
         {"sweep.k.level", "did you mean \"levels\""});
 }
 
+// A short file must not ask for lists that no memory holds.
+TEST(Sweep, MoreRunsThanAStudyMayHaveAreErrors) {
+    expect_error(
+        [] {
+            read({{"k", {{"factorizations", 60480}}}});
+        },  // 1096512 of them
+        {"study.json", "sweep.k", "more than 100000 factorizations", "levels"});
+    const json thousand = std::vector<int>(1000, 1);
+    EXPECT_EQ(read({{"a", thousand}, {"b", std::vector<int>(100, 1)}})[0].count(), most_runs);
+    expect_error(
+        [&] {
+            read({{"a", thousand}, {"b", std::vector<int>(101, 1)}});
+        },
+        {"study.json", "sweep", "more than 100000 runs"});
+    const json hundred_grids = std::vector<json>(100, {{"k", thousand}});
+    EXPECT_EQ(read(hundred_grids).size(), 100u);
+    json one_more = hundred_grids;
+    one_more.push_back({{"k", 1}});
+    expect_error([&] { read(one_more); }, {"study.json", "sweep", "more than 100000 runs"});
+    json keys;
+    for (int i = 0; i < 257; ++i) keys[fmt::format("k{}", i)] = 1;
+    expect_error([&] { read(keys); }, {"study.json", "sweep", "257 keys", "at most 256"});
+}
+
 TEST(SettingText, IsShort) {
     EXPECT_EQ(setting_text({32, 32}), "32x32");
     EXPECT_EQ(setting_text("fixed8"), "fixed8");
