@@ -122,6 +122,22 @@ TEST_F(MeshFiles, AndSceneMeshesAreTheSame) {
     EXPECT_EQ(read(path("v.npy")), read(path("m.npy")));
 }
 
+TEST_F(MeshFiles, MayHaveNamesThatAreNotUtf8) {
+    const std::string name =
+        "Dr\xfc"
+        "ck";  // Latin-1
+    write("latin.node", "# point attribute 1: " + name + "\n" + read(path("cube.node")));
+    write("latin.ele", read(path("cube.ele")));
+    const ProgramResult info = lamina_run({"info", path("latin.node"), "--json"});
+    ASSERT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_EQ(json::parse(info.out)["scalars"][0]["name"], "Dr\uFFFDck");
+    EXPECT_EQ(lamina_run({"info", path("latin.node")}).exit_code, 0);
+    write_scene("latin.json", "latin.node");
+    const ProgramResult drawn = lamina_run(
+        {"render", path("latin.json"), "--set", "scalar=" + name, "-o", path("latin.exr")});
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+}
+
 TEST_F(MeshFiles, BadOnesAreOneLineAndLeaveNothing) {
     write("cube.ele", "1 4 0\n0 0 1 3 8\n");
     write_scene("s.json", "cube.node");

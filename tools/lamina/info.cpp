@@ -23,11 +23,16 @@ struct InfoOptions {
     bool json = false;
 };
 
+// Names in mesh files may be of any encoding.
+std::string json_text(const Json& value, int indent) {
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string table_text(const Json& info) {
     std::string text;
     for (const auto& [key, value] : info.items()) {
         text += fmt::format("{:<17} {}\n", key,
-                            value.is_string() ? value.get<std::string>() : value.dump());
+                            value.is_string() ? value.get<std::string>() : json_text(value, -1));
     }
     return text;
 }
@@ -52,7 +57,7 @@ void run(const InfoOptions& options) {
     }
     const Json info = volume ? report_on_volume(options.file, options.png)
                              : report_on_mesh(options.file, options.png);
-    fmt::print("{}", options.json ? info.dump(2) + "\n" : table_text(info));
+    fmt::print("{}", options.json ? json_text(info, 2) + "\n" : table_text(info));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ Scene load_scene(const SceneOptions& options, std::string& document_text) {
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }
     if (!options.method.empty()) apply("render.method", options.method);
-    document_text = document.dump(2);
+    // Words of the command line may be of any encoding.
+    document_text = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
     try {
         return read_scene(document, options.file);
     } catch (const KeyError& error) {
