@@ -49,7 +49,8 @@ class RowSweep {
 // The two sweeps of a chamfer transform, which is exact for this distance: a shortest path takes
 // its steps in any order, all that lead on in the first sweep's direction first.
 void OccupiedBricks::measure_distances() {
-    const auto [nx, ny, nz] = count;
+    // No structured binding: clang below 16 has none in lambdas.
+    const std::int64_t nx = count[0], ny = count[1], nz = count[2];
     RowSweep sweep(nx);
     const auto row = [&](std::int64_t y, std::int64_t z) {
         return distance.data() + (z * ny + y) * nx;

@@ -45,7 +45,9 @@ void draw_slice(const Grid& grid, const T* samples, const ValueRange& range, std
 }  // namespace
 
 CodedImage middle_slices(const Volume& volume, const ValueRange& range) {
-    const auto [nx, ny, nz] = volume.grid().size;
+    // No structured binding: clang below 16 has none in lambdas.
+    const std::int64_t nx = volume.grid().size[0];
+    const std::int64_t ny = volume.grid().size[1], nz = volume.grid().size[2];
     const std::int64_t width = nx + room + nx + room + ny;
     const std::int64_t height = std::max(ny, nz);
     check_image_size("the picture of the slices", width, height);

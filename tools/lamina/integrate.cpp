@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,28 +11,15 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "optics/segment_integral.h"
+#include "scene/integration_case.h"
 #include "scene/json_reader.h"
-#include "scene/transfer_function_json.h"
 #include "verbs.h"
 
 namespace lamina {
 namespace {
 
-double read_scalar(JsonReader& reader, const std::string& key) {
-    const double scalar = reader.number(key);
-    if (!(std::abs(scalar) <= 1e300)) reader.reject(key, "a number between -1e300 and 1e300");
-    return scalar;
-}
-
-SegmentIntegral integrate_case(JsonReader reader, std::vector<std::string>& warnings) {
-    const TransferFunction transfer_function =
-        read_transfer_function(reader.object("transfer_function"), &warnings);
-    const double front = read_scalar(reader, "sf");
-    const double back = read_scalar(reader, "sb");
-    const double length = reader.number("length");
-    if (!(length >= 0)) reader.reject("length", "a number >= 0");
-    reader.close();
-    return integrate_segment(transfer_function, front, back, length);
+SegmentIntegral integral_of(const IntegrationCase& given) {
+    return integrate_segment(given.transfer_function, given.front, given.back, given.length);
 }
 
 // 17 significant digits: what every double needs to be read back as itself.
@@ -63,7 +49,8 @@ void integrate(const std::string& cases_file, const std::string& output) {
         if (!cases[i].is_object()) {
             fail("{}: {}: found {}, expected an object", cases_file, place, cases[i].type_name());
         }
-        results.push_back(integrate_case(JsonReader(cases[i], path, place), warnings));
+        results.push_back(
+            integral_of(read_integration_case(JsonReader(cases[i], path, place), &warnings)));
     }
     for (const std::string& warning : warnings)
         fmt::print(stderr, "lamina: warning: {}\n", warning);
