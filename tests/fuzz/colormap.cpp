@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "optics/colormap.h"
+
+#include "runs.h"
+#include "scratch_folder.h"
+#include "violation.h"
+
+namespace lamina::fuzz {
+namespace {
+
+// What is read is in order and finite: knots made of it are.
+void check_knots(std::vector<TransferKnot> knots) {
+    try {
+        TransferFunction::linear(std::move(knots));
+    } catch (const Error& error) {
+        throw Violation(std::string("a colour map gives ") + error.what());
+    }
+}
+
+}  // namespace
+
+void run_colormap(std::string_view input) {
+    const auto file = scratch_file("map.json", input);
+    may_fail([&] {
+        const Colormap colormap = read_paraview_colormap(file);
+        const double first = colormap.colors.front().value;
+        check_knots(combine(colormap, {{first, 1}, {1e300, 2}}));
+        check_knots(combine(colormap, 0.5));
+    });
+}
+
+}  // namespace lamina::fuzz

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz_target.h"
+
+#include "runs.h"
+
+namespace lamina::fuzz {
+
+std::span<const FuzzTarget> fuzz_targets() {
+    static constexpr FuzzTarget all[] = {
+        {"colormap", run_colormap}, {"exr", run_exr}, {"integrate", run_integrate},
+        {"node_ele", run_node_ele}, {"npy", run_npy}, {"nrrd", run_nrrd},
+        {"plan", run_plan},         {"png", run_png}, {"scene", run_scene},
+        {"study", run_study},       {"vtk", run_vtk}, {"vtu", run_vtu}};
+    return all;
+}
+
+}  // namespace lamina::fuzz

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What libFuzzer calls in the program of one target, LAMINA_FUZZ_TARGET.
+#include <tbb/global_control.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "runs.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    // Inputs are small: handing them to threads would take longer than they do.
+    static const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+    lamina::fuzz::LAMINA_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});
+    return 0;
+}

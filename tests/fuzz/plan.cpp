@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/plan.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "json_paths.h"
+#include "plan_check.h"
+#include "runs.h"
+#include "scene/json_reader.h"
+#include "scene/scene_reader.h"
+#include "violation.h"
+
+namespace lamina::fuzz {
+namespace {
+
+constexpr std::int64_t longest_axis = 12;
+constexpr std::int64_t most_tets = 600;
+// A table as large as scenes may ask for takes seconds to fill.
+constexpr int most_nodes = 32, most_layers = 4;
+
+// The data that the scene asks for, but small ones: the plan is what is tried.
+void shrink(Scene& scene) {
+    if (!scene.volume_request) scene.volume_request = GeneratorRequest{"gaussians", {}, {}};
+    scene.volume_file.clear();
+    auto& size = scene.volume_request->size;
+    if (!size) size = {9, 7, 5};
+    for (std::int64_t& edge : *size) edge = std::min(edge, longest_axis);
+    if (!scene.mesh_file.empty()) scene.mesh_request = MeshSettings{};
+    scene.mesh_file.clear();
+    if (scene.mesh_request) {
+        scene.mesh_request->kuhn = true;
+        scene.mesh_request->max_tets = most_tets;
+    }
+    if (auto& table = scene.project.table) {
+        table->scalar = std::min(table->scalar, most_nodes);
+        table->length = std::min(table->length, most_layers);
+    }
+}
+
+}  // namespace
+
+void run_plan(std::string_view input) {
+    const auto file = scratch_file("scene.json", input);
+    may_fail([&] {
+        const nlohmann::json document = load_json(file);
+        if (!paths_stay_in_folder(document)) return;
+        Scene scene = read_scene(document, file);
+        shrink(scene);
+        if (scene.draws_mesh())
+            check_project_plans(scene, load_mesh(scene));
+        else
+            check_slice_plans(scene, load_volume(scene));
+    });
+}
+
+}  // namespace lamina::fuzz

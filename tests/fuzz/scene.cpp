@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_reader.h"
+
+#include "input_parts.h"
+#include "json_paths.h"
+#include "runs.h"
+#include "scene/json_reader.h"
+#include "violation.h"
+
+namespace lamina::fuzz {
+
+void run_scene(std::string_view input) {
+    const InputParts parts = parts_of(input);
+    const auto file = scratch_file("scene.json", parts.first);
+    scratch_file("map.json", parts.second);
+    may_fail([&] {
+        const nlohmann::json document = load_json(file);
+        if (!paths_stay_in_folder(document)) return;
+        const Scene scene = read_scene(document, file);
+        const View view(scene.camera, scene.width, scene.height);
+        for (const double column : {0.0, scene.width - 1.0}) {
+            const View::Ray ray = view.ray(column, 0);
+            for (int axis = 0; axis < 3; ++axis) {
+                require_finite(ray.origin[axis], "where a ray starts");
+                require_finite(ray.direction[axis], "where a ray leads");
+            }
+        }
+    });
+}
+
+}  // namespace lamina::fuzz
