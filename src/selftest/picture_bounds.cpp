@@ -19,6 +19,9 @@ namespace {
 
 constexpr Interval everything{-1e30, 1e30};
 
+// Weights of colour come from a table of 256 x 256 whose cells a float32 divides into 2^24 parts.
+constexpr double place_in_table = 0x1p-32;
+
 // Pieces that a tet is cut into, at most.
 double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
@@ -163,8 +166,9 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
             }
             possible = composite(tet_pieces(box, optics, ray, length_error, precision), {});
             widen(possible, blends * way.rounding.absolute(), blends * way.rounding.relative);
-            if (way.method == Method::trace)
-                widen(possible, scene.trace_tolerance, precision.relative);
+            const bool traced = way.method == Method::trace;
+            widen(possible, traced ? scene.trace_tolerance : blends * place_in_table,
+                  traced ? precision.relative : 0);
         }
         widen(possible, 0, 0x1p-23);  // as stored
     });

@@ -18,7 +18,7 @@ const char* name_of(Verdict verdict) {
         case Verdict::passed:
             return "passed";
         case Verdict::failed:
-            return "FAILED";
+            return "failed";
         default:
             return "refused";
     }

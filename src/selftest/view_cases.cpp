@@ -58,6 +58,13 @@ std::vector<SelftestCase> view_cases() {
         looking("eye_inside_wide", "The eye inside, 170 degrees", {.3, .6, .4}, in, 170));
     scenes.push_back(looking("eye_on_vertex", "The eye on a corner of the mesh inside the box",
                              {.5, .5, .5}, {.9, .8, .7}, 60));
+    SelftestScene hub = looking("eye_on_hub",
+                                "The eye on a point that all tets share: the near "
+                                "plane cuts every one",
+                                {.5, .5, .5}, {.9, .8, .7}, 60);
+    hub.box.samples = {0, 1};
+    hub.mesh = [](const LayeredBox& box) { return fan_tets(box, 5); };
+    scenes.push_back(hub);
     scenes.push_back(looking("eye_on_corner", "The eye on the box's corner", {0, 0, 0}, in, 60));
     scenes.push_back(
         looking("eye_on_edge", "The eye on an edge of the mesh", {.5, .25, .5}, {.9, .8, .7}, 60));

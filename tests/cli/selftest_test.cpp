@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/lamina_run.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+// For the programs that a test starts.
+class Environment {
+  public:
+    Environment(const char* name, const std::string& value) : name_(name) {
+        setenv(name, value.c_str(), 1);
+    }
+    ~Environment() { unsetenv(name_); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+  private:
+    const char* name_;
+};
+
+nlohmann::json report_in(const std::filesystem::path& folder) {
+    return nlohmann::json::parse(read_bytes_of(folder / "selftest.json"));
+}
+
+TEST(Selftest, WritesATableAndAReport) {
+    const TemporaryFolder folder;
+    const ProgramResult result = lamina_run({"selftest", "--group", "metamorphic", "--context",
+                                             "cpu", "-o", (folder / "out").string()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("cases passed"), std::string::npos);
+    const nlohmann::json report = report_in(folder / "out");
+    EXPECT_EQ(report["counts"]["passed"], report["cases"].size());
+    EXPECT_EQ(report["context"].get<std::string>().rfind("cpu", 0), 0u);
+    for (const nlohmann::json& each : report["cases"]) {
+        EXPECT_LE(each["error"].get<double>(), each["bound"].get<double>()) << each["scene"];
+        EXPECT_NE(each["about"], "");
+    }
+    const std::string table = read_bytes_of(folder / "out" / "selftest.txt");
+    EXPECT_NE(result.out.find(table), std::string::npos);
+}
+
+TEST(Selftest, AWrongRendererEndsWithExitCode3) {
+    const TemporaryFolder folder;
+    const Environment mistake("LAMINA_SELFTEST_MISTAKE", "position");
+    const ProgramResult result = lamina_run(
+        {"selftest", "--group", "metamorphic", "--context", "cpu", "-o", folder.path().string()});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_NE(result.out.find("failed: pixel"), std::string::npos);
+}
+
+// The polynomial of opacity with its first coefficient off by 1 %: what programs of OpenGL draw is
+// wrong, what tracers make is not.
+TEST(Selftest, FindsAMutatedShader) {
+    const TemporaryFolder folder;
+    std::string text =
+        read_bytes_of(std::filesystem::path(LAMINA_SOURCE_DIR) / "shaders/optics/opacity.glsl");
+    const std::string coefficient = "0.693147187926693";
+    const std::size_t place = text.find(coefficient);
+    ASSERT_NE(place, std::string::npos);
+    text.replace(place, coefficient.size(), "0.7");
+    std::filesystem::create_directories(folder / "shaders" / "optics");
+    std::ofstream(folder / "shaders" / "optics" / "opacity.glsl") << text;
+    const Environment shaders("LAMINA_SHADER_DIR", (folder / "shaders").string());
+    const ProgramResult result = lamina_run(
+        {"selftest", "--group", "numbers", "--context", "osmesa", "-o", (folder / "out").string()});
+    EXPECT_EQ(result.exit_code, 3) << result.err;
+    std::size_t failed = 0;
+    for (const nlohmann::json& each : report_in(folder / "out")["cases"]) {
+        const bool traced = each["way"].get<std::string>().rfind("trace", 0) == 0;
+        if (traced) {
+            EXPECT_EQ(each["verdict"], "passed") << each["scene"];
+        }
+        if (each["verdict"] == "failed") ++failed;
+    }
+    EXPECT_GE(failed, 40u);  // most of 68: not those that show nothing
+}
+
+TEST(Selftest, RefusesWhatIsUnknown) {
+    const TemporaryFolder folder;
+    const ProgramResult group =
+        lamina_run({"selftest", "--group", "optic", "-o", (folder / "out").string()});
+    EXPECT_EQ(group.exit_code, 2);
+    EXPECT_NE(group.err.find("metamorphic"), std::string::npos);
+    const Environment mistake("LAMINA_SELFTEST_MISTAKE", "luck");
+    EXPECT_EQ(lamina_run({"selftest", "-o", (folder / "out").string()}).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / "selftest.json"));
+}
+
+}  // namespace
+}  // namespace lamina
