@@ -9,23 +9,28 @@
 namespace lamina {
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free,
+std::atomic<int> caught = 0;  // the signal; 0: none
+static_assert(std::atomic<int>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
-void on_signal(int) {
-    interrupted = true;
+void on_signal(int signal) {
+    caught = signal;
 }
 
 }  // namespace
 
 void catch_interrupts() {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
 void check_interrupt() {
-    if (interrupted.load(std::memory_order_relaxed)) throw Interrupted();
+    if (caught.load(std::memory_order_relaxed) != 0) throw Interrupted();
+}
+
+int interrupt_exit_code() {
+    return 128 + caught;
 }
 
 }  // namespace lamina

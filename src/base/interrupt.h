@@ -3,10 +3,14 @@
 
 namespace lamina {
 
-// After this, SIGINT and SIGTERM no longer end the process: they make check_interrupt() throw.
+// After this, SIGINT, SIGTERM and SIGHUP no longer end the process: they make check_interrupt()
+// throw. What the caller had it ignore (nohup, a shell's background) stays ignored.
 void catch_interrupts();
 
 // Throws Interrupted once a signal has come. Long loops call it; safe from any thread.
 void check_interrupt();
+
+// 128 and the signal's number, as shells have it: 130 for Ctrl-C. To be asked after Interrupted.
+int interrupt_exit_code();
 
 }  // namespace lamina

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/progress.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "base/standard_streams.h"
 
 namespace lamina {
 namespace {
@@ -23,7 +23,7 @@ Progress::Progress(std::string label, std::int64_t total)
 
 Progress::~Progress() {
     if (visible_) one_is_shown = false;
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) write_message("\r\033[K");
 }
 
 void Progress::set_quiet(bool quiet) {
@@ -43,8 +43,7 @@ void Progress::draw(std::int64_t done) {
     drawn_ = true;
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
     const double left = share > 0 ? last_drawn_ * (1 - share) / share : 0;
-    fmt::print(stderr, "\r\033[K{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left);
-    std::fflush(stderr);
+    print_message("\r\033[K{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left);
 }
 
 }  // namespace lamina

@@ -37,6 +37,7 @@ TEST(ParallelFor, RethrowsWhatACallThrows) {
 TEST(ParallelForDeathTest, StopsWhenInterrupted) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
     const auto interrupted_loop = [] {
+        std::signal(SIGINT, SIG_DFL);  // a shell's background ignores it
         catch_interrupts();
         std::atomic<int> calls = 0;
         try {

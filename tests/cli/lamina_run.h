@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,10 @@
 namespace lamina {
 
 // Runs `lamina` with these arguments.
-inline ProgramResult lamina_run(std::vector<std::string> arguments) {
+inline ProgramResult lamina_run(std::vector<std::string> arguments,
+                                const std::function<void()>& prepare = {}) {
     arguments.insert(arguments.begin(), LAMINA_BINARY);
-    return run_program(arguments);
+    return run_program(arguments, prepare);
 }
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@ namespace lamina {
 
 // Runs the program arguments[0] (looked for in PATH) with an empty stdin, waits for its end, and
 // keeps what it wrote. Exit code 127: the program could not be started.
-inline ProgramResult run_program(const std::vector<std::string>& arguments) {
-    return StartedProgram(arguments).wait();
+inline ProgramResult run_program(const std::vector<std::string>& arguments,
+                                 const std::function<void()>& prepare = {}) {
+    return StartedProgram(arguments, prepare).wait();
 }
 
 }  // namespace lamina

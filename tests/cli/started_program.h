@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,10 +32,12 @@ inline std::string text_of(std::FILE* file) {
 }
 
 // The program arguments[0] (looked for in PATH) as it runs, with an empty stdin. Exit code 127: it
-// could not be started. Someone must wait() for its end.
+// could not be started. Someone must wait() for its end. `prepare`: called in the new process
+// before the program: limits, environment, descriptors.
 class StartedProgram {
   public:
-    explicit StartedProgram(const std::vector<std::string>& arguments) {
+    explicit StartedProgram(const std::vector<std::string>& arguments,
+                            const std::function<void()>& prepare = {}) {
         std::vector<char*> argv;
         for (const std::string& argument : arguments)
             argv.push_back(const_cast<char*>(argument.c_str()));
@@ -46,6 +49,10 @@ class StartedProgram {
             dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
             dup2(fileno(out_), STDOUT_FILENO);
             dup2(fileno(err_), STDERR_FILENO);
+            // As from a terminal, wherever the tests themselves run.
+            for (const int signal : {SIGINT, SIGHUP, SIGPIPE, SIGXFSZ})
+                std::signal(signal, SIG_DFL);
+            if (prepare) prepare();
             execvp(argv[0], argv.data());
             _exit(127);
         }
@@ -53,6 +60,7 @@ class StartedProgram {
     StartedProgram(const StartedProgram&) = delete;
     StartedProgram& operator=(const StartedProgram&) = delete;
 
+    pid_t id() const { return child_; }
     void send(int signal) const { kill(child_, signal); }
 
     bool has_ended() const {

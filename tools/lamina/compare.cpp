@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/standard_streams.h"
 #include "image/false_color.h"
 #include "image/loaded_image.h"
 #include "image/metrics.h"
@@ -60,15 +61,14 @@ int compare(const CompareOptions& options) {
     if (diff) {
         write_png(*diff, false_color(e, error.all.linf));
         diff->commit();
-        fmt::print(
-            stderr,
+        print_message(
             "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
             options.diff, error.all.linf, error.all.linf);
     }
-    fmt::print("{}", options.json ? to_json(error).dump(2) + "\n" : table_text(error));
+    write_result(options.json ? to_json(error).dump(2) + "\n" : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
-        fmt::print(stderr, "lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
-                   *options.max_linf);
+        print_message("lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
+                      *options.max_linf);
         return 3;
     }
     return 0;

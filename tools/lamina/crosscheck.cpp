@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "image/exr.h"
@@ -63,7 +64,7 @@ void write_all(const std::filesystem::path& folder, const Crosscheck& made,
     write_text(folder / "budget.json", budget_json(made, budget, subject).dump(1) + "\n");
     write_text(folder / "report.html", report_page(crosscheck_report(made, budget, subject)));
     for (const std::string& finding : crosscheck_findings(made, budget, subject))
-        fmt::print("{}\n", finding);
+        print_result("{}\n", finding);
 }
 
 void run(const CrosscheckOptions& options) {
@@ -83,8 +84,8 @@ void run(const CrosscheckOptions& options) {
     subject.environment["command"] = command_line();
     write_all(folder, crosscheck(scene, options.settings, context.capabilities()), subject);
     if (!options.quiet)
-        fmt::print(stderr, "lamina: wrote four pictures, budget.json and report.html into {}\n",
-                   options.output);
+        print_message("lamina: wrote four pictures, budget.json and report.html into {}\n",
+                      options.output);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/standard_streams.h"
 #include "file_report.h"
 #include "mesh/mesh_file.h"
 #include "verbs.h"
@@ -57,7 +58,8 @@ void run(const InfoOptions& options) {
     }
     const Json info = volume ? report_on_volume(options.file, options.png)
                              : report_on_mesh(options.file, options.png);
-    fmt::print("{}", options.json ? json_text(info, 2) + "\n" : table_text(info));
+    write_result(options.json ? json_text(info, 2) + "
+" : table_text(info));
 }
 
 }  // namespace

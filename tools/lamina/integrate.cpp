@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/standard_streams.h"
 #include "optics/segment_integral.h"
 #include "scene/integration_case.h"
 #include "scene/json_reader.h"
@@ -52,13 +53,12 @@ void integrate(const std::string& cases_file, const std::string& output) {
         results.push_back(
             integral_of(read_integration_case(JsonReader(cases[i], path, place), &warnings)));
     }
-    for (const std::string& warning : warnings)
-        fmt::print(stderr, "lamina: warning: {}\n", warning);
+    for (const std::string& warning : warnings) print_message("lamina: warning: {}\n", warning);
     if (file) {
         file->write(json_text(results));
         file->commit();
     } else {
-        fmt::print("{}", json_text(results));
+        write_result(json_text(results));
     }
 }
 

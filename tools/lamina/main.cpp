@@ -3,18 +3,19 @@
 
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <new>
+#include <sstream>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/standard_streams.h"
 #include "command_line.h"
 #include "verbs.h"
 
 namespace {
 
 int report(const std::string& message, int exit_code) {
-    fmt::print(stderr, "lamina: {}\n", lamina::one_line(message));
+    lamina::print_message("lamina: {}\n", lamina::one_line(message));
     return exit_code;
 }
 
@@ -44,19 +45,20 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-        exit_code = app.exit(success);
+        std::ostringstream text;
+        exit_code = app.exit(success, text, text);
+        lamina::write_result(text.str());
     } catch (const CLI::ParseError& error) {
         return report(std::string(error.what()) + " (lamina --help shows the usage)", 2);
     }
-    // Results that did not reach stdout (a full disk behind it) are a failure.
-    std::cout.flush();
-    if (!std::cout || std::fflush(stdout) != 0) return report("cannot write to stdout", 1);
+    lamina::flush_results();
     return exit_code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    lamina::make_streams_safe();
     lamina::catch_interrupts();
     lamina::set_command_line(argc, argv);
     try {
@@ -64,9 +66,10 @@ int main(int argc, char** argv) {
     } catch (const lamina::UsageError& error) {
         return report(error.what(), 2);
     } catch (const lamina::Interrupted& interrupted) {
-        return report(interrupted.what(), 130);
+        return report(interrupted.what(), lamina::interrupt_exit_code());
     } catch (const std::bad_alloc&) {
-        return report("out of memory", 1);
+        std::fputs("lamina: out of memory\n", stderr);  // takes none
+        return 1;
     } catch (const std::exception& error) {
         return report(error.what(), 1);
     }

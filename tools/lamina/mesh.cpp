@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "mesh/mesh_file.h"
 #include "mesh/volume_mesh.h"
 #include "scene/json_reader.h"
@@ -90,8 +91,7 @@ MeshTask load(const MeshOptions& options) {
     if (!is_scene(options.input)) return {read_nrrd(options.input), {}, {}};
     const Scene scene = read_scene(load_json(options.input), options.input);
     if (!options.quiet) {
-        for (const std::string& warning : scene.warnings)
-            fmt::print(stderr, "lamina: {}\n", warning);
+        for (const std::string& warning : scene.warnings) print_message("lamina: {}\n", warning);
     }
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
@@ -101,25 +101,25 @@ MeshTask load(const MeshOptions& options) {
 }
 
 void report_made(const MeshReport& report, const MeshSettings& settings) {
-    fmt::print("points: {}\n", report.points);
-    fmt::print("tets: {} ({:.3g} of the {} of the Kuhn split)\n", report.tets,
-               static_cast<double>(report.tets) / static_cast<double>(report.kuhn_tets),
-               report.kuhn_tets);
-    fmt::print("error: at most {:.4g} of the range of values ({:.6g} of {:.6g})\n",
-               report.relative_error(), report.error, report.range);
+    print_result("points: {}\n", report.points);
+    print_result("tets: {} ({:.3g} of the {} of the Kuhn split)\n", report.tets,
+                 static_cast<double>(report.tets) / static_cast<double>(report.kuhn_tets),
+                 report.kuhn_tets);
+    print_result("error: at most {:.4g} of the range of values ({:.6g} of {:.6g})\n",
+                 report.relative_error(), report.error, report.range);
     if (report.within_tolerance) return;
     const std::string what = fmt::format("{:.4g} of the range of values, wanted {:.4g}",
                                          report.relative_error(), settings.tolerance);
     if (report.stopped_by_max_tets) {
-        fmt::print(stderr,
-                   "lamina: stopped at {} tets (--max-tets {}): the mesh differs from the volume "
-                   "by up to {}\n",
-                   report.tets, settings.max_tets, what);
+        print_message(
+            "lamina: stopped at {} tets (--max-tets {}): the mesh differs from the volume "
+            "by up to {}\n",
+            report.tets, settings.max_tets, what);
     } else if (!settings.kuhn) {
-        fmt::print(stderr,
-                   "lamina: points cannot lie closer together: the mesh differs from the volume "
-                   "by up to {}\n",
-                   what);
+        print_message(
+            "lamina: points cannot lie closer together: the mesh differs from the volume "
+            "by up to {}\n",
+            what);
     }
 }
 

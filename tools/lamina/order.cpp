@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "base/stopwatch.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_shape.h"
@@ -190,32 +191,35 @@ void print_json(const Input& input, const std::vector<Outcome>& outcomes, int ey
                     {"convex", convex(input.mesh)},
                     {"eyes", eyes},
                     {"orders", orders}};
-    fmt::print("{}\n", root.dump(2));
+    print_result("{}\n", root.dump(2));
 }
 
 void print_table(const Input& input, const std::vector<Outcome>& outcomes, int eyes) {
     const std::size_t tets = input.mesh.tets().size();
-    fmt::print("{} tets, {}; {} views\n", tets, convex(input.mesh) ? "convex" : "not convex", eyes);
-    fmt::print("{:<10}{:>9}{:>15}{:>14}{:>14}{:>16}{:>8}{:>13}\n", "order", "ms", "million tets/s",
-               "wrong faces", "wrong pixels", "outside cycles", "cycles", "cyclic tets");
+    print_result("{} tets, {}; {} views\n", tets, convex(input.mesh) ? "convex" : "not convex",
+                 eyes);
+    print_result("{:<10}{:>9}{:>15}{:>14}{:>14}{:>16}{:>8}{:>13}\n", "order", "ms",
+                 "million tets/s", "wrong faces", "wrong pixels", "outside cycles", "cycles",
+                 "cyclic tets");
     for (std::size_t i = 0; i < methods.size(); ++i) {
         const Outcome& outcome = outcomes[i];
         const std::string speed =
             methods[i] == OrderMethod::none
                 ? "-"
                 : fmt::format("{:.3g}", 1e-3 * static_cast<double>(tets) / median(outcome.ms));
-        fmt::print("{:<10}{:>9.3g}{:>15}{:>14}{:>12.3g} %{:>16}{:>8}{:>13}\n", name_of(methods[i]),
-                   median(outcome.ms), speed, outcome.violations, 100 * outcome.wrong_share(),
-                   outcome.pixels.outside_cycles, outcome.cycles, outcome.cyclic_tets);
+        print_result("{:<10}{:>9.3g}{:>15}{:>14}{:>12.3g} %{:>16}{:>8}{:>13}\n",
+                     name_of(methods[i]), median(outcome.ms), speed, outcome.violations,
+                     100 * outcome.wrong_share(), outcome.pixels.outside_cycles, outcome.cycles,
+                     outcome.cyclic_tets);
     }
-    fmt::print(
+    print_result(
         "ms: median of a sort. Wrong faces: the tet behind is drawn later, in all views. Wrong "
         "pixels:\nof {} that show the mesh, two tets on the ray are drawn in the wrong order; "
         "outside cycles: not\nwithin one cycle. Cycles: sets of tets that hide one another in a "
         "ring, the most in one view.\n",
         outcomes[0].pixels.covered);
     if (outcomes[1].pixels.overlapping > 0) {
-        fmt::print(
+        print_result(
             "{} of the pixels that are wrong with exact lie where parts of the mesh overlap.\n",
             outcomes[1].pixels.overlapping);
     }

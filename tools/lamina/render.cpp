@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "base/stage.h"
 #include "profile_file.h"
 #include "render_job.h"
@@ -64,7 +65,7 @@ void check_paths(const RenderOptions& options) {
 }
 
 void message(const RenderOptions& options, const std::string& text) {
-    if (!options.quiet) fmt::print(stderr, "lamina: {}\n", text);
+    if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
 // The frames of --frames: `draw(view)` for the scene's camera turned a little further each time.
@@ -113,7 +114,7 @@ void run(const RenderOptions& options) {
     RenderStats stats;
     const Plan plan = job->plan(stats);
     const std::string explanation = job->explanation(plan);
-    if (options.explain) fmt::print("{}", explanation);
+    if (options.explain) write_result(explanation);
     if (!picture) return;
     const View view(scene.camera, scene.width, scene.height);
     job->draw(plan, view, stats);

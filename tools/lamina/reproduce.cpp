@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "gl/context.h"
 #include "study/context_choice.h"
 #include "study/kraus.h"
@@ -78,8 +79,14 @@ void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions&
     AtomicFile file(folder / (options.paper + ".json"));
     nlohmann::ordered_json report;
     for (const PaperItem<Stage>& item : items) {
-        const nlohmann::ordered_json result = stagehand.make(item, folder);
-        fmt::print("{:<14} {}\n", item.name, result["note"].get<std::string>());
+        nlohmann::ordered_json result;
+        try {
+            result = stagehand.make(item, folder);
+        } catch (const Interrupted&) {
+            throw Interrupted(fmt::format("interrupted in {}: files of {} of {} items are in {}",
+                                          item.name, report.size(), items.size(), folder.string()));
+        }
+        print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
         report[item.name] = result;
     }
     file.write(report.dump(1) + "\n");

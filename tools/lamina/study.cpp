@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "scene/json_reader.h"
@@ -66,7 +67,7 @@ void check_folder(const RunList& list, const StudyFolder& folder, bool begun, bo
 }
 
 void say(const StudyOptions& options, const std::string& text) {
-    if (!options.quiet) fmt::print(stderr, "lamina: {}\n", text);
+    if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
 void say_what_is_left_out(const RunList& list, const StudyOptions& options) {
@@ -76,7 +77,7 @@ void say_what_is_left_out(const RunList& list, const StudyOptions& options) {
 
 void write_results(const StudyFolder& folder, const StudyOptions& options) {
     const StudySummary summary = write_study_output(folder);
-    for (const std::string& finding : summary.findings) fmt::print("{}\n", finding);
+    for (const std::string& finding : summary.findings) print_result("{}\n", finding);
     for (const std::string& failure : summary.failures) say(options, failure);
     say(options,
         fmt::format("wrote results.csv, results.json and report.html into {} ({} of {} "
@@ -110,19 +111,25 @@ void run_study(const StudyOptions& options) {
     say(options, fmt::format("{} runs, {} of them finished before", runner.wanted(), before));
     try {
         runner.run();
+        write_results(folder, options);
     } catch (const Interrupted&) {
         throw Interrupted(
             fmt::format("interrupted: {} of {} runs are finished and kept; --resume "
                         "goes on",
                         runner.finished(), runner.wanted()));
     }
-    write_results(folder, options);
 }
 
 void merge(const StudyOptions& options) {
     const StudyFolder folder(options.output);
-    merge_studies({options.merged.begin(), options.merged.end()}, folder);
-    write_results(folder, options);
+    try {
+        merge_studies({options.merged.begin(), options.merged.end()}, folder);
+        write_results(folder, options);
+    } catch (const Interrupted&) {
+        throw Interrupted(fmt::format(
+            "interrupted: {} may hold a part of it; the same command again makes it whole",
+            folder.path.string()));
+    }
 }
 
 }  // namespace
