@@ -39,6 +39,14 @@ template <typename Body>
     return true;
 }
 
+// libpng's own way would not say why.
+void write_block(png_structp png, png_bytep bytes, std::size_t count) {
+    auto* const stream = static_cast<std::FILE*>(png_get_io_ptr(png));
+    if (std::fwrite(bytes, 1, count, stream) != count) png_error(png, std::strerror(errno));
+}
+
+void flush_nothing(png_structp /*png*/) {}
+
 struct Writer {
     Message message = "";
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, on_error, on_warning);
@@ -133,7 +141,7 @@ void write_png(AtomicFile& file, const CodedImage& image) {
         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
     std::vector<png_byte> row(row_codes * static_cast<std::size_t>(image.bit_depth / 8));
     const bool written = succeeds(writer.png, [&] {
-        png_init_io(writer.png, file.stream());
+        png_set_write_fn(writer.png, file.stream(), write_block, flush_nothing);
         png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
                      static_cast<png_uint_32>(image.height), image.bit_depth,
                      color_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

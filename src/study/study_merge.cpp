@@ -5,8 +5,11 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "scene/json_reader.h"
 #include "study/run_list.h"
 #include "study/study_output.h"
@@ -24,14 +27,17 @@ std::string bytes_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Beside it first: a file that is there is complete.
 void copy_whole(const std::filesystem::path& from, const std::filesystem::path& into) {
-    const std::filesystem::path part = into.string() + ".part";
-    std::error_code error;
-    std::filesystem::copy_file(from, part, std::filesystem::copy_options::overwrite_existing,
-                               error);
-    if (!error) std::filesystem::rename(part, into, error);
-    if (error) fail("{}: cannot write: {}", into.string(), error.message());
+    AtomicFile copy(into);
+    std::ifstream stream(from, std::ios::binary);
+    std::vector<char> block(std::size_t{1} << 20);
+    while (stream) {
+        check_interrupt();
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        copy.write(block.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    if (!stream.eof()) fail("{}: cannot read", from.string());
+    copy.commit();
 }
 
 void copy_files(const std::filesystem::path& from, const std::filesystem::path& into) {

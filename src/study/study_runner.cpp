@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/stopwatch.h"
@@ -145,13 +147,20 @@ void StudyRunner::visit(std::size_t run, int round) {
         drop_if_full(run);
     } catch (const Interrupted&) {
         throw;
+    } catch (const WriteError&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        return give_up(run, "out of memory");
     } catch (const std::exception& error) {
-        frames_.erase(run);
-        journal_.append({{"run", list_.runs[run].id}, {"failed", one_line(error.what())}});
-        done.failed = true;
-        return;
+        return give_up(run, one_line(error.what()));
     }
     record(run, round, measured);
+}
+
+void StudyRunner::give_up(std::size_t run, const std::string& why) {
+    frames_.erase(run);
+    journal_.append({{"run", list_.runs[run].id}, {"failed", why}});
+    done_[run].failed = true;
 }
 
 void StudyRunner::record(std::size_t run, int round, const Measured& measured) {

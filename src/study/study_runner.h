@@ -77,6 +77,7 @@ class StudyRunner {
     void measure_picture(std::size_t run, StudyFrames& frames, Measured& measured);
     nlohmann::ordered_json time_round(std::size_t run, int round, StudyFrames& frames) const;
     void record(std::size_t run, int round, const Measured& measured);
+    void give_up(std::size_t run, const std::string& why);
     void drop_if_full(std::size_t run);
     void drop_opengl();
 

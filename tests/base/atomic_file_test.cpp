@@ -3,12 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
 #include "support/expect_error.h"
 #include "support/file_size_limit.h"
+#include "support/nameless_files.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
 namespace {
+
+std::set<std::string> names_in(const TemporaryFolder& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        names.insert(entry.path().filename().string());
+    return names;
+}
 
 TEST(AtomicFile, AppearsUnderItsNameOnlyWhenCommitted) {
     const TemporaryFolder folder;
@@ -16,11 +27,8 @@ TEST(AtomicFile, AppearsUnderItsNameOnlyWhenCommitted) {
         AtomicFile file(folder / "a.txt");
         file.write("new");
         EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
-        EXPECT_TRUE(std::filesystem::exists(file.temporary_path()));
-        EXPECT_EQ(file.temporary_path().parent_path(),
-                  folder.path());  // rename needs one file system
         file.commit();
-        EXPECT_FALSE(std::filesystem::exists(file.temporary_path()));
+        EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
     }
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "new");
 }
@@ -53,13 +61,87 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "old");
 }
 
-TEST(AtomicFile, CanBeWrittenByNameAfterItsStreamIsClosed) {
+// Until then a killed process leaves nothing, where the file system can do that.
+TEST(AtomicFile, HasNoNameUntilItIsComplete) {
     const TemporaryFolder folder;
+    if (!has_nameless_files(folder)) GTEST_SKIP() << "files of this file system all have names";
     AtomicFile file(folder / "a.txt");
-    file.close_stream();
-    write_bytes_to(file.temporary_path(), "by name");
+    file.write(std::string(100000, 'x'));
+    EXPECT_TRUE(folder.empty());
+}
+
+TEST(AtomicFile, CompleteIsNotThereYet) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "a.txt", "old");
+    {
+        AtomicFile file(folder / "a.txt");
+        file.write("new");
+        file.complete();
+        EXPECT_EQ(read_bytes_of(folder / "a.txt"), "old");
+        EXPECT_EQ(names_in(folder).size(), 2u);
+    }
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "old");
+    AtomicFile file(folder / "a.txt");
+    file.write("new");
+    file.complete();
     file.commit();
-    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "by name");
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "new");
+}
+
+TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
+    const TemporaryFolder folder;
+    AtomicFile one(folder / "a.txt"), two(folder / "a.txt");
+    one.write("one");
+    two.write("two");
+    two.complete();
+    one.complete();
+    two.commit();
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "two");
+    one.commit();
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "one");
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, NamesMayBeAsLongAsTheFileSystemHasThem) {
+    const TemporaryFolder folder;
+    const std::string longest(255, 'n');
+    for (const char* text : {"new", "newer"}) {
+        AtomicFile file(folder / longest);
+        file.write(text);
+        file.commit();
+        EXPECT_EQ(read_bytes_of(folder / longest), text);
+    }
+    expect_error([&] { AtomicFile(folder / (longest + "n")); }, {"cannot write", "too long"});
+}
+
+TEST(AtomicFile, WritesWhatALinkLeadsTo) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "there");
+    std::filesystem::create_symlink("there/b.txt", folder / "a.txt");  // b.txt comes to be
+    std::filesystem::create_symlink("a.txt", folder / "again");
+    for (const char* text : {"new", "newer"}) {
+        AtomicFile file(folder / "again");
+        file.write(text);
+        file.commit();
+        EXPECT_EQ(read_bytes_of(folder / "there" / "b.txt"), text);
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.txt"));
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / "again"));
+    }
+    std::filesystem::create_symlink("y", folder / "x");
+    std::filesystem::create_symlink("x", folder / "y");
+    expect_error([&] { AtomicFile(folder / "x"); }, {"cannot write", "loop"});
+}
+
+TEST(AtomicFile, AFolderThatIsGoneIsAnError) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "gone");
+    AtomicFile file(folder / "gone" / "a.txt");
+    file.write("new");
+    std::filesystem::remove_all(folder / "gone");
+    expect_error([&] { file.commit(); }, {"gone/a.txt", "cannot write"});
+    EXPECT_TRUE(folder.empty());
 }
 
 TEST(AtomicFile, PathsThatCannotBeWrittenFailAtOnce) {

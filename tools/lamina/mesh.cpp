@@ -60,8 +60,11 @@ class MeshOutput {
         } else {
             write_node(*file_, mesh);
             write_ele(*elements_, mesh);
-            file_->close_stream();  // both are complete before either gets its name
-            elements_->close_stream();
+            file_->complete();  // both, before either gets its name
+            elements_->complete();
+            // Killed between the two it leaves no old .node beside the new .ele: they would be read
+            // as one mesh.
+            std::filesystem::remove(file_->path());
             elements_->commit();
         }
         file_->commit();
