@@ -9,6 +9,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/standard_streams.h"
+#include "different_files.h"
 #include "image/false_color.h"
 #include "image/loaded_image.h"
 #include "image/metrics.h"
@@ -54,6 +55,8 @@ void check(const CompareOptions& options) {
 
 int compare(const CompareOptions& options) {
     check(options);
+    expect_different_files({options.a, options.diff}, "A and --diff");
+    expect_different_files({options.b, options.diff}, "B and --diff");
     std::unique_ptr<AtomicFile> diff;
     if (!options.diff.empty()) diff = std::make_unique<AtomicFile>(options.diff);
     const Difference e = difference(load_image(options.a), load_image(options.b));

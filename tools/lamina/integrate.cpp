@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/standard_streams.h"
+#include "different_files.h"
 #include "optics/segment_integral.h"
 #include "scene/integration_case.h"
 #include "scene/json_reader.h"
@@ -35,6 +36,7 @@ std::string json_text(const std::vector<SegmentIntegral>& results) {
 }
 
 void integrate(const std::string& cases_file, const std::string& output) {
+    expect_different_files({cases_file, output}, "CASES.json and -o");
     std::unique_ptr<AtomicFile> file;
     if (!output.empty()) file = std::make_unique<AtomicFile>(output);
     const std::filesystem::path path = cases_file;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,8 +9,9 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
-#include "base/standard_streams.h"
 #include "base/stage.h"
+#include "base/standard_streams.h"
+#include "different_files.h"
 #include "profile_file.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -46,22 +46,15 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
     return omissions;
 }
 
-// Scene, picture, statistics and profile are different files.
 void check_paths(const RenderOptions& options) {
-    const auto same = [](const std::string& a, const std::string& b) {
-        std::error_code ignored;
-        return !a.empty() && !b.empty() &&
-               std::filesystem::weakly_canonical(a, ignored) ==
-                   std::filesystem::weakly_canonical(b, ignored);
-    };
-    const std::array files{options.scene.file, options.output, options.stats, options.profile};
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        for (std::size_t k = i + 1; k < files.size(); ++k) {
-            if (same(files[i], files[k]))
-                throw UsageError(fmt::format(
-                    "{}: expected different files for scene, -o, --stats and --profile", files[k]));
-        }
-    }
+    expect_different_files({options.scene.file, options.output, options.stats, options.profile},
+                           "scene, -o, --stats and --profile");
+}
+
+void check_paths(const RenderOptions& options, const Scene& scene) {
+    for (const auto& data : {scene.volume_file, scene.mesh_file})
+        expect_different_files({data, options.output, options.stats, options.profile},
+                               "the scene's data, -o, --stats and --profile");
 }
 
 void message(const RenderOptions& options, const std::string& text) {
@@ -107,6 +100,7 @@ void run(const RenderOptions& options) {
     std::optional<PictureFile> picture;
     if (!options.output.empty()) picture.emplace(options.output, scene.method == Method::trace);
     std::optional<AtomicFile> stats_file;
+    check_paths(options, scene);
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
