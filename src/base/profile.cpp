@@ -34,12 +34,19 @@ void Profile::add(const char* name, std::int64_t begin_ns, std::int64_t end_ns,
     const std::lock_guard lock(adding_);
     const int next = row_count();
     const int row = rows_.try_emplace(std::this_thread::get_id(), next).first->second;
-    spans_.push_back({name, begin_ns, end_ns, counts, row});
+    keep({name, begin_ns, end_ns, counts, row});
 }
 
 void Profile::add_opengl(const char* name, std::int64_t begin_ns, std::int64_t end_ns) {
     const std::lock_guard lock(adding_);
-    spans_.push_back({name, begin_ns, end_ns, {}, opengl_row});
+    keep({name, begin_ns, end_ns, {}, opengl_row});
+}
+
+void Profile::keep(const Span& span) {
+    if (spans_.size() < most_spans)
+        spans_.push_back(span);
+    else
+        ++left_out_;
 }
 
 int Profile::row_count() const {

@@ -72,6 +72,18 @@ TEST(ProfileTest, EveryThreadHasARow) {
     }
 }
 
+TEST(ProfileTest, KeepsTheFirstAndCountsTheOthers) {
+    Profile profile;
+    for (std::size_t i = 0; i < Profile::most_spans - 1; ++i) profile.add("kept", 0, 1, {});
+    EXPECT_EQ(profile.spans_left_out(), 0);
+    profile.add_opengl("last", 0, 1);
+    profile.add("lost", 0, 1, {});
+    profile.add_opengl("lost", 0, 1);
+    ASSERT_EQ(profile.spans().size(), Profile::most_spans);
+    EXPECT_STREQ(profile.spans().back().name, "last");
+    EXPECT_EQ(profile.spans_left_out(), 2);
+}
+
 TEST(ProfileTest, RecordsUntilItsEnd) {
     {
         const Profile profile;

@@ -23,6 +23,11 @@ std::string name_of_row(int row) {
     return fmt::format("worker {}", row - Profile::first_row);
 }
 
+// Paths need not be UTF-8.
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 double microseconds(std::int64_t nanoseconds) {
     return 1e-3 * static_cast<double>(nanoseconds);
 }
@@ -47,26 +52,29 @@ Json event(const Profile::Span& span, std::int64_t start_ns) {
 
 }  // namespace
 
-void ProfileFile::write(const std::string& title, const std::string& context) {
-    Json events = Json::array({metadata("process_name", Profile::first_row, "name", title)});
+std::int64_t ProfileFile::write(const std::string& title, const std::string& context) {
+    Json other{{"context", context}};
+    if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
+    file_.write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + text_of(other) +
+                ",\"traceEvents\":[\n");
+    // One after the other: a document of them all would take twenty times what the spans take.
+    file_.write(text_of(metadata("process_name", Profile::first_row, "name", title)));
+    const auto write_event = [&](const Json& event) { file_.write(",\n" + text_of(event)); };
     const auto has_spans = [&](int row) {
         return std::ranges::any_of(profile_.spans(),
                                    [&](const Profile::Span& span) { return span.row == row; });
     };
     for (int row = 0; row < profile_.row_count(); ++row) {
         if (!has_spans(row)) continue;
-        events.push_back(metadata("thread_name", row, "name", name_of_row(row)));
+        write_event(metadata("thread_name", row, "name", name_of_row(row)));
         // OpenGL's below those of the host.
         const int place = row == Profile::opengl_row ? profile_.row_count() : row;
-        events.push_back(metadata("thread_sort_index", row, "sort_index", place));
+        write_event(metadata("thread_sort_index", row, "sort_index", place));
     }
-    for (const Profile::Span& span : profile_.spans()) events.push_back(event(span, start_ns_));
-    const Json document{{"displayTimeUnit", "ms"},
-                        {"otherData", {{"context", context}}},
-                        {"traceEvents", std::move(events)}};
-    // Paths need not be UTF-8.
-    file_.write(document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+    for (const Profile::Span& span : profile_.spans()) write_event(event(span, start_ns_));
+    file_.write("\n]}\n");
     file_.commit();
+    return profile_.spans_left_out();
 }
 
 }  // namespace lamina

@@ -15,8 +15,9 @@ class ProfileFile {
   public:
     explicit ProfileFile(const std::filesystem::path& path) : file_(path) {}  // throws Error
 
-    // The title of it all, and what drew.
-    void write(const std::string& title, const std::string& context);
+    // The title of it all, and what drew. Returns how many spans were too many to be kept: the file
+    // says so, too.
+    std::int64_t write(const std::string& title, const std::string& context);
 
   private:
     AtomicFile file_;

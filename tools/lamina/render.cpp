@@ -85,6 +85,13 @@ std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
                                       : make_volume_trace_job(request);
 }
 
+void write_profile(ProfileFile& profile, const RenderOptions& options, const RenderStats& stats) {
+    const auto left_out = profile.write("lamina render " + options.scene.file, stats.context);
+    if (left_out > 0)
+        message(options, fmt::format("--profile: the first {} spans are kept, {} are left out",
+                                     Profile::most_spans, left_out));
+}
+
 // One `lamina render`: from the files to the picture and what it cost.
 void run(const RenderOptions& options) {
     std::optional<ProfileFile> profile;
@@ -93,6 +100,7 @@ void run(const RenderOptions& options) {
     Stage reading("scene");
     const Scene scene = load_scene(options.scene, scene_text);
     reading.end();
+    check_paths(options, scene);
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
@@ -100,7 +108,6 @@ void run(const RenderOptions& options) {
     std::optional<PictureFile> picture;
     if (!options.output.empty()) picture.emplace(options.output, scene.method == Method::trace);
     std::optional<AtomicFile> stats_file;
-    check_paths(options, scene);
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
@@ -126,7 +133,7 @@ void run(const RenderOptions& options) {
         stats_file->write(to_json(stats, plan).dump(2) + "\n");
         stats_file->commit();
     }
-    if (profile) profile->write("lamina render " + options.scene.file, stats.context);
+    if (profile) write_profile(*profile, options, stats);
     say(fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options.output, scene.width,
                     scene.height, stats.context, stats.frames_ms.back()));
 }
