@@ -21,6 +21,7 @@ unsigned new_buffer() {
 
 Buffer::Buffer(std::size_t byte_count) : handle_(new_buffer()) {
     assert(byte_count > 0);
+    require_memory_left(static_cast<std::int64_t>(byte_count) + memory_for_drawing);
     glNamedBufferStorage(id(), static_cast<GLsizeiptr>(byte_count), nullptr,
                          GL_DYNAMIC_STORAGE_BIT);
     check("allocating a buffer");
@@ -30,6 +31,7 @@ Buffer::Buffer(std::size_t byte_count) : handle_(new_buffer()) {
 Buffer Buffer::make_mapped(std::size_t byte_count) {
     assert(byte_count > 0);
     constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    require_memory_left(static_cast<std::int64_t>(byte_count) + memory_for_drawing);
     Buffer buffer;
     buffer.handle_ = Handle<ObjectKind::buffer>(new_buffer());
     const auto bytes = static_cast<GLsizeiptr>(byte_count);

@@ -14,6 +14,7 @@
 #include "gl/check.h"
 #include "gl/context_backends.h"
 #include "gl/filter_probe.h"
+#include "gl/memory.h"
 
 namespace lamina::gl {
 namespace {
@@ -58,6 +59,7 @@ const char* advice(ContextKind kind) {
 
 std::unique_ptr<Context> Context::create(ContextKind kind) {
     using Attempt = std::function<std::unique_ptr<Context>()>;
+    require_memory_left(memory_for_context);
     const Attempt hardware = [] { return create_egl_context(EglDevices::hardware); };
     const Attempt egl = [] { return create_egl_context(EglDevices::any); };
     const Attempt osmesa = create_osmesa_context;

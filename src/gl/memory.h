@@ -10,6 +10,13 @@ namespace lamina::gl {
 // driver's padding.
 std::int64_t bytes_allocated();
 
+// Throws Error where a limit on the process's memory (ulimit -v) leaves less than this: Mesa's
+// software renderers crash when they get none, and cannot be told to stop before.
+void require_memory_left(std::int64_t bytes);
+
+inline constexpr std::int64_t memory_for_context = std::int64_t{1} << 30;
+inline constexpr std::int64_t memory_for_drawing = std::int64_t{1} << 28;  // once it is there
+
 // The share of one object in bytes_allocated(), from its making to its end.
 class AllocatedBytes {
   public:

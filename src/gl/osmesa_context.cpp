@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <string_view>
 
 #include "base/error.h"
 #include "gl/context_backends.h"
@@ -32,6 +34,13 @@ struct Osmesa {
     void (*(*get_proc_address)(const char* name))() =
         library.function<decltype(get_proc_address)>("OSMesaGetProcAddress");
 };
+
+// OSMesa crashes where this names a driver that it does not have, and no other one has OpenGL 4.5.
+void check_driver_asked_for() {
+    const char* const driver = std::getenv("GALLIUM_DRIVER");
+    if (driver != nullptr && std::string_view(driver) != "llvmpipe")
+        fail("GALLIUM_DRIVER is \"{}\", expected llvmpipe", driver);
+}
 
 const Osmesa& osmesa() {
     static const Osmesa loaded;
@@ -73,6 +82,7 @@ class OsmesaContext : public Context {
 
 std::unique_ptr<Context> create_osmesa_context() {
     try {
+        check_driver_asked_for();
         osmesa();
         auto context = std::make_unique<OsmesaContext>();
         context->open();

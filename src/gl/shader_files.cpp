@@ -14,8 +14,10 @@ namespace {
 std::optional<std::string> find_in_override(const std::string& name) {
     const char* directory = std::getenv("LAMINA_SHADER_DIR");
     if (!directory || !*directory) return std::nullopt;
-    const std::filesystem::path path = std::filesystem::path(directory) / name;
     std::error_code ignored;
+    if (!std::filesystem::is_directory(directory, ignored))
+        fail("{}: no such folder (LAMINA_SHADER_DIR)", directory);
+    const std::filesystem::path path = std::filesystem::path(directory) / name;
     if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
     std::ifstream file(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -80,6 +80,7 @@ Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, i
         fail("texture of {} x {} x {} {} takes {} bytes, at most {} are allowed", whole.width,
              whole.height, whole.depth, info.name, bytes, Capabilities{}.max_texture_bytes);
     }
+    require_memory_left(bytes + memory_for_drawing);
     allocate();
     check(fmt::format("allocating a texture of {} x {} x {} {}", whole.width, whole.height,
                       whole.depth, info.name));
