@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Disks that are full, places that cannot be written.
+#include <sys/resource.h>
+
+#include <set>
+
+#include "cli/faults_test_case.h"
+
+namespace lamina {
+namespace {
+
+// No file can grow beyond this: a full disk, as far as the program can tell. More than any message
+// to stderr has, less than any of the outputs below.
+constexpr rlim_t room = 1000;
+
+void fill_the_disk() {
+    const rlimit limit{room, room};
+    setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+class FaultsOfDisks : public FaultsTestCase {
+  protected:
+    // `arguments` write `name` (and what `beside` names) into the folder `out`.
+    void expect_old_files_survive(const std::vector<std::string>& arguments,
+                                  const std::vector<std::string>& names) {
+        SCOPED_TRACE(arguments[0] + " " + names[0]);
+        make(arguments);
+        for (const std::string& name : names) {
+            ASSERT_GT(std::filesystem::file_size(out / name), room) << name;
+            write_bytes_to(out / name, "old " + name);
+        }
+        const auto before = contents(out);
+        EXPECT_EQ(before.size(), names.size());
+        expect_one_line(lamina_run(arguments, fill_the_disk), 1, {"cannot write", "too large"});
+        EXPECT_EQ(contents(out), before);
+        for (const std::string& name : names) std::filesystem::remove(out / name);
+    }
+};
+
+TEST_F(FaultsOfDisks, FullOnesLeaveOldFilesAsTheyAre) {
+    const std::string volume = folder / "volume.nrrd";
+    make(rendering(folder / "a.png"));
+    make(rendering(folder / "b.png", {"--set", "render.slice.samples=7"}));
+    make({"mesh", volume, "-o", folder / "mesh.vtu", "--kuhn"});
+    expect_old_files_survive(rendering(out / "a.exr"), {"a.exr"});
+    expect_old_files_survive(rendering(out / "a.png"), {"a.png"});
+    expect_old_files_survive(rendering(out / "a.npy", {"--method", "trace"}), {"a.npy"});
+    expect_old_files_survive({"mesh", volume, "-o", out / "a.vtu", "--kuhn", "--quiet"}, {"a.vtu"});
+    expect_old_files_survive({"mesh", volume, "-o", out / "a.node", "--kuhn", "--quiet"},
+                             {"a.node", "a.ele"});
+    expect_old_files_survive(
+        {"generate", "gaussians", "-o", out / "a.nrrd", "--size", "32,32,32", "--quiet"},
+        {"a.nrrd"});
+    expect_old_files_survive(
+        {"compare", folder / "a.png", folder / "b.png", "--diff", out / "a.png"}, {"a.png"});
+    expect_old_files_survive({"integrate", folder / "segments.json", "-o", out / "a.json"},
+                             {"a.json"});
+    expect_old_files_survive({"info", folder / "mesh.vtu", "--png", out / "a.png"}, {"a.png"});
+}
+
+// The picture was complete before: it stays, and the exit code says that not all is there.
+TEST_F(FaultsOfDisks, StatisticsThatDoNotFitAreAFailure) {
+    for (const std::string option : {"--stats", "--profile"}) {
+        const std::string picture = folder / "tiny.png", file = out / "a.json";
+        const auto tiny =
+            rendering(picture, {option, file, "--set", "image.width=4", "--set", "image.height=4"});
+        make(tiny);
+        ASSERT_LT(std::filesystem::file_size(picture), room);
+        ASSERT_GT(std::filesystem::file_size(file), room);
+        write_bytes_to(file, "old");
+        expect_one_line(lamina_run(tiny, fill_the_disk), 1, {file, "cannot write"});
+        EXPECT_EQ(read_bytes_of(file), "old") << option;
+        EXPECT_EQ(contents(out).size(), 1u) << option;
+    }
+}
+
+TEST_F(FaultsOfDisks, AStudyStopsAndGoesOnWhenThereIsRoom) {
+    const auto study = [&](const std::string& name, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"study", folder / "study.json", "-o", out / name,
+                                           "--quiet"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return arguments;
+    };
+    make(study("whole", {}));
+    // Each time another file does not fit; sizes differ from run to run by the digits of times.
+    std::set<rlim_t> limits;
+    for (const auto& [name, bytes] : contents(out / "whole")) limits.insert(bytes.size() / 2);
+    ASSERT_GT(limits.size(), 5u);
+    for (const rlim_t room_now : limits) {
+        const auto limit_size = [&] {
+            const rlimit limit{room_now, room_now};
+            setrlimit(RLIMIT_FSIZE, &limit);
+        };
+        const ProgramResult result = lamina_run(study("part", {}), limit_size);
+        EXPECT_EQ(result.exit_code, 1) << room_now << result.err;
+        if (room_now > room) expect_one_line(result, 1, {"part", "cannot write"});
+        EXPECT_EQ(lamina_run(study("part", {"--resume"})).exit_code, 0);
+        EXPECT_EQ(read_bytes_of(out / "part" / "results.csv").find("cannot write"),
+                  std::string::npos);
+        for (const auto& [name, bytes] : contents(out / "part"))
+            EXPECT_FALSE(name.ends_with(".part")) << name;
+        std::filesystem::remove_all(out / "part");
+    }
+}
+
+TEST_F(FaultsOfDisks, FoldersOfCrosschecksAndReproductions) {
+    const auto expect_failure = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), {"-o", out / "made", "--quiet"});
+        expect_one_line(lamina_run(arguments, fill_the_disk), 1, {"made", "cannot write"});
+        for (const auto& [name, bytes] : contents(out)) EXPECT_LE(bytes.size(), room) << name;
+        // A file stands where the folder should be.
+        std::filesystem::remove_all(out / "made");
+        write_bytes_to(out / "made", "old");
+        expect_one_line(lamina_run(arguments), 1, {"made"});
+        EXPECT_EQ(read_bytes_of(out / "made"), "old");
+        std::filesystem::remove(out / "made");
+    };
+    expect_failure({"crosscheck", folder / "scene.json", "--tolerances", ".1", "--samples", "64",
+                    "--context", "cpu"});
+    expect_failure({"reproduce", "lamar", "table1"});
+}
+
+TEST_F(FaultsOfDisks, PlacesThatCannotBeWritten) {
+    std::filesystem::create_directory(out / "folder.exr");
+    write_bytes_to(out / "file", "old");
+    std::filesystem::create_symlink("/dev/full", out / "device.exr");
+    const auto before = contents(out);
+    expect_one_line(lamina_run(rendering(out / "absent" / "a.exr")), 1, {"absent", "cannot write"});
+    expect_one_line(lamina_run(rendering(out / "file" / "a.exr")), 1, {"file", "cannot write"});
+    expect_one_line(lamina_run(rendering(out / "folder.exr")), 1, {"folder.exr", "directory"});
+    expect_one_line(lamina_run(rendering(out / "device.exr")), 1, {"/dev/full", "device"});
+    expect_one_line(lamina_run({"study", folder / "study.json", "-o", out / "file"}), 1, {"file"});
+    EXPECT_EQ(contents(out), before);
+}
+
+TEST_F(FaultsOfDisks, WhatIsReadIsNotReplaced) {
+    make(rendering(folder / "a.png"));
+    make(rendering(folder / "b.png"));
+    std::filesystem::create_symlink("volume.nrrd", folder / "link");
+    const auto before = contents(folder.path());
+    const std::string a = folder / "a.png", b = folder / "b.png";
+    const std::string segments = folder / "segments.json";
+    const std::vector<std::string> verbs[] = {
+        {"compare", a, b, "--diff", a},
+        {"compare", a, b, "--diff", b},
+        {"integrate", segments, "-o", segments},
+        rendering(folder / "c.png", {"--stats", folder / "scene.json"}),
+        rendering(folder / "c.png", {"--stats", folder / "volume.nrrd"}),
+        rendering(folder / "c.png", {"--profile", folder / "link"})};
+    for (const std::vector<std::string>& arguments : verbs)
+        expect_one_line(lamina_run(arguments), 2, {"expected different files"});
+    EXPECT_EQ(contents(folder.path()), before);
+}
+
+}  // namespace
+}  // namespace lamina

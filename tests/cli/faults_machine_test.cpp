@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Machines that lack something, and environments that are not what one would expect.
+#include <clocale>
+#include <cstdlib>
+
+#include "cli/faults_test_case.h"
+
+namespace lamina {
+namespace {
+
+class FaultsOfMachines : public FaultsTestCase {
+  protected:
+    std::vector<std::string> drawing_by(const std::string& context) const {
+        return {"render", folder / "scene.json", "-o", out / "a.exr", "--context", context};
+    }
+    static std::function<void()> with(const char* name, const std::string& value) {
+        return [=] { setenv(name, value.c_str(), 1); };
+    }
+};
+
+TEST_F(FaultsOfMachines, NoLibraryOfOpenGL) {
+    for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libEGL.so.1"})
+        write_bytes_to(folder / name, "no library");
+    const auto broken = with("LD_LIBRARY_PATH", folder.path().string());
+    expect_one_line(lamina_run(drawing_by("osmesa"), broken), 1,
+                    {"OSMesa", "libOSMesa.so.8", "install"});
+    expect_one_line(lamina_run(drawing_by("egl"), broken), 1, {"EGL", "libEGL.so.1", "install"});
+    EXPECT_TRUE(contents(out).empty());
+    EXPECT_EQ(lamina_run(drawing_by("auto"), broken).exit_code, 0);  // the native engine
+}
+
+TEST_F(FaultsOfMachines, NoDeviceOfEGL) {
+    expect_one_line(
+        lamina_run(drawing_by("egl"), with("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null")), 1,
+        {"EGL", "install"});
+    EXPECT_TRUE(contents(out).empty());
+}
+
+// OSMesa itself crashes then.
+TEST_F(FaultsOfMachines, ADriverThatIsNone) {
+    expect_one_line(lamina_run(drawing_by("osmesa"), with("GALLIUM_DRIVER", "abacus")), 1,
+                    {"GALLIUM_DRIVER", "abacus", "llvmpipe"});
+}
+
+TEST_F(FaultsOfMachines, ShadersThatDoNotCompile) {
+    const auto shaders = folder.path() / "shaders";
+    std::filesystem::create_directories(shaders / "gl");
+    write_bytes_to(shaders / "gl" / "full_screen.vert", "#version 450 core\n\nvoid main() { x }\n");
+    for (const char* context : {"osmesa", "egl"})
+        expect_one_line(lamina_run(drawing_by(context), with("LAMINA_SHADER_DIR", shaders)), 1,
+                        {"gl/full_screen.vert:3"});
+    expect_one_line(lamina_run(drawing_by("osmesa"), with("LAMINA_SHADER_DIR", folder / "absent")),
+                    1, {"absent", "LAMINA_SHADER_DIR"});
+}
+
+// A copy of the program that has this beside it as lamina-tetrahedralize.
+TEST_F(FaultsOfMachines, TetrahedralizersThatAreNone) {
+    const std::string program = folder / "lamina", tool = folder / "lamina-tetrahedralize";
+    std::filesystem::copy_file(LAMINA_BINARY, program);
+    const auto mesh = [&](const std::string& script) {
+        if (!script.empty()) {
+            write_bytes_to(tool, script);
+            std::filesystem::permissions(tool, std::filesystem::perms::owner_all);
+        }
+        return run_program({program, "mesh", folder / "volume.nrrd", "-o", out / "a.vtu",
+                            "--tolerance", ".1", "--quiet"},
+                           with("PATH", "/usr/bin:/bin"));
+    };
+    const std::string volume = "volume.nrrd: ";
+    expect_one_line(mesh(""), 1, {volume, "lamina-tetrahedralize", "--kuhn"});
+    expect_one_line(mesh("no program"), 1, {volume, "cannot be started"});
+    expect_one_line(mesh("#!/bin/sh\nkill -9 $$\n"), 1, {volume, "ended by signal 9"});
+    expect_one_line(mesh("#!/bin/sh\nexit 0\n"), 1, {volume, "gave no answer"});
+    expect_one_line(mesh("#!/bin/sh\nhead -c 5000 /dev/zero | tr '\\0' x\n"), 1,
+                    {volume, "promised"});
+    // One tet, all of its corners the first point.
+    expect_one_line(mesh("#!/bin/sh\nprintf '\\001'; head -c 39 /dev/zero\n"), 1,
+                    {volume, "do not fill the box"});
+    EXPECT_TRUE(contents(out).empty());
+}
+
+TEST_F(FaultsOfMachines, DecimalCommasChangeNothing) {
+    const char* const german = "de_DE.UTF-8";
+    const bool there = std::setlocale(LC_ALL, german) != nullptr;
+    std::setlocale(LC_ALL, "C");
+    if (!there) GTEST_SKIP() << "no locale " << german;
+    const auto run_all = [&](const char* locale) {
+        std::string printed;
+        const auto run = [&](const std::vector<std::string>& arguments) {
+            const ProgramResult result = lamina_run(arguments, with("LC_ALL", locale));
+            EXPECT_EQ(result.exit_code, 0) << result.err;
+            printed += result.out;
+        };
+        run({"generate", "marschner-lobb", "-o", out / "a.nrrd", "--size", "16,16,16", "--type",
+             "float"});
+        run({"info", out / "a.nrrd"});
+        run({"mesh", out / "a.nrrd", "-o", out / "a.vtu", "--kuhn"});
+        run({"mesh", out / "a.nrrd", "-o", out / "a.node", "--kuhn"});
+        run({"info", out / "a.node", "--json"});
+        run(rendering(out / "a.exr", {"--explain", "--set", "render.max_error=0.5"}));
+        run({"render", folder / "scene.json", "-o", out / "b.exr", "--context", "osmesa"});
+        run({"compare", out / "a.exr", out / "b.exr", "--json", "--max-linf", "254.5"});
+        run({"integrate", folder / "segments.json"});
+        return std::pair(printed, contents(out));
+    };
+    const auto in_c = run_all("C"), in_german = run_all(german);
+    EXPECT_EQ(in_c.first, in_german.first);
+    EXPECT_TRUE(in_c.second == in_german.second);
+    expect_one_line(lamina_run(rendering(out / "a.exr", {"--set", "render.max_error=0,5"}),
+                               with("LC_ALL", german)),
+                    2, {"render.max_error", "0,5"});
+}
+
+TEST_F(FaultsOfMachines, NamesOfEveryKind) {
+    make(rendering(folder / "a.exr"));
+    const std::string expected = read_bytes_of(folder / "a.exr");
+    for (const std::string& name :
+         {std::string("with space.exr"), std::string("ü☃.exr"), std::string("\xff.exr"),
+          std::string("two\nlines.exr"), std::string("-x.exr"), std::string(251, 'n') + ".exr"}) {
+        for (int twice = 0; twice < 2; ++twice) {  // the second time it is there
+            make(rendering(out / name));
+            EXPECT_EQ(read_bytes_of(out / name), expected) << name;
+        }
+        std::filesystem::copy_file(folder / "scene.json", out / (name.substr(0, 240) + ".json"));
+        std::vector<std::string> arguments = rendering(out / name);
+        arguments[1] = out / (name.substr(0, 240) + ".json");
+        expect_one_line(lamina_run(arguments), 1, {"volume.nrrd"});  // not beside this one
+        std::filesystem::remove_all(out);
+        std::filesystem::create_directory(out);
+    }
+    expect_one_line(lamina_run(rendering(out / (std::string(252, 'n') + ".exr"))), 1, {"too long"});
+    const auto in_out = [&] {
+        if (chdir(out.c_str()) != 0) _exit(126);
+    };
+    EXPECT_EQ(lamina_run(rendering("-x.exr"), in_out).exit_code, 0);
+    EXPECT_EQ(read_bytes_of(out / "-x.exr"), expected);
+}
+
+TEST_F(FaultsOfMachines, FoldersThatAreNotThere) {
+    const auto lost = [&] {
+        unsetenv("HOME");
+        setenv("TMPDIR", "/absent", 1);
+        if (chdir(out.c_str()) != 0 || rmdir(out.c_str()) != 0) _exit(126);
+    };
+    EXPECT_EQ(lamina_run(rendering(folder / "a.exr"), lost).exit_code, 0);
+    std::filesystem::create_directory(out);
+    expect_one_line(lamina_run(rendering("a.exr"), lost), 1, {"a.exr", "No such file"});
+    std::filesystem::create_directory(out);
+    expect_one_line(lamina_run({"info", "volume.nrrd"}, lost), 1, {"volume.nrrd"});
+}
+
+}  // namespace
+}  // namespace lamina

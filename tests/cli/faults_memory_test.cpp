@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Limits on the memory of the process: ulimit -v.
+#include <sys/resource.h>
+
+#include "cli/faults_test_case.h"
+
+namespace lamina {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool limits_work = false;  // sanitizers take terabytes of addresses for themselves
+#else
+constexpr bool limits_work = true;
+#endif
+
+constexpr rlim_t mebibyte = 1 << 20;
+
+class FaultsOfMemory : public FaultsTestCase {
+  protected:
+    void SetUp() override {
+        if (!limits_work) GTEST_SKIP() << "sanitizers need more memory than any limit";
+        FaultsTestCase::SetUp();
+    }
+    static ProgramResult run_within(rlim_t bytes, const std::vector<std::string>& arguments) {
+        return lamina_run(arguments, [=] {
+            const rlimit limit{bytes, bytes};
+            setrlimit(RLIMIT_AS, &limit);
+        });
+    }
+};
+
+TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheNativeEngine) {
+    const std::string volume = folder / "volume.nrrd";
+    make({"generate", "gaussians", "-o", volume, "--size", "32,32,32"});
+    rlim_t to_start = mebibyte;  // below, the system's loader has no room for libraries
+    while (run_within(to_start, {"--version"}).exit_code != 0) to_start += mebibyte;
+    const std::vector<std::string> works[] = {
+        {"info", volume},
+        {"mesh", volume, "-o", out / "a.vtu", "--kuhn", "--quiet"},
+        {"generate", "gaussians", "-o", out / "a.nrrd", "--size", "32,32,32", "--quiet"},
+        rendering(out / "a.exr"),
+        rendering(out / "a.exr",
+                  {"--set", "volume={\"generate\":\"gaussians\",\"size\":[16,16,16]}", "--method",
+                   "project"}),
+        rendering(out / "a.npy", {"--method", "trace"})};
+    for (const std::vector<std::string>& arguments : works) {
+        SCOPED_TRACE(arguments[0] + " " + arguments.back());
+        int failed = 0;
+        // How threads share the memory differs from run to run: enough is what suffices twice.
+        for (int done = 0, step = 0; done < 2; ++step) {
+            ASSERT_LT(step, 100);
+            const rlim_t bytes = to_start + static_cast<rlim_t>(step) * 2 * mebibyte;
+            const ProgramResult result = run_within(bytes, arguments);
+            if (result.exit_code == 0) {
+                ++done;
+                for (const auto& [name, made] : contents(out)) std::filesystem::remove(name);
+                continue;
+            }
+            ++failed;
+            expect_one_line(result, 1, {});
+            EXPECT_TRUE(contents(out).empty()) << bytes / mebibyte << " MiB";
+        }
+        EXPECT_GT(failed, 0);
+    }
+}
+
+// Mesa crashes where it gets no memory; so it is not even begun.
+TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
+    for (const char* context : {"osmesa", "egl"}) {
+        for (const rlim_t mebibytes : {200, 500, 900}) {
+            const ProgramResult result = run_within(
+                mebibytes * mebibyte,
+                {"render", folder / "scene.json", "-o", out / "a.exr", "--context", context});
+            expect_one_line(result, 1, {"ulimit -v", "--context cpu"});
+            EXPECT_TRUE(contents(out).empty());
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina
