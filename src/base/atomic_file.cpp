@@ -2,9 +2,10 @@
 #include "base/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstring>
@@ -28,12 +29,33 @@ std::filesystem::path without_links(std::filesystem::path path) {
     return path;
 }
 
-// Beside `path`; another each time, and other than those of this host's other processes.
-std::filesystem::path name_beside(const std::filesystem::path& path) {
-    static std::atomic<int> count = 0;
-    const std::string suffix = fmt::format(".{}.{}.part", getpid(), count++);
+std::filesystem::path name_beside(const std::filesystem::path& path, int number) {
+    const std::string suffix = fmt::format(".lamina-{}.part", number);
     const std::string name = path.filename().string();
     return path.parent_path() / (name.substr(0, NAME_MAX - suffix.size()) + suffix);
+}
+
+// True also where the file system has no locks.
+bool lock(int descriptor) {
+    return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+bool is_at(int descriptor, const std::filesystem::path& path) {
+    struct stat opened = {};
+    struct stat named = {};
+    return fstat(descriptor, &opened) == 0 && lstat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+// What a killed process left under this name: nobody has its lock. False: it is in use, or not
+// ours.
+bool remove_abandoned(const std::filesystem::path& path) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return errno == ENOENT;
+    const bool abandoned = flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_at(descriptor, path);
+    const bool removed = abandoned && unlink(path.c_str()) == 0;
+    close(descriptor);
+    return removed;
 }
 
 std::string descriptor_path(int descriptor) {
@@ -51,45 +73,51 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(without_links(std::mo
             std::filesystem::is_directory(status) ? "a directory" : "a device, pipe or socket"));
     }
     if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
-    open_nameless();
-    if (stream_ == nullptr) open_named();
+    if (!open_nameless()) open_named();
+    open_stream();
 }
 
 AtomicFile::~AtomicFile() {
     if (stream_ != nullptr) std::fclose(stream_);
-    if (nameless_ >= 0) close(nameless_);
     if (!temporary_.empty()) unlink(temporary_.c_str());
+    close(descriptor_);
 }
 
-// Leaves stream_ null where this cannot be done here.
-void AtomicFile::open_nameless() {
+bool AtomicFile::open_nameless() {
     const std::string folder = path_.has_parent_path() ? path_.parent_path().string() : ".";
-    nameless_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (nameless_ < 0) return;
+    descriptor_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) return false;
+    lock(descriptor_);
     // Without /proc it could not get a name.
-    const int copy = access(descriptor_path(nameless_).c_str(), F_OK) == 0
-                         ? fcntl(nameless_, F_DUPFD_CLOEXEC, 0)
-                         : -1;
-    if (copy >= 0) stream_ = fdopen(copy, "wb");
-    if (stream_ != nullptr) return;
-    if (copy >= 0) close(copy);
-    close(nameless_);
-    nameless_ = -1;
+    if (access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return true;
+    close(descriptor_);
+    return false;
 }
 
 void AtomicFile::open_named() {
-    int descriptor = -1;
-    do {
-        temporary_ = name_beside(path_);
-        descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor < 0 && errno == EEXIST);
-    if (descriptor >= 0) stream_ = fdopen(descriptor, "wb");
+    for (int number = 0;;) {
+        const std::filesystem::path name = name_beside(path_, number);
+        descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) {
+            temporary_ = name;
+            if (lock(descriptor_) && is_at(descriptor_, name)) return;
+            close(descriptor_);  // before the lock somebody took it for abandoned
+            temporary_.clear();
+            continue;
+        }
+        if (errno != EEXIST) give_up(errno);
+        if (!remove_abandoned(name)) ++number;
+    }
+}
+
+void AtomicFile::open_stream() {
+    const int copy = fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+    if (copy >= 0) stream_ = fdopen(copy, "wb");
     if (stream_ != nullptr) return;
     const int error = errno;
-    if (descriptor >= 0) {
-        close(descriptor);
-        unlink(temporary_.c_str());
-    }
+    if (copy >= 0) close(copy);
+    close(descriptor_);
+    if (!temporary_.empty()) unlink(temporary_.c_str());
     give_up(error);
 }
 
@@ -109,22 +137,21 @@ void AtomicFile::close_stream() {
 
 // A name that exists cannot be given: rename() can replace, but needs one to begin with.
 void AtomicFile::give_name() {
-    const std::string unnamed = descriptor_path(nameless_);
-    std::filesystem::path name;
-    int failure = 0;
-    do {
-        name = name_beside(path_);
-        failure = linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
-    } while (failure != 0 && errno == EEXIST);
-    if (failure != 0) give_up(errno);
-    temporary_ = name;
-    close(nameless_);
-    nameless_ = -1;
+    const std::string unnamed = descriptor_path(descriptor_);
+    for (int number = 0; temporary_.empty();) {
+        const std::filesystem::path name = name_beside(path_, number);
+        if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0)
+            temporary_ = name;
+        else if (errno != EEXIST)
+            give_up(errno);
+        else if (!remove_abandoned(name))
+            ++number;
+    }
 }
 
 void AtomicFile::complete() {
     close_stream();
-    if (nameless_ >= 0) give_name();
+    give_name();
 }
 
 void AtomicFile::commit() {

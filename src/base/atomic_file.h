@@ -18,7 +18,8 @@ class WriteError : public Error {
 // An output file that appears under its name only when it is complete. Made before long work
 // begins, so that a path that cannot be written fails at once; without commit() nothing is left
 // behind, nor when the process is killed: the file has no name until then, where the file system
-// can do that (Linux's own can; on others it lies beside its place as NAME.PID.N.part).
+// can do that. Where it cannot (NFS), and in the moment of commit(), it lies beside its place as
+// NAME.lamina-N.part, locked: what a killed process left there the next one of this name removes.
 class AtomicFile {
   public:
     explicit AtomicFile(
@@ -39,14 +40,15 @@ class AtomicFile {
 
   private:
     void close_stream();
-    void open_nameless();
+    bool open_nameless();  // false: this cannot be done here
     void open_named();
+    void open_stream();
     void give_name();
     [[noreturn]] void give_up(int error) const;
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;  // its name for now; empty: none
-    int nameless_ = -1;                // its descriptor while it has no name
+    int descriptor_ = -1;              // to the end, for its lock and to give it a name
     std::FILE* stream_ = nullptr;
 };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/interrupt.h"
+
 namespace lamina {
 
 CycleBreaker::Broken CycleBreaker::order(const OrderGraph& graph, std::span<std::int32_t> members,
@@ -92,6 +94,7 @@ void CycleBreaker::drop_edges() {
             } else if (const std::int32_t to = edge(top.next).to; node(to).state == State::fresh) {
                 push(to);
             } else {
+                check_interrupt();  // tets that overlap all over may have millions of cycles
                 thin_cycle(node(to).depth);
             }
         }
@@ -130,6 +133,7 @@ void CycleBreaker::take_back() {
         return edge(a).area != edge(b).area ? edge(a).area > edge(b).area : a < b;
     });
     for (const std::int32_t index : dropped_) {
+        check_interrupt();
         Edge& dropped = edge(index);
         dropped.kept = node(dropped.from).place < node(dropped.to).place || keep(dropped);
     }

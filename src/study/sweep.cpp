@@ -31,7 +31,10 @@ void append_factorizations(int of, int levels, std::vector<int>& factors,
     }
 }
 
-std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key) {
+// `listed`: how many factorizations there are so far. A short file could ask for more than any
+// memory holds.
+std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key,
+                                        std::size_t& listed) {
     const nlohmann::json& found = grid.value(key);
     if (found.is_object() && found.contains("factorizations")) {
         JsonReader reader = grid.object(key);
@@ -40,10 +43,11 @@ std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key
             reader.has("levels") ? reader.whole("levels", 1, most_levels) : most_levels;
         reader.close();
         auto found_factors = factorizations(static_cast<int>(of), static_cast<int>(levels));
-        if (found_factors.size() > most_runs) {
-            grid.fail_at(key, fmt::format("{} has more than {} factorizations, expected fewer "
+        listed += found_factors.size();
+        if (listed > most_runs) {
+            grid.fail_at(key, fmt::format("more than {} factorizations in all, expected fewer "
                                           "\"levels\"",
-                                          of, most_runs));
+                                          most_runs));
         }
         std::vector<nlohmann::json> values;
         for (auto& factors : found_factors) values.emplace_back(std::move(factors));
@@ -54,9 +58,8 @@ std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key
     return {found.begin(), found.end()};
 }
 
-// A grid of so many runs that no study can have them is not read to its end: a short file can ask
-// for lists that no memory holds.
-SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::json& object) {
+SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::json& object,
+                    std::size_t& listed) {
     if (!object.is_object() || object.empty())
         study.fail_at(at,
                       fmt::format("found {}, expected an object with a key of the scene and its "
@@ -67,11 +70,8 @@ SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::js
                       fmt::format("found {} keys, expected at most {}", object.size(), most_keys));
     JsonReader reader(object, study.file(), at);
     SweepGrid grid;
-    for (const auto& [key, values] : object.items()) {
-        grid.axes.push_back({key, read_values(reader, key)});
-        if (grid.count() > most_runs)
-            study.fail_at(at, fmt::format("more than {} runs, the most of a study", most_runs));
-    }
+    for (const auto& [key, values] : object.items())
+        grid.axes.push_back({key, read_values(reader, key, listed)});
     return grid;
 }
 
@@ -112,17 +112,12 @@ Settings SweepGrid::settings(std::uint64_t n) const {
 std::vector<SweepGrid> read_sweep(JsonReader& study) {
     const nlohmann::json& found = study.value("sweep");
     std::vector<SweepGrid> grids;
+    std::size_t listed = 0;
     if (found.is_array() && !found.empty()) {
-        std::uint64_t runs = 0;
-        for (const nlohmann::json& grid : found) {
-            grids.push_back(read_grid(study, fmt::format("sweep.{}", grids.size()), grid));
-            runs += grids.back().count();
-            if (runs > most_runs)
-                study.fail_at("sweep",
-                              fmt::format("more than {} runs, the most of a study", most_runs));
-        }
+        for (const nlohmann::json& grid : found)
+            grids.push_back(read_grid(study, fmt::format("sweep.{}", grids.size()), grid, listed));
     } else {
-        grids.push_back(read_grid(study, "sweep", found));
+        grids.push_back(read_grid(study, "sweep", found, listed));
     }
     return grids;
 }

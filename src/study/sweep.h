@@ -34,8 +34,8 @@ struct SweepGrid {
 };
 
 // Of a study file: `sweep`, a grid {key: values, ...} or a list of them. Values: a list, one value,
-// or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs of one
-// scene.
+// or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs
+// factorizations in all.
 std::vector<SweepGrid> read_sweep(JsonReader& study);
 
 // All lists of factors of at least 2 with the product `of`, ordered, at most `levels` long; the

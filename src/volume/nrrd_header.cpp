@@ -46,7 +46,10 @@ void check_regular_file(const std::filesystem::path& path, const std::string& ro
 std::string read_beginning(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot read: permission denied", path.string());
-    std::string bytes(header_limit, '\0');
+    std::error_code error;
+    const std::uintmax_t length = std::filesystem::file_size(path, error);
+    if (error) fail("{}: cannot read: {}", path.string(), error.message());
+    std::string bytes(std::min<std::uintmax_t>(length, header_limit), '\0');
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;

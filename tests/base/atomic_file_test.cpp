@@ -104,6 +104,32 @@ TEST(AtomicFile, TwoOfOneNameDoNotMeet) {
     EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
 }
 
+// As after SIGKILL in the middle of commit(), and where files have names from the start.
+TEST(AtomicFile, WhatKilledProcessesLeftIsRemovedButNotWhatIsInUse) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "a.txt.lamina-0.part", "left");
+    AtomicFile one(folder / "a.txt");
+    one.write("one");
+    one.complete();
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt.lamina-0.part"});
+    EXPECT_EQ(read_bytes_of(folder / "a.txt.lamina-0.part"), "one");
+    AtomicFile two(folder / "a.txt");
+    two.write("two");
+    two.complete();
+    EXPECT_EQ(names_in(folder),
+              (std::set<std::string>{"a.txt.lamina-0.part", "a.txt.lamina-1.part"}));
+    two.commit();
+    one.commit();
+    EXPECT_EQ(names_in(folder), std::set<std::string>{"a.txt"});
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "one");
+    std::filesystem::create_directory(folder / "a.txt.lamina-0.part");  // nothing of ours
+    AtomicFile three(folder / "a.txt");
+    three.write("three");
+    three.commit();
+    EXPECT_EQ(read_bytes_of(folder / "a.txt"), "three");
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.txt", "a.txt.lamina-0.part"}));
+}
+
 TEST(AtomicFile, NamesMayBeAsLongAsTheFileSystemHasThem) {
     const TemporaryFolder folder;
     const std::string longest(255, 'n');

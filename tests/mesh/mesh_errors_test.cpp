@@ -194,7 +194,8 @@ TEST_F(MeshErrors, VtuArraysThatShareTheirBytes) {
         const std::string good = make_vtu(mixed_grid(), style);
         const auto begin = good.find("<DataArray"), end = good.find("/>", begin) + 2;
         std::string bad = good;
-        bad.insert(end, good.substr(begin, end - begin));
+        // The grid also has arrays that are not read, and leave their bytes to others.
+        for (int i = 0; i < 50; ++i) bad.insert(end, good.substr(begin, end - begin));
         expect_bad("a.vtu", bad, {"offset", "bytes of appended data, the file has"});
     }
 }

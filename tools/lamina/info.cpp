@@ -58,8 +58,7 @@ void run(const InfoOptions& options) {
     }
     const Json info = volume ? report_on_volume(options.file, options.png)
                              : report_on_mesh(options.file, options.png);
-    write_result(options.json ? json_text(info, 2) + "
-" : table_text(info));
+    write_result(options.json ? json_text(info, 2) + "\n" : table_text(info));
 }
 
 }  // namespace

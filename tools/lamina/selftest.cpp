@@ -9,6 +9,7 @@
 
 #include "base/folder.h"
 #include "base/progress.h"
+#include "base/standard_streams.h"
 #include "git_commit.h"
 #include "selftest/selftest.h"
 #include "study/context_choice.h"
@@ -53,8 +54,8 @@ int run(const SelftestOptions& options) {
     const std::string table = selftest_table(results);
     write_text(folder / "selftest.txt", table);
 
-    if (!options.quiet) fmt::print("{}\n", table);
-    fmt::print("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
+    if (!options.quiet) write_result(table + "\n");
+    print_result("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
                context.capabilities().renderer, count_of(results, Verdict::passed), results.size());
     return count_of(results, Verdict::passed) == results.size() ? 0 : bound_exceeded;
 }
