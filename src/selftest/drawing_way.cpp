@@ -45,7 +45,7 @@ Scene DrawingWay::scene_of(const Scene& scene) const {
 }
 
 std::vector<DrawingWay> traces() {
-    const auto tolerance = [](Scene& scene) { scene.trace_tolerance = 1e-9; };
+    const auto tolerance = [](Scene& scene) { scene.trace_tolerance = 1e-12; };
     return {{"trace volume", Method::trace, TraceOf::volume, tolerance, {}},
             {"trace mesh", Method::trace, TraceOf::mesh, tolerance, {}}};
 }

@@ -35,8 +35,12 @@ void append_boxes(std::vector<SelftestScene>& scenes) {
     scenes.push_back(box_scene("size_1e9", "A box of size 1e9", {-1e9, 0, 5}, {1e9, 1e9, 1e9}));
     scenes.push_back(
         box_scene("flat_1e4", "A box 1e4 times as wide as thick", {0, 0, 0}, {1, 1, 1e-4}));
-    scenes.push_back(
-        box_scene("long_1e4", "A box 1e4 times as long as wide", {0, 0, 0}, {1e-4, 1e-4, 1}));
+    SelftestScene long_box =
+        box_scene("long_1e4", "A box 1e4 times as long as wide, seen through its length", {0, 0, 0},
+                  {1e-4, 1e-4, 1});
+    long_box.scene.camera.eye = long_box.scene.camera.center + glm::dvec3(3e-5, -2e-5, 1.2);
+    long_box.scene.camera.fov_y = .01;
+    scenes.push_back(long_box);
 }
 
 // A ramp over all values of a type, in layers.

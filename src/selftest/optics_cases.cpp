@@ -2,6 +2,7 @@
 // Stiff optics: optical depths from 1e-8 to 1e6, jumps, spikes, steps.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,12 @@ void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& sc
     append(cases, cases_of(group, scene, float_ways()));
 }
 
+// Of optical depths up to `depth`; where little shows, little may be left out.
+void set_optics(SelftestScene& scene, const TransferFunction& transfer_function, double depth) {
+    scene.scene.transfer_function = transfer_function;
+    scene.scene.max_error = std::min(1.0, depth);
+}
+
 // A homogeneous box; for other shares of the depth see the ray's length, 0 to 1.7.
 void append_depths(std::vector<SelftestCase>& cases) {
     for (const double depth : {1e-8, 1e-4, 1., 30., 1e3, 1e6}) {
@@ -29,7 +36,7 @@ void append_depths(std::vector<SelftestCase>& cases) {
             fmt::format("homogeneous_{:g}", depth),
             fmt::format("Extinction {:g} all over a unit box: optical depths up to 1.7 times that",
                         depth));
-        scene.scene.transfer_function = optics_of({{0, {{.2, .6, 1}, depth}}});
+        set_optics(scene, optics_of({{0, {{.2, .6, 1}, depth}}}), depth);
         append_float_ways(cases, scene);
     }
     for (const double extinction : {1e-6, 1e4}) {
@@ -37,8 +44,8 @@ void append_depths(std::vector<SelftestCase>& cases) {
                                           fmt::format("Extinction 0 to {:g} along one axis, "
                                                       "colour turning from blue to red",
                                                       extinction));
-        scene.scene.transfer_function =
-            optics_of({{0, {{0, .1, 1}, 0}}, {1, {{1, .4, 0}, extinction}}});
+        set_optics(scene, optics_of({{0, {{0, .1, 1}, 0}}, {1, {{1, .4, 0}, extinction}}}),
+                   extinction);
         append_float_ways(cases, scene);
     }
 }
@@ -67,8 +74,11 @@ void append_opacities(std::vector<SelftestCase>& cases) {
     for (const auto& [name, extinction] : opacities) {
         SelftestScene scene = plain_scene(
             name, fmt::format("Opacity over one unit of length: extinction {:g}", extinction));
-        scene.scene.transfer_function = optics_of(
-            {{.25, {{1, .5, .25}, 0}}, {.5, {{1, .5, .25}, extinction}}, {.75, {{1, .5, .25}, 0}}});
+        set_optics(scene,
+                   optics_of({{.25, {{1, .5, .25}, 0}},
+                              {.5, {{1, .5, .25}, extinction}},
+                              {.75, {{1, .5, .25}, 0}}}),
+                   extinction);
         append_float_ways(cases, scene);
     }
 }

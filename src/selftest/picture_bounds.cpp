@@ -19,7 +19,8 @@ namespace {
 
 constexpr Interval everything{-1e30, 1e30};
 
-// Weights of colour come from a table of 256 x 256 whose cells a float32 divides into 2^24 parts.
+// Weights of colour come from a table of 256 x 256 whose cells a float32 divides into 2^24 parts;
+// opacity does not.
 constexpr double place_in_table = 0x1p-32;
 
 // Pieces that a tet is cut into, at most.
@@ -27,8 +28,9 @@ double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
 }
 
-void widen(PixelBounds& pixel, double absolute, double relative) {
+void widen(PixelBounds& pixel, double absolute, double relative, double of_color = 0) {
     for (Interval& channel : pixel) channel = channel.widened(absolute + relative * channel.hi);
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = pixel[c].widened(of_color);
     pixel[3] = pixel[3].within({0, 1});
     for (Interval& channel : pixel) channel.lo = std::max(channel.lo, 0.0);
 }
@@ -166,9 +168,10 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
             }
             possible = composite(tet_pieces(box, optics, ray, length_error, precision), {});
             widen(possible, blends * way.rounding.absolute(), blends * way.rounding.relative);
-            const bool traced = way.method == Method::trace;
-            widen(possible, traced ? scene.trace_tolerance : blends * place_in_table,
-                  traced ? precision.relative : 0);
+            if (way.method == Method::trace)
+                widen(possible, scene.trace_tolerance, precision.relative);
+            else
+                widen(possible, 0, 0, blends * place_in_table);
         }
         widen(possible, 0, 0x1p-23);  // as stored
     });

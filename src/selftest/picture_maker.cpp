@@ -50,8 +50,8 @@ const std::vector<std::string>& PictureMaker::mistakes() {
 }
 
 // What a wrong renderer would do, each in its way: opacities corrected wrongly, rays off by 1e-3 of
-// their distance, a slab too few, Kraus's thickness along the depth axis, no visibility order, one
-// bit too few.
+// their distance, a slab too few, Kraus's thickness along the depth axis, no visibility order, two
+// bits too few.
 Scene PictureMaker::mistaken(Scene scene) const {
     if (mistake_ == "extinction")
         scene.transfer_function = with_more_extinction(scene.transfer_function);
@@ -62,7 +62,7 @@ Scene PictureMaker::mistaken(Scene scene) const {
         --*scene.slice.samples;
     if (mistake_ == "thickness") scene.project.thickness = Thickness::dz;
     if (mistake_ == "order") scene.project.order = ProjectOrder::none;
-    if (mistake_ == "bits" && scene.target == Target::emulated) --scene.emulate.bits;
+    if (mistake_ == "bits" && scene.target == Target::emulated) scene.emulate.bits -= 2;
     return scene;
 }
 

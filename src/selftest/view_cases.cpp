@@ -49,7 +49,11 @@ std::vector<SelftestCase> view_cases() {
     for (const double angle : {1., 10., 90., 170.}) {
         SelftestScene scene = view_scene(fmt::format("fov_{:g}", angle),
                                          fmt::format("A field of view of {:g} degrees", angle));
-        scene.scene.camera = camera_at(scene.box, angle < 90 ? 20 / angle : .7, angle);
+        scene.scene.camera = camera_at(scene.box, angle < 90 ? 20 / angle : .55, angle);
+        if (angle > 90) {  // at 45 degrees off the middle the picture has 1/11 of its width
+            scene.scene.width = 96;
+            scene.scene.height = 72;
+        }
         scenes.push_back(scene);
     }
     const glm::dvec3 in{.52, .47, .51};

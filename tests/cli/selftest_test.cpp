@@ -75,7 +75,8 @@ TEST(Selftest, FindsAMutatedShader) {
         {"selftest", "--group", "numbers", "--context", "osmesa", "-o", (folder / "out").string()});
     EXPECT_EQ(result.exit_code, 3) << result.err;
     std::size_t failed = 0;
-    for (const nlohmann::json& each : report_in(folder / "out")["cases"]) {
+    const nlohmann::json report = report_in(folder / "out");
+    for (const nlohmann::json& each : report["cases"]) {
         const bool traced = each["way"].get<std::string>().rfind("trace", 0) == 0;
         if (traced) {
             EXPECT_EQ(each["verdict"], "passed") << each["scene"];

@@ -23,7 +23,7 @@ TEST(MeshChords, OfABoxAddUp) {
     const TransferFunction optics = optics_of({{0, {{1, 1, 1}, 1}}});
     const View view(scene.scene.camera, 24, 18);
     for (const MeshData& data :
-         {kuhn_tets(scene.box, 3), fan_tets(scene.box, 4), split_tets(scene.box, 100, 1e-3, 1),
+         {kuhn_tets(scene.box, 3), fan_tets(scene.box, 4), split_tets(scene.box, 20, .03, 1),
           shuffled(kuhn_tets(scene.box, 2), 3)}) {
         const SceneMesh mesh = mesh_of(data);
         EXPECT_EQ(mesh.mesh.findings().nonmanifold_faces, 0);
@@ -34,7 +34,7 @@ TEST(MeshChords, OfABoxAddUp) {
             const auto chord = box_chord(scene.box, ray, 0);
             ASSERT_TRUE(chord);
             const MeshChords::Along along = chords.along(ray, optics);
-            // Roundings of a double, grown by the flatness of the tets (1e-3).
+            // Roundings of a double, grown by the flatness of tets split once or twice (1e-3).
             EXPECT_NEAR(along.depth, chord->length(), 1e-11);
             EXPECT_LE(along.possible_depth.lo, along.depth);
             EXPECT_GE(along.possible_depth.hi, along.depth);

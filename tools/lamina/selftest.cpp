@@ -56,7 +56,8 @@ int run(const SelftestOptions& options) {
 
     if (!options.quiet) write_result(table + "\n");
     print_result("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
-               context.capabilities().renderer, count_of(results, Verdict::passed), results.size());
+                 context.capabilities().renderer, count_of(results, Verdict::passed),
+                 results.size());
     return count_of(results, Verdict::passed) == results.size() ? 0 : bound_exceeded;
 }
 
