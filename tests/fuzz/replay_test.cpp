@@ -3,30 +3,19 @@
 // failed stays mended.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <set>
-#include <vector>
+#include <string>
 
-#include "fuzz_target.h"
+#include "corpus_folder.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::fuzz {
 namespace {
 
-const std::filesystem::path corpus = std::filesystem::path(LAMINA_SOURCE_DIR) / "tests/fuzz/corpus";
-
-std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder) {
-    const std::filesystem::directory_iterator first(folder);
-    std::vector<std::filesystem::path> entries(begin(first), end(first));
-    std::ranges::sort(entries);
-    return entries;
-}
-
 class Replay : public testing::TestWithParam<FuzzTarget> {};
 
 TEST_P(Replay, EveryInputOfTheCorpusIsReadOrRefused) {
-    const auto inputs = entries_of(corpus / GetParam().name);
+    const auto inputs = entries_of(corpus_folder / GetParam().name);
     ASSERT_FALSE(inputs.empty());
     for (const auto& input : inputs) {
         SCOPED_TRACE(input.filename().string());
@@ -41,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(, Replay, testing::ValuesIn(fuzz_targets()),
 
 TEST(Corpus, HasAFolderForEachTargetAndNoOther) {
     std::set<std::string> folders, targets;
-    for (const auto& folder : entries_of(corpus)) folders.insert(folder.filename());
+    for (const auto& folder : entries_of(corpus_folder)) folders.insert(folder.filename());
     for (const FuzzTarget& target : fuzz_targets()) targets.insert(target.name);
     EXPECT_EQ(folders, targets);
 }
