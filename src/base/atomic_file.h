@@ -33,7 +33,7 @@ class AtomicFile {
 
     void write(const void* bytes, std::size_t count);  // throws WriteError
     void write(const std::string& text) { write(text.data(), text.size()); }
-    // All of it is on the disk, under a name of its own beside its place: for files that belong
+    // All of it is written, under a name of its own beside its place: for files that belong
     // together, whose commit() is a mere renaming then. Throws WriteError.
     void complete();
     void commit();  // throws WriteError

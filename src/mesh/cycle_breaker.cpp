@@ -6,6 +6,13 @@
 #include "base/interrupt.h"
 
 namespace lamina {
+namespace {
+
+// Edges looked at in the search for cycles, and again while edges are taken back: a second or two.
+// Tets that overlap all over may have more cycles than anybody can wait for.
+constexpr std::int64_t most_work = 200'000'000;
+
+}  // namespace
 
 CycleBreaker::Broken CycleBreaker::order(const OrderGraph& graph, std::span<std::int32_t> members,
                                          std::span<const std::int32_t> components, std::int32_t id,
@@ -14,7 +21,9 @@ CycleBreaker::Broken CycleBreaker::order(const OrderGraph& graph, std::span<std:
     for (std::size_t i = 0; i < members.size(); ++i)
         nodes[static_cast<std::size_t>(members[i])] = static_cast<std::int32_t>(i);
     collect(graph, members, components, id, nodes);
+    work_ = 0;
     drop_edges();
+    work_ = 0;
     take_back();
 
     members_.assign(members.begin(), members.end());
@@ -93,9 +102,12 @@ void CycleBreaker::drop_edges() {
                 path_.pop_back();
             } else if (const std::int32_t to = edge(top.next).to; node(to).state == State::fresh) {
                 push(to);
-            } else {
-                check_interrupt();  // tets that overlap all over may have millions of cycles
+            } else if (work_ < most_work) {
+                check_interrupt();
                 thin_cycle(node(to).depth);
+            } else {
+                edge(top.next).kept = false;
+                dropped_.push_back(top.next);
             }
         }
     }
@@ -111,6 +123,7 @@ void CycleBreaker::push(std::int32_t index) {
 // first edge of the path that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
+    work_ += path_.end() - begin;
     const auto edge_of = [&](std::int32_t index) -> Edge& { return edge(node(index).next); };
     double least = edge_of(*begin).left;
     for (auto at = begin; at != path_.end(); ++at) least = std::min(least, edge_of(*at).left);
@@ -135,7 +148,8 @@ void CycleBreaker::take_back() {
     for (const std::int32_t index : dropped_) {
         check_interrupt();
         Edge& dropped = edge(index);
-        dropped.kept = node(dropped.from).place < node(dropped.to).place || keep(dropped);
+        dropped.kept = node(dropped.from).place < node(dropped.to).place ||
+                       (work_ < most_work && keep(dropped));
     }
 }
 
@@ -168,6 +182,7 @@ bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
     node(from).marked = true;
     for (std::size_t i = 0; i < nearer_.size(); ++i) {
+        work_ += node(nearer_[i] + 1).out - node(nearer_[i]).out;
         for (std::int32_t at = node(nearer_[i]).out; at < node(nearer_[i] + 1).out; ++at) {
             if (!edge(at).kept) continue;
             Node& to = node(edge(at).to);
@@ -184,6 +199,7 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
     farther_.push_back(from);
     node(from).marked = true;
     for (std::size_t i = 0; i < farther_.size(); ++i) {
+        work_ += node(farther_[i] + 1).in - node(farther_[i]).in;
         for (std::int32_t at = node(farther_[i]).in; at < node(farther_[i] + 1).in; ++at) {
             const Edge& entering = edge(entering_[static_cast<std::size_t>(at)]);
             if (!entering.kept) continue;

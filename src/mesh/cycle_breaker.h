@@ -12,8 +12,9 @@ namespace lamina {
 // Orders the tets of one cycle (a strongly connected component) so that the constraints it breaks
 // look small: the feedback arc set of Demetrescu and Finocchi (Combinatorial algorithms for
 // feedback problems in directed graphs, 2003) with seen areas as weights. Best possible for a ring;
-// in general no broken constraint could be kept without breaking another one. Keeps its memory from
-// cycle to cycle.
+// in general no broken constraint could be kept without breaking another one, unless a component
+// has more cycles than can be gone through in seconds: some are then broken wherever the search
+// meets them. Keeps its memory from cycle to cycle.
 class CycleBreaker {
   public:
     struct Broken {
@@ -65,6 +66,7 @@ class CycleBreaker {
     std::vector<std::int32_t> dropped_;
     std::vector<std::int32_t> nearer_, farther_, places_;  // of one edge that is taken back
     std::vector<std::int32_t> members_;
+    std::int64_t work_ = 0;  // edges looked at
 };
 
 }  // namespace lamina

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t grain = 256;             // faces that are looked at in one task
 constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
-constexpr std::size_t most_pairs = 50'000'000;  // some 1 GB with the order's own lists
+constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
 
 FaceTree::Box box_of(const Triangle& triangle) {
     FaceTree::Box box = FaceTree::nothing();

@@ -50,6 +50,9 @@ class TetMesh {
     // All faces without a neighbour.
     std::span<const TetFace> open_faces() const { return open_faces_; }
 
+    // Those of exactly no volume: they have faces and neighbours, and show nothing.
+    std::span<const std::int32_t> flat_tets() const { return flat_; }
+
     const MeshFindings& findings() const { return findings_; }
     std::span<const MeshScalar> point_scalars() const { return point_scalars_; }
     std::span<const MeshScalar> cell_scalars() const { return cell_scalars_; }

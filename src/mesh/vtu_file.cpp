@@ -42,7 +42,7 @@ std::string said(const char* value) {
 }  // namespace
 
 VtuFile::VtuFile(const std::filesystem::path& path)
-    : name_(path.string()), bytes_(read_file_bytes(path)) {
+    : name_(path.string()), bytes_(read_file_bytes(path)), file_bytes_(bytes_.size()) {
     cut_off_appended_data();
     parse();
 }
@@ -162,6 +162,19 @@ void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
     }
 }
 
+// zlib makes a thousand equal bytes into one, and each may be a value of 8 bytes: a small file
+// could fill any memory. Points and corners of real meshes are far from that.
+void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
+    constexpr std::uint64_t most_expansion = 256;
+    values_kept_ += static_cast<std::uint64_t>(count);
+    if (values_kept_ / most_expansion > file_bytes_ / sizeof(double) + 1) {
+        fail(
+            "{}: the arrays up to this one promise {} values, {} bytes each, more than {} times "
+            "the file's {} bytes",
+            what, values_kept_, sizeof(double), most_expansion, file_bytes_);
+    }
+}
+
 template <typename To>
 std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                                 const std::string& what) const {
@@ -170,6 +183,7 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
         fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
              components);
     }
+    count_kept(count, what);
     const ValueType type = type_of(array, what);
     if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
         fail("{}: type: found {}, expected an integer type", what, name_of(type));

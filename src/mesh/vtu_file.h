@@ -40,6 +40,7 @@ class VtuFile {
     ValueType type_of(pugi::xml_node array, const std::string& what) const;
     VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
     void count_appended(std::size_t bytes, const std::string& what) const;
+    void count_kept(std::int64_t count, const std::string& what) const;
 
     std::string name_;
     std::string bytes_;          // of the file
@@ -47,6 +48,8 @@ class VtuFile {
     std::string_view appended_;  // what follows the underscore
     bool has_appended_ = false, appended_base64_ = false;
     mutable std::size_t appended_used_ = 0;  // by all arrays that were read
+    std::size_t file_bytes_;
+    mutable std::uint64_t values_kept_ = 0;  // of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
     VtuEncoding encoding_;

@@ -19,6 +19,23 @@ double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+// A needle thinner than this share of its distance: seen from the eye, its corners are rounded by
+// some 1000th of its width, and planes through them may lie anywhere along it. No ray meets it, but
+// by a chance of about this share.
+constexpr double least_width = 0x1p-42;
+
+bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
+    double reach = 0, longest = 0, widest = 0;  // widest: twice a face's area
+    for (const glm::dvec3& corner : corners) reach = std::max(reach, largest(corner));
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3& from = corners[i];
+        const glm::dvec3 a = corners[(i + 1) % 4] - from, b = corners[(i + 2) % 4] - from;
+        longest = std::max({longest, glm::length(a), glm::length(b)});
+        widest = std::max(widest, glm::length(glm::cross(a, b)));
+    }
+    return widest <= least_width * reach * longest;
+}
+
 // The corners of a face in the order of their numbers, the same for both tets that share it.
 std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     std::array<std::size_t, 3> corners = face_corners[face];
@@ -229,7 +246,7 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
         values[i] = scalar_[static_cast<std::size_t>(tet[i])];
     }
     const VisibleCorners visible = clip_near(corners);
-    if (visible.count == 0) return std::nullopt;
+    if (visible.count == 0 || is_too_thin(corners)) return std::nullopt;
     const LinearPiece* const piece = part.piece == TetPart::whole
                                          ? nullptr
                                          : &pieces_.pieces()[static_cast<std::size_t>(part.piece)];

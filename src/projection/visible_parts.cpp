@@ -24,13 +24,15 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
       draw_transparent_(draw_transparent) {
     const auto tets = mesh.tets();
     count_ = static_cast<std::int64_t>(tets.size());
-    if (cut || !draw_transparent) {
+    if (cut || !draw_transparent || !mesh.flat_tets().empty()) {
         spans_.resize(tets.size());
         parallel_for(count_, 4096, [&](std::int64_t index) {
             const auto tet = static_cast<std::size_t>(index);
             spans_[tet] = draw_transparent ? pieces_.met(scalar_, tets[tet])
                                            : pieces_.visible(scalar_, tets[tet]);
         });
+        // Of no volume, and of planes that say nothing.
+        for (const std::int32_t tet : mesh.flat_tets()) spans_[static_cast<std::size_t>(tet)] = {};
         count_ = std::transform_reduce(spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
                                        [&](const TetPieces::Span& span) -> std::int64_t {
                                            return cut ? parts_in(span) : !span.empty();

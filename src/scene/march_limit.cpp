@@ -2,6 +2,7 @@
 #include "scene/march_limit.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,7 @@ constexpr int search_cells = 1024;  // of the range: where searches for an inter
 
 // Rounds of one search: knots in the fullest cell, and one to see that it is done.
 int search_rounds(const TransferFunction& transfer_function, const ValueRange& range) {
+    assert(range.hi > range.lo);
     std::vector<int> knots(search_cells, 0);
     for (const TransferKnot& knot : transfer_function.knots()) {
         if (knot.value < range.lo || knot.value > range.hi) continue;

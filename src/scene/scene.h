@@ -51,6 +51,7 @@ struct Scene {
     std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
     std::filesystem::path mesh_file;                 // or
     std::optional<MeshSettings> mesh_request;        // made from the volume
+    std::filesystem::path colormap_file;             // of the transfer function; empty: none
     std::string scalar;  // of the mesh file; empty: its first point array
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});

@@ -145,8 +145,10 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     reader.whole("version", 1, 1);
     read_data(reader, scene);
     if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
-    scene.transfer_function =
-        read_transfer_function(reader.object("transfer_function"), &scene.warnings);
+    JsonReader transfer_function = reader.object("transfer_function");
+    if (transfer_function.has("colormap"))
+        scene.colormap_file = transfer_function.path_of("colormap");
+    scene.transfer_function = read_transfer_function(transfer_function, &scene.warnings);
     if (!reader.has("camera")) reader.reject("camera", "an object {...}");
     scene.camera = read_camera(reader.object("camera"));
     if (!reader.has("image")) reader.reject("image", "an object {...}");

@@ -16,7 +16,9 @@ enum class Interpolation { linear, nearest };
 
 glm::dvec3 read_color(JsonReader& point) {
     const glm::dvec3 color = point.vector_or("color", glm::dvec3(1));
-    if (glm::any(glm::lessThan(color, glm::dvec3(0)))) point.reject("color", "components >= 0");
+    if (glm::any(glm::lessThan(color, glm::dvec3(0))) ||
+        glm::any(glm::greaterThan(color, glm::dvec3(1e30))))
+        point.reject("color", "components from 0 to 1e30");
     return color;
 }
 

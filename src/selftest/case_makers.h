@@ -31,7 +31,7 @@ SelftestCase same_picture_case(const std::string& group, const std::string& name
 
 // Drawing must throw an Error.
 SelftestCase refusal_case(const std::string& group, const SelftestScene& scene,
-                          const DrawingWay& way);
+                          const DrawingWay& way, const std::string& reason);
 
 // A box in perspective, all of it in view, 24 x 18 pixels, 64 slabs.
 SelftestScene plain_scene(const std::string& name, const std::string& about);

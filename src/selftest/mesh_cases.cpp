@@ -32,7 +32,7 @@ std::vector<SelftestScene> box_scenes() {
     const auto split = [](int splits, double least, std::uint32_t seed) {
         return [=](const LayeredBox& box) { return split_tets(box, splits, least, seed); };
     };
-    scenes.push_back(box_scene("kuhn_8", "3072 tets in a box",
+    scenes.push_back(box_scene("kuhn_8", "384 tets in a box",
                                [](const LayeredBox& box) { return kuhn_tets(box, 8); }));
     scenes.push_back(box_scene("irregular", "A box split 500 times", split(500, 1, 3)));
     scenes.push_back(box_scene("needles_1e-3", "Points 1e-3 of the way from faces, edges, corners",

@@ -109,10 +109,11 @@ std::vector<SelftestCase> number_cases() {
     for (const SelftestScene& scene : scenes) {
         for (SelftestCase& each : cases_of(group, scene, ways)) cases.push_back(each);
     }
+    const char* const reason = "NaN or infinite samples";
     cases.push_back(
-        refusal_case(group, not_finite("nan_error", nan), way_named("slice post float32")));
+        refusal_case(group, not_finite("nan_error", nan), way_named("slice post float32"), reason));
     cases.push_back(refusal_case(group, not_finite("infinity_error", infinity),
-                                 way_named("slice post float32")));
+                                 way_named("slice post float32"), reason));
     return cases;
 }
 

@@ -22,8 +22,13 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
         CaseOutcome outcome;
         try {
             outcome = each.run(maker);
+        } catch (const Interrupted&) {
+            throw;
         } catch (const Error& error) {
             outcome.verdict = Verdict::refused;
+            outcome.note = error.what();
+        } catch (const std::exception& error) {
+            outcome.verdict = Verdict::failed;
             outcome.note = error.what();
         }
         results.push_back(

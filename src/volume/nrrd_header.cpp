@@ -19,10 +19,12 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t header_limit = std::size_t{1} << 20;
+// Of a field's line: teem prints lines into buffers of some 1000 bytes where they are wrong.
+constexpr std::size_t line_limit = 512;
 
 // The lines of a header, as far as the format's framing goes; their meaning is teem's affair.
 struct HeaderText {
-    std::string text;  // magic and fields, without `data file`, comments and key/value pairs
+    std::string text;                      // magic and fields, without `data file` and remarks
     std::optional<std::string> data_file;  // what `data file` says
     std::int64_t length = 0;               // bytes up to and including the empty line
     bool ended = false;                    // by an empty line, not by the end of the file
@@ -65,11 +67,12 @@ struct Field {
     std::string value;
 };
 
-// What says nothing about the samples. teem keeps such lines in lists, and a header of a megabyte
-// of them takes it minutes.
+// What says nothing about the samples: comments, key/value pairs, `content`. teem keeps such lines
+// in lists, and a header of a megabyte of them takes it minutes.
 bool is_remark(const std::string& line) {
     const auto colon = line.find(':');
-    return line[0] == '#' || (colon != std::string::npos && line.substr(colon, 2) == ":=");
+    return line[0] == '#' || line.starts_with("content:") ||
+           (colon != std::string::npos && line.substr(colon, 2) == ":=");
 }
 
 // The field of a `name: value` line; nothing for comments and key/value pairs.
@@ -130,6 +133,10 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
             if (header.data_file) fail("{}: line {}: second 'data file' field", path, number);
             header.data_file = field->value;
         } else if (number == 1 || !is_remark(line)) {
+            if (line.size() > line_limit) {
+                fail("{}: line {}: found {} bytes, '{}...', expected at most {}", path, number,
+                     line.size(), line.substr(0, 20), line_limit);
+            }
             header.text += line + "\n";
         }
     }

@@ -152,5 +152,30 @@ TEST_F(FaultsOfDisks, WhatIsReadIsNotReplaced) {
     EXPECT_EQ(contents(folder.path()), before);
 }
 
+// Files that the scene's own files name, or that belong to them.
+TEST_F(FaultsOfDisks, NothingThatASceneIsMadeOfIsReplaced) {
+    write_bytes_to(folder / "apart.nhdr",
+                   "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n"
+                   "data file: apart.raw\n");
+    write_bytes_to(folder / "apart.raw", "01234567");
+    write_bytes_to(folder / "colors.json",
+                   R"([{"ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 255, 1, 1, 1]}])");
+    make({"mesh", folder / "volume.nrrd", "-o", folder / "mesh.node", "--kuhn", "--quiet"});
+    write_bytes_to(folder / "parts.json", R"({
+        "version": 1, "volume": "apart.nhdr", "mesh": "mesh.ele",
+        "transfer_function": {"colormap": "colors.json", "points": [
+            {"value": 0, "extinction": 0}, {"value": 255, "extinction": 1}]},
+        "camera": {"eye": [9, 3, 7], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1]},
+        "image": {"width": 8, "height": 8}, "render": {"method": "project"}})");
+    const auto before = contents(folder.path());
+    for (const char* name : {"apart.nhdr", "apart.raw", "colors.json", "mesh.node", "mesh.ele"}) {
+        expect_one_line(lamina_run({"render", folder / "parts.json", "-o", folder / "c.png",
+                                    "--context", "cpu", "--quiet", "--stats", folder / name}),
+                        2, {"expected different files", name});
+    }
+    EXPECT_EQ(contents(folder.path()), before);
+    make({"render", folder / "parts.json", "-o", folder / "c.png", "--context", "cpu", "--quiet"});
+}
+
 }  // namespace
 }  // namespace lamina

@@ -15,6 +15,8 @@
 namespace lamina {
 namespace {
 
+using namespace std::string_literals;
+
 using nlohmann::json;
 
 class Render : public testing::Test {
@@ -182,9 +184,8 @@ TEST_F(Render, BadVolumesAreOneLineAndLeaveNothing) {
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 16384 16384 4096\nencoding: raw\n\nabc");
     expect_failure(with("/volume", "huge.nrrd"), {"huge.nrrd"});
     write_bytes_to(folder / "cut.nrrd",
-                   std::string("NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: "
-                               "gzip\n\n\x1f\x8b\x08\0\0\0\0\0\0\x03",
-                               80));
+                   "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: "
+                   "gzip\n\n\x1f\x8b\x08\0\0\0\0\0\0\x03"s);
     expect_failure(with("/volume", "cut.nrrd"), {"cut.nrrd"});
     std::string floats =
         "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: text\n\n0 1 0.5 nan 1 0 0 "

@@ -200,6 +200,14 @@ TEST_F(MeshErrors, VtuArraysThatShareTheirBytes) {
     }
 }
 
+TEST_F(MeshErrors, VtuArraysFarLargerThanTheFile) {
+    TestGrid grid = mixed_grid();
+    grid.point_arrays.clear();
+    grid.points.resize(1000000, {1, 1, 1});  // 24 MB, of which zlib makes some 30 KB
+    expect_bad("a.vtu", make_vtu(grid, {"raw", true}),
+               {"Points", "promise 3000000 values", "more than 256 times the file's"});
+}
+
 TEST_F(MeshErrors, VtuCompressors) {
     for (const std::string name : {"vtkLZ4DataCompressor", "vtkLZMADataCompressor", "zip"}) {
         expect_bad("a.vtu",

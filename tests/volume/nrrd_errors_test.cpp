@@ -59,6 +59,20 @@ TEST_F(NrrdErrors, MissingAndBadFields) {
     expect_says(error_of(write("a.nrrd", good + "type: uint8\n\n" + data)), {"type"});
 }
 
+// teem would print them into buffers of some 1000 bytes. Remarks may be long.
+TEST_F(NrrdErrors, LongLines) {
+    for (const std::string field : {"axis mins: ", "labels: ", "foo: ", "kinds: ", "no colon "}) {
+        std::string line = field;
+        for (int i = 0; i < 485; ++i) line += "1 ";
+        expect_says(error_of(write("a.nrrd", good + line + "\n\n" + std::string(24, 'x'))),
+                    {"a.nrrd", "line 6", std::to_string(line.size()), "at most 512"});
+    }
+    const std::string remark = std::string(4000, 'x') + "\n";
+    const auto path = write("a.nrrd", good + "# " + remark + "content: " + remark +
+                                          "key:=" + remark + "\n" + std::string(24, 'x'));
+    EXPECT_NO_THROW(read_nrrd_header(path));
+}
+
 TEST_F(NrrdErrors, TypesAndEncodingsThatAreNotSupported) {
     const std::string data(24 * 8, 'x');
     expect_says(

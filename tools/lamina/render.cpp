@@ -14,6 +14,7 @@
 #include "different_files.h"
 #include "profile_file.h"
 #include "render_job.h"
+#include "scene_files.h"
 #include "scene_options.h"
 #include "study/context_choice.h"
 #include "verbs.h"
@@ -52,7 +53,7 @@ void check_paths(const RenderOptions& options) {
 }
 
 void check_paths(const RenderOptions& options, const Scene& scene) {
-    for (const auto& data : {scene.volume_file, scene.mesh_file})
+    for (const auto& data : files_of(scene))
         expect_different_files({data, options.output, options.stats, options.profile},
                                "the scene's data, -o, --stats and --profile");
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/folder.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
@@ -15,7 +16,6 @@
 #include "study/context_choice.h"
 #include "study/draw_context.h"
 #include "study/machine.h"
-#include "study/text_file.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -41,18 +41,26 @@ int run(const SelftestOptions& options) {
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
     make_folder(folder);
+    AtomicFile report(folder / "selftest.json"), table_file(folder / "selftest.txt");
+    const std::string mistake = mistake_asked_for();
     const DrawContext context(choice);
-    const PictureMaker maker(context.capabilities(), mistake_asked_for());
+    const PictureMaker maker(context.capabilities(), mistake);
+    if (!mistake.empty())
+        print_message("lamina: warning: drawing wrongly on purpose: LAMINA_SELFTEST_MISTAKE={}\n",
+                      mistake);
     const std::vector<SelftestResult> results = run_selftest(cases, maker);
 
     nlohmann::ordered_json document{{"version", LAMINA_VERSION},
                                     {"commit", git_commit},
                                     {"context", context.capabilities().renderer},
+                                    {"mistake", mistake},
                                     {"machine", describe_machine()}};
     document.update(selftest_json(results));
-    write_text(folder / "selftest.json", document.dump(1) + "\n");
+    report.write(document.dump(1) + "\n");
+    report.commit();
     const std::string table = selftest_table(results);
-    write_text(folder / "selftest.txt", table);
+    table_file.write(table);
+    table_file.commit();
 
     if (!options.quiet) write_result(table + "\n");
     print_result("{}\n{}: {} of {} cases passed\n", selftest_summary(results),

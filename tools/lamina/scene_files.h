@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lamina {
+
+// All files that a scene is made of, itself among them: its volume, that one's data file, its mesh
+// in one or two files, its colour map.
+std::vector<std::filesystem::path> files_of(const Scene& scene);
+
+}  // namespace lamina
