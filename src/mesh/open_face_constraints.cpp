@@ -13,6 +13,7 @@ namespace {
 constexpr std::int64_t grain = 256;             // faces that are looked at in one task
 constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
+constexpr std::size_t most_looks = 200'000'000;
 
 FaceTree::Box box_of(const Triangle& triangle) {
     FaceTree::Box box = FaceTree::nothing();
@@ -54,7 +55,7 @@ void OpenFaceConstraints::look_from(const Eye& eye) {
 
 std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     look_from(eye);
-    std::atomic<std::size_t> total{0};
+    std::atomic<std::size_t> total{0}, looked_at{0};
     parallel_for(static_cast<std::int64_t>(found_.size()), 1, [&](std::int64_t index) {
         const auto run = static_cast<std::size_t>(index);
         found_[run].clear();
@@ -62,13 +63,14 @@ std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
         for (std::size_t face = run * faces_per_run; face < end; ++face) {
             if (signs_[face] <= 0) continue;
             const std::size_t before = found_[run].size();
-            find_from(static_cast<std::int32_t>(face), eye, found_[run]);
+            const std::size_t looked = find_from(static_cast<std::int32_t>(face), eye, found_[run]);
             const std::size_t added = found_[run].size() - before;
-            if (total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
+            if (looked_at.fetch_add(looked, std::memory_order_relaxed) + looked > most_looks ||
+                total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
                 fail(
-                    "more than {} pairs of open faces are seen one through the other: the exact "
-                    "order is not for a mesh with so many gaps, mpvo is",
-                    most_pairs);
+                    "more than {} pairs of open faces are seen one through the other, or {} may "
+                    "be: the exact order is not for a mesh with so many gaps, mpvo is",
+                    most_pairs, most_looks);
             }
         }
     });
@@ -77,18 +79,21 @@ std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     return all_;
 }
 
-void OpenFaceConstraints::find_from(std::int32_t index, const Eye& eye,
-                                    std::vector<OpenFaceConstraint>& found) const {
+std::size_t OpenFaceConstraints::find_from(std::int32_t index, const Eye& eye,
+                                           std::vector<OpenFaceConstraint>& found) const {
     const SeenTriangle& exit = seen_[static_cast<std::size_t>(index)];
     const SeenThrough behind(exit, bounds_);
     const std::int32_t tet = mesh_.open_faces()[static_cast<std::size_t>(index)].tet;
+    std::size_t looked = 0;
     tree_.visit([&](const FaceTree::Box& box) { return behind.reaches(box); },
                 [&](std::int32_t other) {
+                    ++looked;
                     const auto entry = static_cast<std::size_t>(other);
                     if (signs_[entry] >= 0 || !behind.reaches(triangles_[entry])) return;
                     if (mesh_.open_faces()[entry].tet != tet && exit.shows(eye, seen_[entry]))
                         found.push_back({index, other});
                 });
+    return looked;
 }
 
 }  // namespace lamina

@@ -39,7 +39,9 @@ class OpenFaceConstraints {
 
   private:
     void look_from(const Eye& eye);
-    void find_from(std::int32_t exit, const Eye& eye, std::vector<OpenFaceConstraint>& found) const;
+    // The number of faces looked at.
+    std::size_t find_from(std::int32_t exit, const Eye& eye,
+                          std::vector<OpenFaceConstraint>& found) const;
 
     const TetMesh& mesh_;
     FaceTree tree_;  // of the entries

@@ -31,12 +31,13 @@ class Needles : public ProjectionTest {};
 // meets a needle of width 1e-14 with a chance of some 1e-14 : 1 / 64.
 TEST_P(Needles, OfNoWidthShowNothing) {
     for (const std::size_t tets : {500u, 12000u}) {
-        for (const double width : {0., 1e-17, 1e-16, 1e-15, 1e-14}) {
+        for (const double width : {0., 1e-16, 1e-14}) {
             const SceneMesh mesh = needles(tets, width);
             for (const auto projection : {Projection::perspective, Projection::orthographic}) {
                 Scene scene = projection_scene(
                     TransferFunction::linear({knot(0, {1, 0, 0}, .5), knot(1, {0, 1, 1}, 5)}), 64,
                     64);
+                scene.project.order = ProjectOrder::none;
                 scene.camera.projection = projection;
                 scene.camera.eye = {2, 1, 3};
                 scene.camera.center = {.5, .5, 0};

@@ -47,7 +47,7 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
         {"/transfer_function/points/0/extinction", -1, {"points.0.extinction: found -1", ">= 0"}},
         {"/transfer_function/points/0/value", 300, {"points.1.value: found 255", "at least 300"}},
         {"/transfer_function/points/0/opacity", 0.5, {"points.0.extinction", "beside opacity"}},
-        {"/transfer_function/points/0/color", {-1, 0, 0}, {"points.0.color", ">= 0"}},
+        {"/transfer_function/points/0/color", {-1, 0, 0}, {"points.0.color", "0 to 1e30"}},
         {"/transfer_function/points",
          nlohmann::json::array(),
          {"transfer_function.points", "at least one"}},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "nrrd_files.h"
+#include "volume/nrrd_header.h"
 
 namespace lamina {
 namespace {
