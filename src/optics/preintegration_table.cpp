@@ -19,7 +19,7 @@ namespace lamina {
 
 namespace {
 
-constexpr std::size_t most_knots = 1024;
+constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 // A segment's rest that is seen through less than this is left out: far below a float's precision.
 constexpr double least_transmittance = 1e-12;
@@ -112,8 +112,8 @@ void check(const TransferFunction& transfer_function, const PreintegrationReques
         }));
     if (inside > most_knots) {
         fail(
-            "the transfer function has {} points between {} and {}, expected at most {} for a "
-            "pre-integration table",
+            "transfer_function.points: found {} between {} and {}, expected at most {} for a "
+            "pre-integration table: \"post\" or \"analytic\" do without",
             inside, request.lo, request.hi, most_knots);
     }
 }

@@ -227,12 +227,21 @@ class SlicePlanner {
         if (scene_.target == Target::emulated) slice.emulation = scene_.emulate;
         if (scene_.slice.tree) {
             choose_tree_for(*scene_.slice.tree);
-        } else if (leave_out(slice.target == Target::float32, "blending",
-                             "one node marches all slabs in registers: what blending in float32 "
-                             "would give, with one write a pixel and without its roundings")) {
+        } else {
             const int most = most_marched_slabs(scene_, facts_, capabilities_);
-            slice.tree = TreePlan{.factors = {slice.slabs}};
-            if (slice.slabs > most) slice.tree->factors = {(slice.slabs + most - 1) / most, most};
+            const bool whole = slice.slabs <= most;
+            const std::string node =
+                whole ? "one node marches all slabs in registers: "
+                      : fmt::format(
+                            "nodes march {} slabs in registers, no more fit into this "
+                            "driver's loops: ",
+                            most);
+            if (leave_out(slice.target == Target::float32, "blending",
+                          node + "what blending in float32 would give, with one write a pixel and "
+                                 "without its roundings")) {
+                slice.tree = TreePlan{.factors = {slice.slabs}};
+                if (!whole) slice.tree->factors = {(slice.slabs + most - 1) / most, most};
+            }
         }
         check_leaves();
         if (slice.tree && is_fixed_point(slice.target)) {
