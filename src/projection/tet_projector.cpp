@@ -30,8 +30,8 @@ bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
     for (std::size_t i = 0; i < 4; ++i) {
         const glm::dvec3& from = corners[i];
         const glm::dvec3 a = corners[(i + 1) % 4] - from, b = corners[(i + 2) % 4] - from;
-        longest = std::max({longest, glm::length(a), glm::length(b)});
-        widest = std::max(widest, glm::length(glm::cross(a, b)));
+        longest = std::max({longest, largest(a), largest(b)});
+        widest = std::max(widest, largest(glm::cross(a, b)));
     }
     return widest <= least_width * reach * longest;
 }

@@ -70,23 +70,25 @@ std::vector<DrawingWay> coarse_ways() {
     const auto codes = [](int bits, AlphaRounding alpha, OverRounding over) {
         return [=](Scene& scene) { set_codes(scene, bits, alpha, over); };
     };
-    const auto truncated = codes(8, AlphaRounding::truncate, OverRounding::separate);
-    const auto nearest = codes(12, AlphaRounding::nearest, OverRounding::fused);
-    const auto random = codes(8, AlphaRounding::stochastic, OverRounding::fused);
-    return {
-        slice("post float16", target(Target::float16), of_float16),
-        slice("post fixed16", target(Target::fixed16), of_codes(16)),
-        slice("post fixed8", target(Target::fixed8), of_codes(8)),
-        slice("post emulated 8 truncate separate", truncated, of_codes(8)),
-        slice("post emulated 12 nearest fused", nearest, of_codes(12)),
-        slice("post emulated 8 stochastic fused", random, of_codes(8)),
-        project("float16", target(Target::float16), of_float16),
-        project("fixed16", target(Target::fixed16), of_codes(16)),
-        project("fixed8", target(Target::fixed8), of_codes(8)),
-        project("emulated 8 truncate separate", truncated, of_codes(8)),
-        project("emulated 12 nearest fused", nearest, of_codes(12)),
-        project("emulated 8 stochastic fused", random, of_codes(8)),
+    struct Coarse {
+        std::string name;
+        std::function<void(Scene&)> set;
+        BlendRounding rounding;
     };
+    const Coarse all[] = {{"float16", target(Target::float16), of_float16},
+                          {"fixed16", target(Target::fixed16), of_codes(16)},
+                          {"fixed8", target(Target::fixed8), of_codes(8)},
+                          {"emulated 8 truncate separate",
+                           codes(8, AlphaRounding::truncate, OverRounding::separate), of_codes(8)},
+                          {"emulated 12 nearest fused",
+                           codes(12, AlphaRounding::nearest, OverRounding::fused), of_codes(12)},
+                          {"emulated 8 stochastic fused",
+                           codes(8, AlphaRounding::stochastic, OverRounding::fused), of_codes(8)}};
+    std::vector<DrawingWay> ways;
+    for (const Coarse& each : all)
+        ways.push_back(slice("post " + each.name, each.set, each.rounding));
+    for (const Coarse& each : all) ways.push_back(project(each.name, each.set, each.rounding));
+    return ways;
 }
 
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target) {

@@ -25,7 +25,7 @@ void add_mesh(std::filesystem::path mesh, std::vector<std::filesystem::path>& fi
 }  // namespace
 
 std::vector<std::filesystem::path> files_of(const Scene& scene) {
-    std::vector<std::filesystem::path> files{scene.file};
+    std::vector<std::filesystem::path> files;
     if (!scene.colormap_file.empty()) files.push_back(scene.colormap_file);
     if (!scene.volume_file.empty()) add_volume(scene.volume_file, files);
     if (!scene.mesh_file.empty()) add_mesh(scene.mesh_file, files);
