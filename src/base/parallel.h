@@ -3,9 +3,13 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 
+#include <algorithm>
 #include <cstdint>
 
+#include "base/hand_over.h"
 #include "base/interrupt.h"
 
 namespace lamina {
@@ -15,11 +19,35 @@ namespace lamina {
 // (make a task at least some 10 us long).
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
-    tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, static_cast<std::size_t>(grain)),
-                      [&](const tbb::blocked_range<std::int64_t>& range) {
-                          check_interrupt();
-                          for (std::int64_t i = range.begin(); i != range.end(); ++i) body(i);
+    HandOver hand_over;
+    using Range = tbb::blocked_range<std::int64_t>;
+    tbb::parallel_for(Range(0, count, static_cast<std::size_t>(grain)),
+                      [&](const Range& range) LAMINA_UNSEEN_BY_THREAD_SANITIZER {
+                          const std::int64_t first = range.begin(), end = range.end();
+                          hand_over.task([&] {
+                              check_interrupt();
+                              for (std::int64_t i = first; i != end; ++i) body(i);
+                          });
                       });
+}
+
+// Calls both, on two cores where there are; an exception of one is rethrown after both have ended.
+template <typename First, typename Second>
+void parallel_invoke(const First& first, const Second& second) {
+    HandOver hand_over;
+    tbb::parallel_invoke([&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { hand_over.task(first); },
+                         [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { hand_over.task(second); });
+}
+
+// Sorts on all cores; elements that `less` does not tell apart come in any order. Under the thread
+// sanitizer on one core: oneTBB hands the pieces on inside of the sort, where nothing can be told.
+template <typename Iterator, typename Less>
+void parallel_sort(Iterator begin, Iterator end, const Less& less) {
+#ifdef LAMINA_THREAD_SANITIZER
+    std::sort(begin, end, less);
+#else
+    tbb::parallel_sort(begin, end, less);
+#endif
 }
 
 }  // namespace lamina

@@ -2,7 +2,6 @@
 #include "mesh/adaptive_mesh.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +94,8 @@ std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
         names[i] = {tets[i], static_cast<std::int32_t>(i)};
         std::sort(names[i].corners.begin(), names[i].corners.end());
     });
-    tbb::parallel_sort(names.begin(), names.end(),
-                       [](const NamedTet& a, const NamedTet& b) { return a.corners < b.corners; });
+    parallel_sort(names.begin(), names.end(),
+                  [](const NamedTet& a, const NamedTet& b) { return a.corners < b.corners; });
     return names;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/visibility_order.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -69,7 +67,7 @@ void VisibilityOrder::sort_centroids(const Eye& eye) {
         distances_[static_cast<std::size_t>(index)] = {view_distance(eye, 0.25 * sum),
                                                        static_cast<std::int32_t>(index)};
     });
-    tbb::parallel_sort(distances_.begin(), distances_.end(), [](const auto& a, const auto& b) {
+    parallel_sort(distances_.begin(), distances_.end(), [](const auto& a, const auto& b) {
         return a.distance != b.distance ? a.distance > b.distance : a.tet < b.tet;
     });
     std::transform(distances_.begin(), distances_.end(), order_.begin(),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/tile_project_renderer.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -144,7 +142,7 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<con
     for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
         const Chunks& chunks = batches_[batch % 2];
         count_tets(chunks);
-        tbb::parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(chunks, leaf); });
+        parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(chunks, leaf); });
         if (progress != nullptr) progress->advance();
     }
 }
