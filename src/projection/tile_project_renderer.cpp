@@ -17,10 +17,11 @@ namespace {
 // Pixel centres this near to the corners' outline are looked at: more than its rounding.
 constexpr double margin = 1e-3;
 
-// Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches,
-// and for two batches to take less memory than a fourth of the mesh's parts.
+// Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches
+// (320 bytes a part, 1.3 MB), and for two batches to take less memory than a fourth of the mesh's
+// parts.
 std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
-    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 16);
+    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 8);
 }
 
 double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {

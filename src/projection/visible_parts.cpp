@@ -14,6 +14,11 @@
 #include "projection/part_field.h"
 
 namespace lamina {
+namespace {
+
+constexpr std::size_t block = 4096;  // tets whose parts one task lists
+
+}  // namespace
 
 VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
                            const TetPieces& pieces, bool cut, bool draw_transparent)
@@ -33,31 +38,34 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
         });
         // Of no volume, and of planes that say nothing.
         for (const std::int32_t tet : mesh.flat_tets()) spans_[static_cast<std::size_t>(tet)] = {};
-        count_ = std::transform_reduce(spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
-                                       [&](const TetPieces::Span& span) -> std::int64_t {
-                                           return cut ? parts_in(span) : !span.empty();
-                                       });
+        count_ = std::transform_reduce(
+            spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
+            [&](const TetPieces::Span& span) -> std::int64_t { return parts_in(span); });
     }
     parts_.reserve(static_cast<std::size_t>(count_));
+    firsts_.reserve(tets.size() / block + 2);
 }
 
+// How many parts a tet has does not depend on the eye: each task knows where its own begin.
 std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
-    parts_.clear();
-    for (const std::int32_t tet : order) {
-        if (spans_.empty()) {
-            parts_.push_back({tet});
-            continue;
-        }
-        const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
-        if (span.empty()) continue;
-        if (!cut_) {
-            parts_.push_back({tet});
-        } else if (span.first == span.last) {
-            parts_.push_back({tet, span.first});
-        } else {
-            append_parts(tet, span, eye);
-        }
-    }
+    const std::size_t blocks = (order.size() + block - 1) / block;
+    const auto tets_of = [&](std::size_t number) {
+        return order.subspan(number * block, std::min(block, order.size() - number * block));
+    };
+    firsts_.assign(blocks + 1, 0);
+    parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t index) {
+        const auto number = static_cast<std::size_t>(index);
+        std::size_t parts = 0;
+        for (const std::int32_t tet : tets_of(number)) parts += parts_of(tet);
+        firsts_[number + 1] = parts;
+    });
+    std::partial_sum(firsts_.begin(), firsts_.end(), firsts_.begin());
+    parts_.resize(firsts_.back());
+    parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t index) {
+        const auto number = static_cast<std::size_t>(index);
+        TetPart* next = parts_.data() + firsts_[number];
+        for (const std::int32_t tet : tets_of(number)) next = list_parts(tet, eye, next);
+    });
     return parts_;
 }
 
@@ -84,25 +92,42 @@ void VisibleParts::scatter() {
 }
 
 std::int64_t VisibleParts::parts_in(const TetPieces::Span& span) const {
+    if (span.empty()) return 0;
+    if (!cut_) return 1;
     return draw_transparent_ ? span.last - span.first + 1 : pieces_.count(span);
+}
+
+std::size_t VisibleParts::parts_of(std::int32_t tet) const {
+    return spans_.empty()
+               ? 1
+               : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)]));
 }
 
 // Along every ray the scalar goes one way, away from what it would be at the eye: the part nearest
 // to that hides all others, those above it hide those farther above, those below it those farther
 // below, and no ray meets both.
-void VisibleParts::append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye) {
-    const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
+TetPart* VisibleParts::list_parts(std::int32_t tet, const Eye& eye, TetPart* next) const {
     const auto append = [&](std::int32_t piece) {
-        if (draw_transparent_ || !pieces_.transparent(piece)) parts_.push_back({tet, piece});
+        if (draw_transparent_ || !pieces_.transparent(piece)) *next++ = {tet, piece};
     };
-    const auto end = [&](std::int32_t piece) {
-        return pieces_.pieces()[static_cast<std::size_t>(piece)].to;
-    };
+    if (!cut_) {
+        if (parts_of(tet) > 0) *next++ = {tet};
+        return next;
+    }
+    const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
+    if (span.empty()) return next;
     std::int32_t nearest = span.first;
-    while (nearest < span.last && end(nearest) < at_eye) ++nearest;
+    if (span.first < span.last) {
+        const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
+        const auto end = [&](std::int32_t piece) {
+            return pieces_.pieces()[static_cast<std::size_t>(piece)].to;
+        };
+        while (nearest < span.last && end(nearest) < at_eye) ++nearest;
+    }
     for (std::int32_t piece = span.last; piece > nearest; --piece) append(piece);
     for (std::int32_t piece = span.first; piece < nearest; ++piece) append(piece);
     append(nearest);
+    return next;
 }
 
 // Of an eye at infinity: below or above all.

@@ -21,7 +21,7 @@ class VisibleParts {
     VisibleParts(const TetMesh& mesh, std::span<const double> scalar, const TetPieces& pieces,
                  bool cut, bool draw_transparent);
 
-    // Of tets in visibility order. Valid until the next call, which takes no memory.
+    // Of tets in visibility order. Valid until the next call, which takes no memory. Parallel.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
     // The same, of tets that are sorted for this eye first. `scattered`, always or never: in a
     // random order that is the same for every view, so that parts of one region come to lie in
@@ -32,7 +32,9 @@ class VisibleParts {
   private:
     void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
-    void append_parts(std::int32_t tet, const TetPieces::Span& span, const Eye& eye);
+    std::size_t parts_of(std::int32_t tet) const;
+    // From `next` on; returns where the next tet's go.
+    TetPart* list_parts(std::int32_t tet, const Eye& eye, TetPart* next) const;
     double scalar_at_eye(const Tet& tet, const Eye& eye) const;
 
     const TetMesh& mesh_;
@@ -42,6 +44,7 @@ class VisibleParts {
     std::vector<TetPieces::Span> spans_;  // of tets; empty where all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;
+    std::vector<std::size_t> firsts_;  // number of each block of tets' first part, and the end
     bool is_scattered_ = false;
 };
 
