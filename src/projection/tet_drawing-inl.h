@@ -39,7 +39,6 @@ class TetDrawing {
     HWY_INLINE void draw(const Shader& shader, const TileChunk::Parts& parts) {
         std::size_t count = 0;
         for_each_part(parts, [&](std::size_t part) HWY_ATTR {
-            chunk_.prefetch_record(part);
             blocks_[count++] = {coverage_.blocks(chunk_.area(part)), part};
         });
         for (std::size_t i = 0; i < count; ++i) {

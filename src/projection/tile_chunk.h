@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -73,11 +70,6 @@ class TileChunk {
     std::int32_t last_tet() const { return last_tet_; }
     bool has_triangles() const { return !triangles_.empty(); }
     const TetRecord& record(std::size_t part) const { return records_[part]; }
-    void prefetch_record(std::size_t part) const {
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&records_[part]);
-        for (std::size_t line = 0; line < sizeof(TetRecord); line += 64)
-            hwy::Prefetch(bytes + line);
-    }
     const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
     const PartArea& area(std::size_t part) const { return areas_[part]; }
     const Parts& parts(std::size_t tile) const { return parts_of_tile_[tile]; }
