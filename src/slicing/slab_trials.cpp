@@ -30,8 +30,10 @@ constexpr double aim = 0.9, near_aim = 0.78;
 // more than this share of the error, more of them do not help.
 constexpr double most_growth = 4, still_left = 0.7;
 
-// Slabs of the picture that another is compared with, at least so many times as many.
-constexpr double finer = 1.5;
+// A picture is compared with one of so many times its slabs, or one that is there and has at least
+// so many times as many.
+constexpr int finer = 3;
+constexpr double fine_enough = 1.5;
 
 class SlabTrials {
   public:
@@ -41,7 +43,7 @@ class SlabTrials {
           facts_(seen_by(scene_, facts)),
           goal_(facts.slab_goal),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
-                           max_slabs / 2)) {}  // the picture to compare with has twice as many
+                           max_slabs / finer)) {}
 
     std::vector<SlabTrial> run() {
         std::vector<SlabTrial> trials;
@@ -82,8 +84,8 @@ class SlabTrials {
 
     // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
     SlabTrial try_slabs(int slabs) {
-        if (fine_slabs_ < finer * slabs) {
-            fine_slabs_ = 2 * slabs;
+        if (fine_slabs_ < fine_enough * slabs) {
+            fine_slabs_ = finer * slabs;
             OmissionSwitch exact;  // the error of early termination is one of the trial's
             exact.kept = {"early_termination"};
             fine_ = draw(fine_slabs_, exact);
