@@ -107,15 +107,15 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
 // to that hides all others, those above it hide those farther above, those below it those farther
 // below, and no ray meets both.
 TetPart* VisibleParts::list_parts(std::int32_t tet, const Eye& eye, TetPart* next) const {
+    if (parts_of(tet) == 0) return next;
+    if (!cut_) {
+        *next++ = {tet};
+        return next;
+    }
     const auto append = [&](std::int32_t piece) {
         if (draw_transparent_ || !pieces_.transparent(piece)) *next++ = {tet, piece};
     };
-    if (!cut_) {
-        if (parts_of(tet) > 0) *next++ = {tet};
-        return next;
-    }
     const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
-    if (span.empty()) return next;
     std::int32_t nearest = span.first;
     if (span.first < span.last) {
         const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
