@@ -12,13 +12,8 @@ namespace {
 constexpr std::int32_t faces_per_leaf = 4;
 
 FaceTree::Box box_of(const TetMesh& mesh, const TetFace& face) {
-    const Tet& tet = mesh.tets()[static_cast<std::size_t>(face.tet)];
-    FaceTree::Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    for (const std::int32_t corner : corners_of_face(tet, static_cast<std::size_t>(face.face))) {
-        const glm::dvec3& point = mesh.points()[static_cast<std::size_t>(corner)];
-        box.min = glm::min(box.min, point);
-        box.max = glm::max(box.max, point);
-    }
+    FaceTree::Box box = FaceTree::nothing();
+    for (const glm::dvec3& corner : mesh.corners(face)) box.add(corner);
     return box;
 }
 

@@ -33,15 +33,22 @@ class FaceTree {
     // Calls visit(index into the faces) for all faces below the boxes for which meets(box) holds.
     template <typename Meets, typename Visit>
     void visit(const Meets& meets, const Visit& visit) const {
+        visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
+    }
+
+    // The same with what the caller knows of each node: meets(number of the node).
+    template <typename Meets, typename Visit>
+    void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
         std::size_t waiting = 0;
         if (!nodes_.empty()) stack[waiting++] = 0;
         while (waiting > 0) {
-            const Node& node = nodes_[static_cast<std::size_t>(stack[--waiting])];
-            if (node.box.empty() || !meets(node.box)) continue;
+            const auto number = static_cast<std::size_t>(stack[--waiting]);
+            if (!meets(number)) continue;
+            const Node& node = nodes_[number];
             if (node.right >= 0) {
                 stack[waiting++] = node.right;
-                stack[waiting++] = static_cast<std::int32_t>(&node - nodes_.data()) + 1;
+                stack[waiting++] = static_cast<std::int32_t>(number) + 1;
             } else {
                 for (std::int32_t i = node.first; i < node.end; ++i)
                     visit(order_[static_cast<std::size_t>(i)]);
@@ -49,20 +56,22 @@ class FaceTree {
         }
     }
 
-    // Shrinks the boxes to box_of(index) of the faces. Where that is empty() the face may or may
-    // not be visited, until the next refit().
-    template <typename BoxOf>
-    void refit(const BoxOf& box_of) {
+    std::size_t node_count() const { return nodes_.size(); }
+
+    // What is known of the faces below each node: `nodes`, one each, become the sums by add() of
+    // what add_face(index, node) adds, from `nothing` on.
+    template <typename Known, typename AddFace>
+    void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
-            Node& node = nodes_[i];
-            node.box = nothing();
+            const Node& node = nodes_[i];
+            nodes[i] = nothing;
             if (node.right >= 0) {
-                node.box.add(nodes_[i + 1].box);
-                node.box.add(nodes_[static_cast<std::size_t>(node.right)].box);
+                nodes[i].add(nodes[i + 1]);
+                nodes[i].add(nodes[static_cast<std::size_t>(node.right)]);
                 continue;
             }
             for (std::int32_t at = node.first; at < node.end; ++at)
-                node.box.add(box_of(order_[static_cast<std::size_t>(at)]));
+                add_face(order_[static_cast<std::size_t>(at)], nodes[i]);
         }
     }
 

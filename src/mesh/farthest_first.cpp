@@ -19,13 +19,8 @@ FarthestFirst::FarthestFirst(const TetMesh& mesh) : mesh_(mesh), next_face_(mesh
 
 void FarthestFirst::find_starts(const Eye& eye) {
     starts_.clear();
-    const auto points = mesh_.points();
     for (const TetFace& face : mesh_.open_faces()) {
-        const auto [i, j, k] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
-                                               static_cast<std::size_t>(face.face));
-        const glm::dvec3 &a = points[static_cast<std::size_t>(i)],
-                         &b = points[static_cast<std::size_t>(j)],
-                         &c = points[static_cast<std::size_t>(k)];
+        const auto [a, b, c] = mesh_.corners(face);
         if (sign_as_seen(eye, a, b, c) < 0)
             starts_.push_back({view_distance(eye, (a + b + c) / 3.0), face.tet});
     }

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mesh/gap_faces.h"
+#include "mesh/seen_box.h"
 
 namespace lamina {
 namespace {
@@ -21,35 +23,46 @@ FaceTree::Box box_of(const Triangle& triangle) {
     return box;
 }
 
+std::vector<TetFace> faces_of(const TetMesh& mesh, std::span<const std::int32_t> open_faces) {
+    std::vector<TetFace> faces;
+    faces.reserve(open_faces.size());
+    for (const std::int32_t face : open_faces)
+        faces.push_back(mesh.open_faces()[static_cast<std::size_t>(face)]);
+    return faces;
+}
+
 }  // namespace
 
 OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh)
+    : OpenFaceConstraints(mesh, gap_faces(mesh)) {}
+
+OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::int32_t> gap_faces)
     : mesh_(mesh),
-      tree_(mesh, mesh.open_faces()),
+      open_faces_(std::move(gap_faces)),
+      tree_(mesh, faces_of(mesh, open_faces_)),
       bounds_{mesh.bounds().min, mesh.bounds().max},
-      seen_(mesh.open_faces().size()),
-      signs_(mesh.open_faces().size()),
-      found_((mesh.open_faces().size() + faces_per_run - 1) / faces_per_run) {
-    triangles_.reserve(seen_.size());
-    for (const TetFace& face : mesh.open_faces()) {
-        const auto [a, b, c] = corners_of_face(mesh.tets()[static_cast<std::size_t>(face.tet)],
-                                               static_cast<std::size_t>(face.face));
-        const auto points = mesh.points();
-        triangles_.push_back({points[static_cast<std::size_t>(a)],
-                              points[static_cast<std::size_t>(b)],
-                              points[static_cast<std::size_t>(c)]});
-    }
+      boxes_(tree_.node_count()),
+      seen_boxes_(open_faces_.size()),
+      seen_(open_faces_.size()),
+      signs_(open_faces_.size()),
+      found_((open_faces_.size() + faces_per_run - 1) / faces_per_run) {
+    triangles_.reserve(open_faces_.size());
+    for (const TetFace& face : faces_of(mesh, open_faces_))
+        triangles_.push_back(mesh.corners(face));
 }
 
 void OpenFaceConstraints::look_from(const Eye& eye) {
+    const SeenBoxes seen_boxes(eye, 0.5 * bounds_.min + 0.5 * bounds_.max);
     parallel_for(static_cast<std::int64_t>(seen_.size()), grain, [&](std::int64_t index) {
         const auto face = static_cast<std::size_t>(index);
         seen_[face] = SeenTriangle(eye, triangles_[face]);
+        seen_boxes_[face] = seen_boxes.of(triangles_[face]);
         signs_[face] = static_cast<std::int8_t>(seen_[face].sign());
     });
-    tree_.refit([&](std::int32_t face) {
-        return signs_[static_cast<std::size_t>(face)] < 0 ? box_of(triangle(face))
-                                                          : FaceTree::nothing();
+    const Boxes nothing{FaceTree::nothing(), FaceTree::nothing()};
+    tree_.sum(std::span(boxes_), nothing, [&](std::int32_t index, Boxes& node) {
+        const auto face = static_cast<std::size_t>(index);
+        if (signs_[face] < 0) node.add({box_of(triangles_[face]), seen_boxes_[face]});
     });
 }
 
@@ -63,7 +76,7 @@ std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
         for (std::size_t face = run * faces_per_run; face < end; ++face) {
             if (signs_[face] <= 0) continue;
             const std::size_t before = found_[run].size();
-            const std::size_t looked = find_from(static_cast<std::int32_t>(face), eye, found_[run]);
+            const std::size_t looked = find_from(face, eye, found_[run]);
             const std::size_t added = found_[run].size() - before;
             if (looked_at.fetch_add(looked, std::memory_order_relaxed) + looked > most_looks ||
                 total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
@@ -79,20 +92,29 @@ std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
     return all_;
 }
 
-std::size_t OpenFaceConstraints::find_from(std::int32_t index, const Eye& eye,
+std::size_t OpenFaceConstraints::find_from(std::size_t index, const Eye& eye,
                                            std::vector<OpenFaceConstraint>& found) const {
-    const SeenTriangle& exit = seen_[static_cast<std::size_t>(index)];
+    const SeenTriangle& exit = seen_[index];
+    const FaceTree::Box& box = seen_boxes_[index];
     const SeenThrough behind(exit, bounds_);
-    const std::int32_t tet = mesh_.open_faces()[static_cast<std::size_t>(index)].tet;
+    const auto tet_of = [&](std::int32_t open_face) {
+        return mesh_.open_faces()[static_cast<std::size_t>(open_face)].tet;
+    };
+    const std::int32_t face = open_faces_[index];
     std::size_t looked = 0;
-    tree_.visit([&](const FaceTree::Box& box) { return behind.reaches(box); },
-                [&](std::int32_t other) {
-                    ++looked;
-                    const auto entry = static_cast<std::size_t>(other);
-                    if (signs_[entry] >= 0 || !behind.reaches(triangles_[entry])) return;
-                    if (mesh_.open_faces()[entry].tet != tet && exit.shows(eye, seen_[entry]))
-                        found.push_back({index, other});
-                });
+    const auto reaches = [&](std::size_t node) {
+        return may_show(box, boxes_[node].seen) && behind.reaches(boxes_[node].world);
+    };
+    tree_.visit_nodes(reaches, [&](std::int32_t other) {
+        ++looked;
+        const auto entry = static_cast<std::size_t>(other);
+        if (signs_[entry] >= 0 || !may_show(box, seen_boxes_[entry]) ||
+            !behind.reaches(triangles_[entry]))
+            return;
+        const std::int32_t entered = open_faces_[entry];
+        if (tet_of(entered) != tet_of(face) && exit.shows(eye, seen_[entry]))
+            found.push_back({face, entered});
+    });
     return looked;
 }
 

@@ -24,7 +24,8 @@ struct OpenFaceConstraint {
 // faces they are all that an order has to keep. Silva, Mitchell and Williams (1998) and Comba et
 // al. (1999, XMPVO) find them by sweeping over the projected boundary; here every exit asks a tree
 // of boxes for what is seen through it, which holds for any eye, inside and at infinity too, and
-// needs no order from face to face. The mesh must outlive this object.
+// needs no order from face to face. Faces at which no gap can end (gap_faces.h) are left out for
+// good. The mesh must outlive this object.
 class OpenFaceConstraints {
   public:
     explicit OpenFaceConstraints(const TetMesh& mesh);
@@ -33,20 +34,28 @@ class OpenFaceConstraints {
     // views with more pairs than any before.
     std::span<const OpenFaceConstraint> find(const Eye& eye);
 
-    const Triangle& triangle(std::int32_t open_face) const {
-        return triangles_[static_cast<std::size_t>(open_face)];
-    }
-
   private:
+    // In the world, and as seen (seen_box.h).
+    struct Boxes {
+        FaceTree::Box world, seen;
+        void add(const Boxes& other) {
+            world.add(other.world);
+            seen.add(other.seen);
+        }
+    };
+    OpenFaceConstraints(const TetMesh& mesh, std::vector<std::int32_t> gap_faces);
     void look_from(const Eye& eye);
     // The number of faces looked at.
-    std::size_t find_from(std::int32_t exit, const Eye& eye,
+    std::size_t find_from(std::size_t exit, const Eye& eye,
                           std::vector<OpenFaceConstraint>& found) const;
 
     const TetMesh& mesh_;
-    FaceTree tree_;  // of the entries
+    std::vector<std::int32_t> open_faces_;  // at which gaps may end; what follows is about these
+    FaceTree tree_;
     FaceTree::Box bounds_;
     std::vector<Triangle> triangles_;
+    std::vector<Boxes> boxes_;  // of the entries below each node of the tree
+    std::vector<FaceTree::Box> seen_boxes_;
     std::vector<SeenTriangle> seen_;
     std::vector<std::int8_t> signs_;                      // of seen_, close together
     std::vector<std::vector<OpenFaceConstraint>> found_;  // of each run of faces

@@ -64,14 +64,12 @@ void OrderGraph::link_gaps() {
 double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
     if (edge >= faces) {
         const OpenFaceConstraint& gap = gap_edges_[static_cast<std::size_t>(edge - faces)];
-        return seen_overlap(eye_, gaps_->triangle(gap.exit), gaps_->triangle(gap.entry));
+        const auto corners = [&](std::int32_t open_face) {
+            return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(open_face)]);
+        };
+        return seen_overlap(eye_, corners(gap.exit), corners(gap.entry));
     }
-    const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(tet)],
-                                           static_cast<std::size_t>(edge));
-    const auto points = mesh_.points();
-    return seen_area(eye_,
-                     {points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
-                      points[static_cast<std::size_t>(c)]});
+    return seen_area(eye_, mesh_.corners({tet, edge}));
 }
 
 }  // namespace lamina

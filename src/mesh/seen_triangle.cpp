@@ -2,10 +2,6 @@
 #include "mesh/seen_triangle.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <limits>
 
 #include "mesh/face_signs.h"
 #include "mesh/predicates.h"
@@ -13,37 +9,19 @@
 namespace lamina {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-double norm1(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
-
-// A cross product of two rounded differences is off by at most 3 epsilon |u| |v| (1-norms) in each
-// component, and its product with a third difference p by as much again and 3 epsilon of itself:
-// less than 16 epsilon |u| |v| |p| in all.
-RoundedPlane plane(const glm::dvec3& u, const glm::dvec3& v) {
-    return {glm::cross(u, v), 16 * epsilon * norm1(u) * norm1(v)};
-}
-
 std::size_t after(std::size_t corner) {
     return corner == 2 ? 0 : corner + 1;
 }
 
 }  // namespace
 
-int RoundedPlane::sign(const glm::dvec3& from_origin) const {
-    const double value = glm::dot(normal, from_origin), bound = error * norm1(from_origin);
-    return value > bound ? 1 : -value > bound ? -1 : 0;
-}
-
 SeenTriangle::SeenTriangle(const Eye& eye, const Triangle& corners) : corners_(corners) {
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3& from = corners[i];
-        edges_[i] =
-            plane(eye.at_infinity ? eye.position : from - eye.position, corners[after(i)] - from);
+        edges_[i] = RoundedPlane(eye.at_infinity ? eye.position : from - eye.position,
+                                 corners[after(i)] - from);
     }
-    face_ = plane(corners[1] - corners[0], corners[2] - corners[0]);
+    face_ = RoundedPlane(corners[1] - corners[0], corners[2] - corners[0]);
     sign_ = edge_sign(eye, 0, corners[2]);
 }
 
@@ -166,37 +144,10 @@ bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry)
     return false;
 }
 
-// A plane's value at a point of a box is off by its error for the largest distance there, and by 8
-// roundings of the products of its normal with coordinates.
 SeenThrough::SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds) {
-    const double extent = norm1(bounds.max - bounds.min);
-    const double coordinate = std::max(norm1(bounds.min), norm1(bounds.max));
-    for (std::size_t i = 0; i < 4; ++i) {
-        const RoundedPlane& plane = i == 0 ? exit.face_ : exit.edges_[i - 1];
-        const glm::dvec3& origin = exit.corners_[i == 0 ? 0 : i - 1];
-        normals_[i] = plane.normal;
-        limits_[i] = glm::dot(plane.normal, origin) - plane.error * extent -
-                     8 * epsilon * norm1(plane.normal) * coordinate;
-    }
-}
-
-bool SeenThrough::reaches(const FaceTree::Box& box) const {
-    for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec3 low = normals_[i] * box.min, high = normals_[i] * box.max;
-        const glm::dvec3 most = glm::max(low, high);
-        if (most.x + most.y + most.z < limits_[i]) return false;
-    }
-    return true;
-}
-
-bool SeenThrough::reaches(const Triangle& triangle) const {
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto below = [&](const glm::dvec3& p) {
-            return glm::dot(normals_[i], p) < limits_[i];
-        };
-        if (below(triangle[0]) && below(triangle[1]) && below(triangle[2])) return false;
-    }
-    return true;
+    sides_[0] = PlaneSide(exit.face_, exit.corners_[0], bounds);
+    for (std::size_t i = 0; i < 3; ++i)
+        sides_[i + 1] = PlaneSide(exit.edges_[i], exit.corners_[i], bounds);
 }
 
 }  // namespace lamina

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 
-#include <array>
-
 #include "mesh/eye.h"
-#include "mesh/face_tree.h"
+#include "mesh/rounded_plane.h"
 
 namespace lamina {
-
-using Triangle = std::array<glm::dvec3, 3>;
-
-// A plane through a given point, off by rounding.
-struct RoundedPlane {
-    glm::dvec3 normal{0};
-    double error = 0;  // of its value at a point, for each unit (1-norm) of distance
-    // 1 or -1 where that is the sign of the true plane's value; 0: not known.
-    int sign(const glm::dvec3& from_origin) const;
-};
 
 // A triangle as an eye sees it, with the planes through the eye and its edges. The rays through it
 // fill a pyramid, or a prism for an eye at infinity.
@@ -58,12 +47,14 @@ class SeenThrough {
     // `bounds`: of all boxes.
     SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds);
     // Never false, whatever the rounding, for a box or a triangle that holds such a point.
-    bool reaches(const FaceTree::Box& box) const;
-    bool reaches(const Triangle& triangle) const;
+    template <typename Shape>
+    bool reaches(const Shape& box_or_triangle) const {
+        return sides_[0].reaches(box_or_triangle) && sides_[1].reaches(box_or_triangle) &&
+               sides_[2].reaches(box_or_triangle) && sides_[3].reaches(box_or_triangle);
+    }
 
   private:
-    std::array<glm::dvec3, 4> normals_;
-    std::array<double, 4> limits_;
+    std::array<PlaneSide, 4> sides_;
 };
 
 }  // namespace lamina

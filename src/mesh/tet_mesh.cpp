@@ -77,6 +77,13 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
     list_open_faces();
 }
 
+std::array<glm::dvec3, 3> TetMesh::corners(const TetFace& face) const {
+    const auto [a, b, c] = corners_of_face(tets_[static_cast<std::size_t>(face.tet)],
+                                           static_cast<std::size_t>(face.face));
+    return {points_[static_cast<std::size_t>(a)], points_[static_cast<std::size_t>(b)],
+            points_[static_cast<std::size_t>(c)]};
+}
+
 void TetMesh::check_corners(const std::string& name) const {
     if (tets_.empty()) fail("{}: found no tetrahedra, expected at least one", name);
     if (tets_.size() >= most_tets)

@@ -49,6 +49,8 @@ class TetMesh {
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
     // All faces without a neighbour.
     std::span<const TetFace> open_faces() const { return open_faces_; }
+    // Counter-clockwise from outside the face's tet.
+    std::array<glm::dvec3, 3> corners(const TetFace& face) const;
 
     // Those of exactly no volume: they have faces and neighbours, and show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }

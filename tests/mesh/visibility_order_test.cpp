@@ -10,6 +10,7 @@
 #include "mesh/face_signs.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/order_check.h"
+#include "mesh_eyes.h"
 #include "support/allocation_count.h"
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
@@ -23,35 +24,9 @@ double nothing(const glm::dvec3&) {
     return 0;
 }
 
-// Eyes around and inside a mesh, at infinity, on points of it, and exactly in planes of its faces.
-// `on_grid`: sums and differences of coordinates are exact, and so are the planes.
-std::vector<Eye> eyes(const TetMesh& mesh, int rounds) {
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    const glm::dvec3 center = .5 * (mesh.bounds().min + mesh.bounds().max),
-                     half = .5 * (mesh.bounds().max - mesh.bounds().min);
-    std::vector<Eye> all;
-    for (int i = 0; i < rounds; ++i) {
-        const glm::dvec3 v(uniform(random), uniform(random), uniform(random));
-        const Tet& tet = mesh.tets()[random() % mesh.tets().size()];
-        const auto at = [&](std::size_t k) {
-            return mesh.points()[static_cast<std::size_t>(tet[k])];
-        };
-        all.push_back({center + 4. * half * v});
-        all.push_back({center + half * v});
-        all.push_back({v, true});
-        all.push_back({at(0)});
-        all.push_back({at(0) + (at(1) - at(0)) + (at(2) - at(0))});  // in the plane of a face
-        all.push_back({at(0) + 2. * (at(1) - at(0))});               // in line with an edge
-        all.push_back({at(1) - at(0), true});                        // along an edge
-        all.push_back({.25 * (at(0) + at(1) + at(2) + at(3))});
-    }
-    return all;
-}
-
 void expect_no_violation(const TetMesh& mesh, OrderMethod method, int rounds) {
     VisibilityOrder order(mesh, method);
-    for (const Eye& eye : eyes(mesh, rounds)) {
+    for (const Eye& eye : test::eyes(mesh, rounds)) {
         EXPECT_EQ(face_violations(mesh, eye, order.sort(eye)), 0)
             << eye.position.x << " " << eye.position.y << " " << eye.position.z << " "
             << eye.at_infinity;
@@ -185,7 +160,7 @@ TEST(VisibilityOrder, TakesItsMemoryOnce) {
                          "sponge");
     const TetMesh cyclic(test::twisted_prism(20), "prism");
     for (const TetMesh* mesh : {&sponge, &cyclic}) {
-        const std::vector<Eye> frames = eyes(*mesh, 2);
+        const std::vector<Eye> frames = test::eyes(*mesh, 2);
         for (const OrderMethod method :
              {OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid, OrderMethod::none}) {
             VisibilityOrder order(*mesh, method);
