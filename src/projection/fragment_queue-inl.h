@@ -135,7 +135,7 @@ class FragmentQueue {
 
   private:
     static constexpr bool packs = HWY_TARGET <= HWY_AVX3;
-    static constexpr std::size_t values = 4, enough = 512, most = enough + TileGrid::pixels + lanes,
+    static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
                                  some_parts = 16;
 
     static HWY_INLINE Vector pack(Inside inside, Vector v) {

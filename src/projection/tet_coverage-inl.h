@@ -7,6 +7,7 @@
 #define LAMINA_PROJECTION_TET_COVERAGE_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -135,6 +136,15 @@ class TetCoverage {
         return within;
     }
 
+    // Of a block. Until its fragments are put there it comes from a cache farther away.
+    HWY_INLINE void prefetch_pixels(std::size_t first) const {
+        if (tile_.pixels == nullptr) return;
+        hwy::Prefetch(tile_.pixels->red.data() + first);
+        hwy::Prefetch(tile_.pixels->green.data() + first);
+        hwy::Prefetch(tile_.pixels->blue.data() + first);
+        hwy::Prefetch(tile_.pixels->alpha.data() + first);
+    }
+
     template <bool bounded, class Depths>
     HWY_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
                             std::uint64_t blocks, FragmentQueue::Writer& writer) const {
@@ -156,6 +166,7 @@ class TetCoverage {
         const PartCuts cuts(cut, record);
         for (std::uint64_t left = blocks; left != 0; left &= left - 1) {
             const auto number = static_cast<std::size_t>(std::countr_zero(left));
+            prefetch_pixels(number * block * block);
             const Vector columns =
                 hn::Add(start_column,
                         hn::Load(d_, block_columns.data() + number % blocks_a_row * block * block));

@@ -53,19 +53,9 @@ float to_float(const TetSetup::Lanes::Row& row, std::size_t lane) {
 
 }  // namespace
 
-void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
-                      TetRecord* records, Parts& result) const {
-    Lanes lanes;
-    prefetch(next);
-    load(parts, lanes);
-    const bool pieces = parts[0].piece != TetPart::whole;
-    const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
-    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lanes);
-    store(parts, lanes, records, result);
-}
-
 // The mesh is in no order that a view's order follows: its next tets' corners, and the tets after
-// these, are fetched while this one's are in use.
+// these, are fetched while this one's are in use. Inlined: calls of a function that only prefetches
+// are dropped by GCC 12, to which it has no effect.
 void TetSetup::prefetch(std::span<const TetPart> next) const {
     for (std::size_t i = 0; i < std::min(next.size(), most_parts); ++i) {
         for (const std::int32_t corner : tets_[static_cast<std::size_t>(next[i].tet)]) {
@@ -75,6 +65,17 @@ void TetSetup::prefetch(std::span<const TetPart> next) const {
     }
     for (std::size_t i = most_parts; i < std::min(next.size(), 2 * most_parts); ++i)
         hwy::Prefetch(&tets_[static_cast<std::size_t>(next[i].tet)]);
+}
+
+void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
+                      TetRecord* records, Parts& result) const {
+    Lanes lanes;
+    prefetch(next);
+    load(parts, lanes);
+    const bool pieces = parts[0].piece != TetPart::whole;
+    const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
+    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lanes);
+    store(parts, lanes, records, result);
 }
 
 // Lanes without a part repeat the last one.

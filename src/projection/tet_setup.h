@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/base.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,7 +50,7 @@ class TetSetup {
     struct Lanes;  // of the vectors; in the implementation
 
   private:
-    void prefetch(std::span<const TetPart> next) const;
+    HWY_INLINE void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
     void store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
                Parts& result) const;

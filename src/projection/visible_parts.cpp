@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/visible_parts.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -46,6 +48,19 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
     firsts_.reserve(tets.size() / block + 2);
 }
 
+// Of the tets after the first, which lie anywhere in the mesh. (Inlined: see TetSetup::prefetch.)
+void VisibleParts::prefetch(std::span<const std::int32_t> tets) const {
+    constexpr std::size_t near = 8, far = 16;
+    if (spans_.empty() || tets.size() <= far) return;
+    hwy::Prefetch(&spans_[static_cast<std::size_t>(tets[far])]);
+    hwy::Prefetch(&mesh_.tets()[static_cast<std::size_t>(tets[far])]);
+    if (!is_sorted_by_eye(spans_[static_cast<std::size_t>(tets[near])])) return;
+    for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(tets[near])]) {
+        hwy::Prefetch(&mesh_.points()[static_cast<std::size_t>(corner)]);
+        hwy::Prefetch(&scalar_[static_cast<std::size_t>(corner)]);
+    }
+}
+
 // How many parts a tet has does not depend on the eye: each task knows where its own begin.
 std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
     const std::size_t blocks = (order.size() + block - 1) / block;
@@ -64,7 +79,11 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
     parallel_for(static_cast<std::int64_t>(blocks), 1, [&](std::int64_t index) {
         const auto number = static_cast<std::size_t>(index);
         TetPart* next = parts_.data() + firsts_[number];
-        for (const std::int32_t tet : tets_of(number)) next = list_parts(tet, eye, next);
+        const auto tets = tets_of(number);
+        for (std::size_t i = 0; i < tets.size(); ++i) {
+            prefetch(tets.subspan(i));
+            next = list_parts(tets[i], eye, next);
+        }
     });
     return parts_;
 }
@@ -117,7 +136,7 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, const Eye& eye, TetPart* nex
     };
     const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
     std::int32_t nearest = span.first;
-    if (span.first < span.last) {
+    if (is_sorted_by_eye(span)) {
         const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
         const auto end = [&](std::int32_t piece) {
             return pieces_.pieces()[static_cast<std::size_t>(piece)].to;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/base.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +32,11 @@ class VisibleParts {
     std::int64_t count() const { return count_; }  // of every list
 
   private:
+    // Does the order of its parts depend on the eye?
+    bool is_sorted_by_eye(const TetPieces::Span& span) const {
+        return cut_ && span.first < span.last;
+    }
+    HWY_INLINE void prefetch(std::span<const std::int32_t> tets) const;
     void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
