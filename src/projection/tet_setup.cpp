@@ -133,14 +133,11 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
         TetRecord& record = records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
-        result.areas[lane] = {pixels,
-                              false,
+        result.areas[lane] = {pixels, false,
                               depth <= faint_depth  ? PartDepth::faint
                               : depth <= thin_depth ? PartDepth::thin
                                                     : PartDepth::any,
-                              lanes.bounded[lane] != 0,
-                              to_float(lanes.farthest, lane),
-                              outline_of(record, pixels, window_.view().height)};
+                              lanes.bounded[lane] != 0, to_float(lanes.farthest, lane)};
         record.center_depth = to_float(lanes.center_depth, lane);
         record.center_z = to_float(lanes.center_z, lane);
         record.scalar = to_float(lanes.scalar, lane);
@@ -164,6 +161,12 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
             record.low[channel] = to_float(lanes.low[channel], lane);
             record.high[channel] = to_float(lanes.high[channel], lane);
         }
+    }
+    // Not above: vectors that are read where numbers have just been written one by one wait.
+    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
+        PartArea& area = result.areas[lane];
+        if (result.outcomes[lane] == Outcome::done)
+            area.outline = outline_of(records[lane], area, window_.view().height);
     }
 }
 
