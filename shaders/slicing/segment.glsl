@@ -16,10 +16,15 @@
 #if SAMPLING == SAMPLING_NONE
 uniform vec4 constant_optics;  // colour, extinction
 uniform float constant_extinction_low;
-#elif defined(PREINTEGRATED)
+#elif defined(PREINTEGRATED) && !defined(LINEAR)
 #include "optics/preintegration.glsl"
 #else
 #include "optics/transfer_function.glsl"
+#endif
+#if defined(LINEAR) && !defined(SINGLE_COLOR)
+#define TABLE_COLORED
+#define THIN
+#include "optics/linear_segment.glsl"
 #endif
 #ifdef SINGLE_COLOR
 uniform vec3 single_color;
@@ -49,24 +54,49 @@ Segment integrate(Ray ray, REAL2 depths) {
     return Segment(color_or_single(constant_optics.rgb), extinction * DEPTH(world_length(ray, depths)));
 }
 #elif defined(PREINTEGRATED)
+#ifdef LINEAR
+// Where the transfer function is one piece: in closed form.
+Segment integrate_linear_run(float front, float back, float world_length) {
+    vec4 piece = interval_place(0);
+    vec2 shares = vec2(share_of_interval(piece, front), share_of_interval(piece, back));
+    float p = optics_at(0, shares.x).a * world_length, q = optics_at(0, shares.y).a * world_length;
+    float depth = 0.5 * p + 0.5 * q;
+#ifdef SINGLE_COLOR
+    return Segment(single_color, DEPTH(depth));
+#else
+    float opacity = opacity_from_depth(depth);
+    float of_front = min(front_weight(p, q), opacity) / max(opacity, 1e-37);
+    return Segment(optics_at(0, shares.y + of_front * (shares.x - shares.y)).rgb, DEPTH(depth));
+#endif
+}
+#endif
+
 // A segment whose scalars at both ends and in the middle are known.
 Segment integrate_samples(float front, float middle, float back, float world_length) {
 #ifdef NAN_TRANSPARENT
     if (is_nan(front) || is_nan(middle) || is_nan(back)) return Segment(vec3(0.0), DEPTH(0.0));
 #endif
+#ifndef LINEAR
     // What shows nothing between the least and the largest sample shows nothing: so empty space may be left out.
     float least = clamp(min(middle, min(front, back)), 0.0, 1.0);
     float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
     bool transparent = is_transparent(least, largest);
-    // The table knows straight runs of the scalar; the trilinear field bends. The run from front to back is moved so
+#endif
+    // Straight runs of the scalar are what can be integrated; the trilinear field bends. The run from front to back is moved so
     // that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of one
     // cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of second.
     float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
-    vec4 run = integrate_run(clamp(front + bend, 0.0, 1.0), clamp(back + bend, 0.0, 1.0), world_length, transparent);
+    front = clamp(front + bend, 0.0, 1.0);
+    back = clamp(back + bend, 0.0, 1.0);
+#ifdef LINEAR
+    return integrate_linear_run(front, back, world_length);
+#else
+    vec4 run = integrate_run(front, back, world_length, transparent);
 #ifndef SINGLE_COLOR
     if (run.a > 0.0) run.rgb /= opacity_from_depth(run.a);
 #endif
     return Segment(color_or_single(run.rgb), DEPTH(run.a));
+#endif
 }
 
 Segment integrate(Ray ray, REAL2 depths) {

@@ -9,6 +9,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "optics/linear_pieces.h"
+#include "scene/drawn_range.h"
 
 namespace lamina {
 namespace {
@@ -188,6 +190,10 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     facts.knots = std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
         return knot.value > facts.range.lo && knot.value < facts.range.hi;
     });
+    const ValueRange drawn = drawn_range(transfer_function, facts.range);
+    facts.pieces = 0;
+    for_each_linear_piece(transfer_function.knots(), drawn.lo, drawn.hi,
+                          [&](const LinearPiece&) { ++facts.pieces; });
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
     measure_view(scene, facts);

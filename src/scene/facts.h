@@ -47,6 +47,7 @@ struct Facts {
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
     std::int64_t knots = 0;     // strictly inside the range
+    std::int64_t pieces = 1;    // linear ones over drawn_range()
 
     // The smallest box, made of whole min/max bricks, outside which the transfer function shows
     // nothing.

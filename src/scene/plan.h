@@ -53,7 +53,8 @@ struct SlicePlan : CompositingPlan {
     bool nan_transparent = false;  // samples may be NaN
     int batches = 1;               // draws of a frame, each waited for: progress, and Ctrl-C
     bool nothing_visible = false;  // no slab is drawn
-    TablePlan table;               // for Classification::preintegrated
+    bool linear = false;  // pre-integrated in closed form: colour and extinction are linear
+    TablePlan table;      // else, for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
     bool occupied_only = false;  // what comes near no occupied brick is not evaluated
     // Marched rays end at this optical depth: what lies behind does not show.
@@ -62,9 +63,11 @@ struct SlicePlan : CompositingPlan {
 
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
-    bool uses_table() const {
+    // Segments by the scalars at both ends and in the middle, not in the middle alone.
+    bool integrates_runs() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
+    bool uses_table() const { return integrates_runs() && !linear; }
 };
 
 // What will run: a pure function of scene, facts and capabilities, printable.

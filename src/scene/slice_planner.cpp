@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "compositing/tree_shape.h"
+#include "optics/front_weights.h"
 #include "scene/brick_cuts.h"
 #include "scene/march_limit.h"
 #include "scene/picture_limits.h"
@@ -27,7 +28,7 @@ constexpr int software_batches = 64;
 // A table that knows only the limit of short segments has at most this optical depth in one
 // segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
 // segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
-constexpr double thin_depth = 0.02;
+constexpr double short_depth = 0.02;
 // Above: layers so close that linear interpolation between them is good to .0025 (steps of depth 1
 // or less), as far as that is affordable; deeper segments are nearly opaque and change little with
 // length.
@@ -197,14 +198,25 @@ class SlicePlanner {
         table.colored = !slice.single_color;
         table.max_length =
             (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
-        if (!table.colored) return;
         const double depth = facts_.max_extinction * table.max_length;
+        if (leave_out(facts_.pieces == 1 && (!table.colored || depth <= thin_depth), "table",
+                      table.colored
+                          ? fmt::format("the transfer function is one linear piece and a "
+                                        "segment's optical depth at most {:.3g}: its colour has a "
+                                        "closed form",
+                                        depth)
+                          : "the transfer function is one linear piece: optical depth has a closed "
+                            "form")) {
+            slice.linear = true;
+            return;
+        }
+        if (!table.colored) return;
         const double knots = static_cast<double>(facts_.knots);
         const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);  // at most
         const double affordable = std::floor(max_table_work / (nodes * nodes * (knots + 1)));
         table.length_layers = static_cast<int>(
             std::clamp(std::min(std::ceil(depth) + 1, affordable), 1.0, double{max_length_layers}));
-        if (leave_out(depth < thin_depth, "length_layers",
+        if (leave_out(depth < short_depth, "length_layers",
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
                                   "not depend on its length",
                                   depth))) {

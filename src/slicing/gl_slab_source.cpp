@@ -49,8 +49,12 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
     defines.set("INTERVALS", intervals);
-    if (!plan.uses_table()) return defines;
+    if (!plan.integrates_runs()) return defines;
     defines.set("PREINTEGRATED", 1);
+    if (plan.linear) {
+        defines.set("LINEAR", 1);
+        return defines;
+    }
     defines.set("TABLE_NODES", table_nodes);
     if (plan.table_filtered) defines.set("TABLE_FILTERED", 1);
     if (!plan.table.colored) return defines;

@@ -79,7 +79,7 @@ HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& bri
         return precise_point(rays, each_half<FloatTag>(mean, front, back));
     };
     sample_points<PointKind::exact>(brick, hardware, block.from, block.end, middle, block.scalars);
-    if (!slabs.plan->uses_table()) return;
+    if (!slabs.plan->integrates_runs()) return;
     const auto edge = [&](int i) HWY_ATTR {
         return precise_point(rays, boundary(frame, rays, block.first_slab + i));
     };
@@ -143,8 +143,8 @@ inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView&
     const TileTransfer& transfer = *slabs.transfer;
     with_lookup(transfer, [&](auto kind) HWY_ATTR {
         constexpr Lookup lookup = decltype(kind)::value;
-        if (plan.uses_table()) {
-            integrate_runs<lookup>(transfer, colored, plan.nan_transparent, block);
+        if (plan.integrates_runs()) {
+            integrate_runs<lookup>(transfer, colored, plan, block);
             for (int i = block.from; i < block.end; ++i) {
                 store_doubles(to_doubles(d, hn::Load(d, block.depths + at(i))),
                               block.precise_depths + at(i));

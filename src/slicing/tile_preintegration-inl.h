@@ -13,6 +13,7 @@
 
 #include "slicing/tile_block-inl.h"
 #include "slicing/tile_optics-inl.h"
+#include "tiles/linear_segment-inl.h"
 #include "tiles/opacity-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -273,43 +274,91 @@ HWY_INLINE FloatMask shows_something(const TileTransfer& transfer, Floats least,
     return hn::Or(before, hn::And(shown, begun));
 }
 
-// The whole block: what shows nothing between the least and the largest of its three samples shows
-// nothing; the others run straight, moved so that their mean is that of the parabola through them.
+// The scalars of a segment, normalised; 0 with length 0 where one is no number.
+struct RunScalars {
+    Floats front, middle, back, length;
+};
+
+HWY_INLINE RunScalars run_scalars(const SlabBlock& block, int i, bool nan_transparent) {
+    const FloatTag d;
+    RunScalars run{hn::Load(d, block.edge_scalars + at(i)), hn::Load(d, block.scalars + at(i)),
+                   hn::Load(d, block.edge_scalars + at(i + 1)), hn::Load(d, block.lengths + at(i))};
+    if (!nan_transparent) return run;
+    const Floats sum = hn::Add(hn::Add(run.front, run.middle), run.back);
+    const auto numbers = hn::Eq(sum, sum);
+    for (Floats* const v : {&run.front, &run.middle, &run.back, &run.length})
+        *v = hn::IfThenElseZero(numbers, *v);
+    return run;
+}
+
+// Makes it straight: moved so that its mean is that of the parabola through the three scalars.
+HWY_INLINE void straighten(RunScalars& run) {
+    const FloatTag d;
+    const Floats mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(run.front, run.back));
+    const Floats bend = hn::Mul(hn::Set(d, 2.0f / 3.0f), hn::Sub(run.middle, mean));
+    run.front = clamp01(d, hn::Add(run.front, bend));
+    run.back = clamp01(d, hn::Add(run.back, bend));
+}
+
+// Where the transfer function is one piece: in closed form, as shaders/slicing/segment.glsl.
+HWY_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
+                                   const RunScalars& run) {
+    constexpr Lookup one = Lookup::one;
+    const FloatTag d;
+    const Floats half = hn::Set(d, 0.5f);
+    const Ints piece = hn::Zero(IntTag());
+    const Floats front = share_of_interval<one>(transfer, piece, run.front),
+                 back = share_of_interval<one>(transfer, piece, run.back);
+    const Floats p = hn::Mul(optics_at<one>(transfer, 3, piece, front), run.length),
+                 q = hn::Mul(optics_at<one>(transfer, 3, piece, back), run.length);
+    RunSum sum;
+    sum.depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
+    if (!colored) return sum;
+    const Floats opacity = opacity_from_depth(d, sum.depth);
+    const Floats weight = hn::Min(thin_front_weight(d, p, q), opacity);
+    const Floats of_front = hn::Div(weight, hn::Max(opacity, hn::Set(d, 1e-37f)));
+    const Floats place = mix(back, front, of_front);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        sum.color[channel] = optics_at<one>(transfer, channel, piece, place);
+    return sum;
+}
+
+// By the table: what shows nothing between the least and the largest of its three samples shows
+// nothing.
 template <Lookup kind>
-HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, bool nan_transparent,
+HWY_INLINE RunSum integrate_by_table(const TileTransfer& transfer, bool colored, RunScalars run) {
+    const FloatTag d;
+    const Floats least = clamp01(d, hn::Min(run.middle, hn::Min(run.front, run.back)));
+    const Floats largest = clamp01(d, hn::Max(run.middle, hn::Max(run.front, run.back)));
+    const auto seen =
+        hn::And(hn::Gt(run.length, hn::Zero(d)), shows_something<kind>(transfer, least, largest));
+    if (hn::AllFalse(d, seen)) return {{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
+    straighten(run);
+    return integrate_run<kind>(transfer, colored, run.front, run.back, run.length, seen);
+}
+
+// The whole block.
+template <Lookup kind>
+HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
                                SlabBlock& block) {
     const FloatTag d;
-    for (int i = block.from; i < block.end; ++i) {
-        Floats front = hn::Load(d, block.edge_scalars + at(i));
-        Floats middle = hn::Load(d, block.scalars + at(i));
-        Floats back = hn::Load(d, block.edge_scalars + at(i + 1));
-        const Floats length = hn::Load(d, block.lengths + at(i));
-        auto seen = hn::Gt(length, hn::Zero(d));
-        if (nan_transparent) {
-            const Floats sum = hn::Add(hn::Add(front, middle), back);
-            const auto numbers = hn::Eq(sum, sum);
-            seen = hn::And(seen, numbers);
-            front = hn::IfThenElseZero(numbers, front);
-            middle = hn::IfThenElseZero(numbers, middle);
-            back = hn::IfThenElseZero(numbers, back);
-        }
-        const Floats least = clamp01(d, hn::Min(middle, hn::Min(front, back)));
-        const Floats largest = clamp01(d, hn::Max(middle, hn::Max(front, back)));
-        seen = hn::And(seen, shows_something<kind>(transfer, least, largest));
-        if (hn::AllFalse(d, seen)) {
-            hn::Store(hn::Zero(d), d, block.depths + at(i));
+    const auto integrate_all = [&](const auto& integrate) HWY_ATTR {
+        for (int i = block.from; i < block.end; ++i) {
+            const RunSum run = integrate(run_scalars(block, i, plan.nan_transparent));
+            hn::Store(run.depth, d, block.depths + at(i));
             if (!colored) continue;
-            for (auto& color : block.colors) hn::Store(hn::Zero(d), d, color + at(i));
-            continue;
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                hn::Store(run.color[channel], d, block.colors[channel] + at(i));
         }
-        const Floats mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(front, back));
-        const Floats bend = hn::Mul(hn::Set(d, 2.0f / 3.0f), hn::Sub(middle, mean));
-        const RunSum run = integrate_run<kind>(transfer, colored, clamp01(d, hn::Add(front, bend)),
-                                               clamp01(d, hn::Add(back, bend)), length, seen);
-        hn::Store(run.depth, d, block.depths + at(i));
-        if (!colored) continue;
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            hn::Store(run.color[channel], d, block.colors[channel] + at(i));
+    };
+    if (kind == Lookup::one && plan.linear) {
+        integrate_all([&](RunScalars run) HWY_ATTR {
+            straighten(run);
+            return integrate_linear(transfer, colored, run);
+        });
+    } else {
+        integrate_all([&](const RunScalars& run)
+                          HWY_ATTR { return integrate_by_table<kind>(transfer, colored, run); });
     }
 }
 

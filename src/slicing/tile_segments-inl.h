@@ -95,13 +95,13 @@ HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays
     return segments;
 }
 
-// Scalars in the middles, and where the plan has a table at the edges.
+// Scalars in the middles, and where the plan asks for runs at the edges.
 HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
                             const PacketRays& packet, const BlockRays& rays, bool inside,
                             SlabBlock& block) {
     const FloatTag d;
     const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
-    const bool table = slabs.plan->uses_table();
+    const bool ends = slabs.plan->integrates_runs();
     if (inside) {
         const auto among = [&](const float* depths) {
             return [&, depths](int i) { return point_at(rays, packet, hn::Set(d, depths[i])); };
@@ -109,7 +109,7 @@ HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
         const TileRays& frame = slabs.rays;
         sample_points<PointKind::inside>(brick, hardware, block.from, block.end,
                                          among(frame.middles.data()), block.scalars);
-        if (!table) return;
+        if (!ends) return;
         sample_points<PointKind::inside>(brick, hardware, block.from, block.end + 1,
                                          among(frame.edges.data()), block.edge_scalars);
         return;
@@ -119,7 +119,7 @@ HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
     };
     sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end, among(block.middles),
                                        block.scalars);
-    if (!table) return;
+    if (!ends) return;
     sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end + 1,
                                        among(block.edges), block.edge_scalars);
 }
@@ -176,8 +176,8 @@ inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
     const TileTransfer& transfer = *slabs.transfer;
     with_lookup(transfer, [&](auto kind) HWY_ATTR {
         constexpr Lookup lookup = decltype(kind)::value;
-        if (plan.uses_table()) {
-            integrate_runs<lookup>(transfer, colored, plan.nan_transparent, block);
+        if (plan.integrates_runs()) {
+            integrate_runs<lookup>(transfer, colored, plan, block);
         } else {
             classify<lookup>(transfer, colored, plan.nan_transparent, block);
         }

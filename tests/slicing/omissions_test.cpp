@@ -78,8 +78,8 @@ TEST_F(SlicingTest, EachOmissionKeepsThePicture) {
 
     // Faint colours: a segment's depth is below .02, so its colour is off by at most .02/12 of the
     // colour's range.
-    scene.transfer_function =
-        TransferFunction::linear({knot(0, {0, 0, 1}, 0), knot(1, {1, 0, 0}, 3)});
+    scene.transfer_function = TransferFunction::linear(
+        {knot(0, {0, 0, 1}, 0), knot(.5, {.2, .8, 0}, 1), knot(1, {1, 0, 0}, 3)});
     EXPECT_TRUE(has(omitted_in(volume, scene, capabilities()), "length_layers"));
     EXPECT_LE(change(volume, scene, capabilities()), 255 * .02 / 12);
 

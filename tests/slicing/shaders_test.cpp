@@ -37,7 +37,7 @@ std::vector<SlicePlan> every_segment_plan() {
     std::vector<SlicePlan> plans;
     for (const VolumeSampling sampling : {VolumeSampling::none, VolumeSampling::fetch,
                                           VolumeSampling::filtered, VolumeSampling::hardware}) {
-        for (int bits = 0; bits < 128; ++bits) {
+        for (int bits = 0; bits < 256; ++bits) {
             SlicePlan plan;
             plan.sampling = sampling;
             plan.orthographic = (bits & 1) != 0;
@@ -49,6 +49,7 @@ std::vector<SlicePlan> every_segment_plan() {
             plan.table.colored = !plan.single_color;
             plan.table.length_layers = (bits & 32) != 0 ? 5 : 1;
             plan.precise_rays = (bits & 64) != 0;
+            plan.linear = (bits & 128) != 0;
             plans.push_back(plan);
         }
     }

@@ -110,11 +110,15 @@ TEST_F(TileCodesTest, StraightRampsAreTheCores) {
 TEST_F(TileCodesTest, FieldsHaveTheShadersCodes) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{31, 27, 29}, SampleType::uint8});
-    for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
-        Scene scene = unit_box_scene(
-            TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(90, {.8, .1, .5}, 2),
-                                      knot(180, {.3, .6, .2}, 9), knot(255, {1, 1, .9}, 3)}),
-            projection, 61, 47);
+    const auto several =
+        TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(90, {.8, .1, .5}, 2),
+                                  knot(180, {.3, .6, .2}, 9), knot(255, {1, 1, .9}, 3)});
+    const auto one =
+        TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(255, {1, .2, .9}, 6)});
+    for (const auto& [transfer_function, projection] :
+         {std::pair(several, Projection::orthographic), std::pair(several, Projection::perspective),
+          std::pair(one, Projection::perspective)}) {
+        Scene scene = unit_box_scene(transfer_function, projection, 61, 47);
         scene.target = Target::emulated;
         scene.slice.samples = 64;
         for (const auto classification : {Classification::post, Classification::preintegrated}) {

@@ -28,6 +28,9 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
     scene.transfer_function =
         TransferFunction::linear({knot(seen_from, {.3, .6, .9}, 0), knot(1, {.9, .6, .1}, 900)});
     all.push_back({"opaque", scene, {}});  // rays end early
+    scene.transfer_function =
+        TransferFunction::linear({knot(seen_from, {.3, .6, .9}, 0), knot(1, {.9, .6, .1}, 20)});
+    all.push_back({"linear", scene, {}});
     scene.transfer_function = colored;
     for (const Target target : {Target::float16, Target::fixed8, Target::emulated}) {
         scene.target = target;
