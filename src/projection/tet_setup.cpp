@@ -128,16 +128,21 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
         const int last = window_.view().height - 1;
         const bool whole = parts[lane].piece == TetPart::whole;
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
-        const PixelArea pixels{pixel(lanes.first_column), pixel(lanes.last_column),
-                               last - pixel(lanes.last_row), last - pixel(lanes.first_row)};
         TetRecord& record = records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
-        result.areas[lane] = {pixels, false,
-                              depth <= faint_depth  ? PartDepth::faint
-                              : depth <= thin_depth ? PartDepth::thin
-                                                    : PartDepth::any,
-                              lanes.bounded[lane] != 0, to_float(lanes.farthest, lane)};
+        // One by one: a whole area that is copied waits for what has just been written of it.
+        PartArea& area = result.areas[lane];
+        area.first_column = pixel(lanes.first_column);
+        area.last_column = pixel(lanes.last_column);
+        area.first_row = last - pixel(lanes.last_row);
+        area.last_row = last - pixel(lanes.first_row);
+        area.careful = false;
+        area.depth = depth <= faint_depth  ? PartDepth::faint
+                     : depth <= thin_depth ? PartDepth::thin
+                                           : PartDepth::any;
+        area.bounded = lanes.bounded[lane] != 0;
+        area.farthest = to_float(lanes.farthest, lane);
         record.center_depth = to_float(lanes.center_depth, lane);
         record.center_z = to_float(lanes.center_z, lane);
         record.scalar = to_float(lanes.scalar, lane);
@@ -162,7 +167,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
             record.high[channel] = to_float(lanes.high[channel], lane);
         }
     }
-    // Not above: vectors that are read where numbers have just been written one by one wait.
+    // Not above, for the same reason.
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         PartArea& area = result.areas[lane];
         if (result.outcomes[lane] == Outcome::done)
