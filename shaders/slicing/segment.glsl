@@ -82,9 +82,10 @@ Segment integrate_samples(float front, float middle, float back, float world_len
     float largest = clamp(max(middle, max(front, back)), 0.0, 1.0);
     bool transparent = is_transparent(least, largest);
 #endif
-    // Straight runs of the scalar are what can be integrated; the trilinear field bends. The run from front to back is moved so
-    // that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of one
-    // cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of second.
+    // Straight runs of the scalar are what can be integrated; the trilinear field bends. The run from front to back is
+    // moved so that its mean is that of the parabola through the three samples (Simpson's rule, exact for the cubic of
+    // one cell): where extinction is linear in the scalar, optical depth is then right to fourth order instead of
+    // second.
     float bend = (2.0 / 3.0) * (middle - 0.5 * (front + back));
     front = clamp(front + bend, 0.0, 1.0);
     back = clamp(back + bend, 0.0, 1.0);

@@ -11,26 +11,19 @@ namespace {
 
 constexpr std::int32_t faces_per_leaf = 4;
 
-FaceTree::Box box_of(const TetMesh& mesh, const TetFace& face) {
-    FaceTree::Box box = FaceTree::nothing();
-    for (const glm::dvec3& corner : mesh.corners(face)) box.add(corner);
-    return box;
-}
-
 }  // namespace
 
 FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces) : order_(faces.size()) {
     std::vector<Box> boxes;
     boxes.reserve(faces.size());
-    for (const TetFace& face : faces) boxes.push_back(box_of(mesh, face));
+    for (const TetFace& face : faces) boxes.push_back(box_around(mesh.corners(face)));
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(faces.size());
     if (!faces.empty()) build(boxes, 0, static_cast<std::int32_t>(faces.size()));
 }
 
 void FaceTree::build(std::span<const Box> boxes, std::int32_t first, std::int32_t end) {
-    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    Box centers = box;
+    Box box = nothing(), centers = box;
     for (std::int32_t i = first; i < end; ++i) {
         const Box& face = boxes[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])];
         box.min = glm::min(box.min, face.min);

@@ -19,7 +19,6 @@ class FaceTree {
   public:
     struct Box {
         glm::dvec3 min, max;
-        bool empty() const { return !(min.x <= max.x); }
         void add(const glm::dvec3& point) { add({point, point}); }
         void add(const Box& other) {
             min = glm::min(min, other.min);
@@ -27,6 +26,12 @@ class FaceTree {
         }
     };
     static constexpr Box nothing() { return {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)}; }
+
+    static Box box_around(const std::array<glm::dvec3, 3>& corners) {
+        Box box = nothing();
+        for (const glm::dvec3& corner : corners) box.add(corner);
+        return box;
+    }
 
     FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
 

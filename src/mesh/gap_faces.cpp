@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/gap_faces.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "base/interrupt.h"
-#include "mesh/predicates.h"
+#include "mesh/norm1.h"
 #include "mesh/rounded_plane.h"
 
 namespace lamina {
@@ -52,13 +49,9 @@ class Search {
     bool is_outermost(std::int32_t face) {
         const Triangle corners = triangle(face);
         const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
-        const auto side_of = [&](const glm::dvec3& point) {
-            if (const int sign = plane.sign(point - corners[0])) return sign;
-            return orientation(corners[0], corners[1], corners[2], point);
-        };
         in_plane_.clear();
         // What was outside of the face before is outside of its neighbours mostly.
-        if (side_of(outside_) > 0) return false;
+        if (side_of(corners, plane, outside_) > 0) return false;
         const PlaneSide side(plane, corners[0], bounds_);
         bool outermost = true;
         const auto look_at = [&](std::int32_t other) {
@@ -72,7 +65,7 @@ class Search {
             if (!side.reaches(there)) return;
             bool in_plane = true;
             for (const glm::dvec3& point : there) {
-                const int sign = side_of(point);
+                const int sign = side_of(corners, plane, point);
                 in_plane &= sign == 0;
                 if (sign <= 0) continue;
                 outside_ = point;
@@ -94,9 +87,7 @@ class Search {
     }
 
     // Is the direction of its normal known?
-    static bool is_sure(const RoundedPlane& plane) {
-        return glm::dot(glm::abs(plane.normal), glm::dvec3(1)) > plane.error;
-    }
+    static bool is_sure(const RoundedPlane& plane) { return norm1(plane.normal) > plane.error; }
 
     const TetMesh& mesh_;
     FaceTree tree_;

@@ -17,12 +17,6 @@ constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one tas
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
 constexpr std::size_t most_looks = 200'000'000;
 
-FaceTree::Box box_of(const Triangle& triangle) {
-    FaceTree::Box box = FaceTree::nothing();
-    for (const glm::dvec3& corner : triangle) box.add(corner);
-    return box;
-}
-
 std::vector<TetFace> faces_of(const TetMesh& mesh, std::span<const std::int32_t> open_faces) {
     std::vector<TetFace> faces;
     faces.reserve(open_faces.size());
@@ -47,8 +41,8 @@ OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::i
       signs_(open_faces_.size()),
       found_((open_faces_.size() + faces_per_run - 1) / faces_per_run) {
     triangles_.reserve(open_faces_.size());
-    for (const TetFace& face : faces_of(mesh, open_faces_))
-        triangles_.push_back(mesh.corners(face));
+    for (const std::int32_t face : open_faces_)
+        triangles_.push_back(mesh.corners(mesh.open_faces()[static_cast<std::size_t>(face)]));
 }
 
 void OpenFaceConstraints::look_from(const Eye& eye) {
@@ -62,7 +56,7 @@ void OpenFaceConstraints::look_from(const Eye& eye) {
     const Boxes nothing{FaceTree::nothing(), FaceTree::nothing()};
     tree_.sum(std::span(boxes_), nothing, [&](std::int32_t index, Boxes& node) {
         const auto face = static_cast<std::size_t>(index);
-        if (signs_[face] < 0) node.add({box_of(triangles_[face]), seen_boxes_[face]});
+        if (signs_[face] < 0) node.add({FaceTree::box_around(triangles_[face]), seen_boxes_[face]});
     });
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "mesh/norm1.h"
 #include "mesh/predicates.h"
 
 namespace lamina {
@@ -21,10 +22,6 @@ constexpr double place_error = 8 * epsilon;
 // An open face that is met this share of the scale before the last exit still counts as met after
 // it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
 constexpr double touching = 1e-12;
-
-double norm1(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 // a * b - c * d to 2 ulps of itself (Kahan; Jeannerod, Louvet, Muller 2013): faces seen edge-on
 // keep their weights.

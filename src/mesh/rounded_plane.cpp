@@ -6,14 +6,13 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "mesh/norm1.h"
+#include "mesh/predicates.h"
+
 namespace lamina {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-double norm1(const glm::dvec3& v) {
-    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
-}
 
 }  // namespace
 
@@ -26,6 +25,12 @@ RoundedPlane::RoundedPlane(const glm::dvec3& u, const glm::dvec3& v)
 int RoundedPlane::sign(const glm::dvec3& from_origin) const {
     const double value = glm::dot(normal, from_origin), bound = error * norm1(from_origin);
     return value > bound ? 1 : -value > bound ? -1 : 0;
+}
+
+int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point) {
+    if (const int sign = plane.sign(point - face[0])) return sign;
+    if (point == face[0] || point == face[1] || point == face[2]) return 0;
+    return orientation(face[0], face[1], face[2], point);
 }
 
 // A plane's value at a point of a box is off by its error for the largest distance there, and by 8

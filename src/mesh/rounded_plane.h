@@ -22,6 +22,10 @@ struct RoundedPlane {
     int sign(const glm::dvec3& from_origin) const;
 };
 
+// On which side of a triangle's plane a point is, exactly: 1 where its corners are seen
+// counter-clockwise, -1, or 0. `plane`: through its first corner along the edges from there.
+int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
+
 // What is on the positive side of a plane or on it, to search boxes for.
 class PlaneSide {
   public:

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "mesh/norm1.h"
+
 namespace lamina {
 namespace {
 
@@ -18,7 +20,7 @@ constexpr double widest = 1e3;
 }  // namespace
 
 SeenBoxes::SeenBoxes(const Eye& eye, const glm::dvec3& center)
-    : eye_(eye), origin_(eye.at_infinity ? center : eye.position) {
+    : at_infinity_(eye.at_infinity), origin_(eye.at_infinity ? center : eye.position) {
     const glm::dvec3 towards = eye.at_infinity ? eye.position : center - eye.position;
     const glm::dvec3 size = glm::abs(towards);
     const double largest = std::max({size.x, size.y, size.z});
@@ -36,11 +38,11 @@ FaceTree::Box SeenBoxes::of(const Triangle& triangle) const {
     FaceTree::Box box = FaceTree::nothing();
     for (const glm::dvec3& corner : triangle) {
         const glm::dvec3 from = corner - origin_;
-        const double distance = std::abs(from.x) + std::abs(from.y) + std::abs(from.z);
+        const double distance = norm1(from);
         glm::dvec3 seen(glm::dot(from, axes_[0]), glm::dot(from, axes_[1]),
                         glm::dot(from, axes_[2]));
         glm::dvec3 slack(8 * epsilon * distance);
-        if (!eye_.at_infinity) {
+        if (!at_infinity_) {
             if (!(seen.z * widest > distance)) return {glm::dvec3(-INFINITY), glm::dvec3(INFINITY)};
             const double share = distance / seen.z;
             seen.x /= seen.z;

@@ -20,7 +20,7 @@ class SeenBoxes {
     FaceTree::Box of(const Triangle& triangle) const;
 
   private:
-    Eye eye_;
+    bool at_infinity_;
     glm::dvec3 origin_;
     glm::dmat3 axes_;  // columns: across, across, along the rays
 };

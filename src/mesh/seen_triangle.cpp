@@ -34,9 +34,7 @@ int SeenTriangle::edge_sign(const Eye& eye, std::size_t corner, const glm::dvec3
 }
 
 int SeenTriangle::face_sign(const glm::dvec3& point) const {
-    if (const int sign = face_.sign(point - corners_[0])) return sign;
-    if (point == corners_[0] || point == corners_[1] || point == corners_[2]) return 0;
-    return orientation(corners_[0], corners_[1], corners_[2], point);
+    return side_of(corners_, face_, point);
 }
 
 // 1: all corners of `other` on or outside this triangle's plane; -1: on or inside; 0: on both
