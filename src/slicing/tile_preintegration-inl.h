@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of shaders/optics/preintegration.glsl, and of how slicing/segment.glsl uses it.
+// Vector form of how shaders/slicing/segment.glsl uses the table of pre-integration.
 #if defined(LAMINA_SLICING_TILE_PREINTEGRATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_PREINTEGRATION_INL_H_
 #undef LAMINA_SLICING_TILE_PREINTEGRATION_INL_H_
@@ -9,122 +9,13 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
-
 #include "slicing/tile_block-inl.h"
-#include "slicing/tile_optics-inl.h"
+#include "slicing/tile_table-inl.h"
 #include "tiles/linear_segment-inl.h"
 #include "tiles/opacity-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
-
-using FloatMask = hn::Mask<FloatTag>;
-
-// A cell of the table and where in it.
-struct TableCell {
-    Ints corner;  // front node + nodes * back node
-    Floats front, back;
-};
-
-HWY_INLINE TableCell table_cell(std::int32_t nodes, Floats front, Floats back) {
-    const FloatTag d;
-    const IntTag di;
-    const Ints last = hn::Set(di, nodes - 2);
-    const Ints column = hn::Min(hn::ConvertTo(di, front), last);
-    const Ints row = hn::Min(hn::ConvertTo(di, back), last);
-    return {hn::Add(column, hn::Mul(row, hn::Set(di, nodes))),
-            hn::Sub(front, hn::ConvertTo(d, column)), hn::Sub(back, hn::ConvertTo(d, row))};
-}
-
-// An entry of the table: emission, of coloured tables, and mean extinction.
-struct TableEntry {
-    Floats emission[3];
-    Floats extinction;
-};
-
-// Bilinear between the four nodes of a cell.
-HWY_INLINE Floats table_extinction(const PreintegrationTable& table, const TableCell& cell) {
-    const FloatTag d;
-    const auto nodes = static_cast<std::int32_t>(table.nodes.size());
-    const float* const entries = table.mean_extinction.data();
-    const auto texel = [&](std::int32_t step)
-                           HWY_ATTR { return hn::GatherIndex(d, entries + step, cell.corner); };
-    const Floats front = mix(texel(0), texel(1), cell.front);
-    const Floats back = mix(texel(nodes), texel(nodes + 1), cell.front);
-    return mix(front, back, cell.back);
-}
-
-template <class D>
-HWY_INLINE hn::Vec<D> mixed_nodes(D d, const float* texels, std::ptrdiff_t right,
-                                  std::ptrdiff_t below, float front, float back) {
-    const auto share = hn::Set(d, front);
-    const auto near = mix(hn::LoadU(d, texels), hn::LoadU(d, texels + right), share);
-    const auto far = mix(hn::LoadU(d, texels + below), hn::LoadU(d, texels + below + right), share);
-    return mix(near, far, hn::Set(d, back));
-}
-
-// Between two layers of length, which lie side by side: both at once where vectors are long enough.
-template <class D8>
-HWY_INLINE void mix_layers(D8 d8, const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
-                           float front, float back, float layer, float* entry) {
-    const hn::FixedTag<float, 4> d4;
-    const auto share = hn::Set(d4, layer);
-    if constexpr (hn::MaxLanes(d8) == 8) {
-        const auto both = mixed_nodes(d8, texels, right, below, front, back);
-        hn::Store(mix(hn::LowerHalf(d4, both), hn::UpperHalf(d4, both), share), d4, entry);
-    } else {
-        const auto one = mixed_nodes(d4, texels, right, below, front, back);
-        const auto next = mixed_nodes(d4, texels + 4, right, below, front, back);
-        hn::Store(mix(one, next, share), d4, entry);
-    }
-}
-
-// Calls body(lane) for the lanes of a mask.
-template <class Body>
-HWY_INLINE void for_each_lane(FloatMask mask, const Body& body) {
-    alignas(8) std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(FloatTag(), mask, bytes);
-    for (std::uint32_t bits = bytes[0] | std::uint32_t{bytes[1]} << 8; bits != 0; bits &= bits - 1)
-        body(static_cast<std::size_t>(std::countr_zero(bits)));
-}
-
-// Lane by lane, because an entry's numbers lie side by side: several times as fast as gathers of
-// one number each. Of the lanes that are `wanted`; 0 in others.
-HWY_INLINE TableEntry table_entry(const TileTransfer& transfer, const TableCell& cell,
-                                  Floats length, FloatMask wanted) {
-    const FloatTag d;
-    const IntTag di;
-    const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());
-    const auto layers = static_cast<std::int32_t>(transfer.table->lengths.size());
-    const Floats layer = hn::Min(hn::Mul(length, hn::Set(d, transfer.layers_per_length)),
-                                 hn::Set(d, static_cast<float>(layers - 1)));
-    const Ints lower = hn::Min(hn::ConvertTo(di, layer), hn::Set(di, std::max(layers - 2, 0)));
-    alignas(64) std::int32_t places[most_lanes];
-    alignas(64) float fronts[most_lanes], backs[most_lanes], layer_shares[most_lanes];
-    alignas(64) float entries[4 * most_lanes] = {};
-    hn::Store(hn::Add(hn::Mul(cell.corner, hn::Set(di, layers)), lower), di, places);
-    hn::Store(cell.front, d, fronts);
-    hn::Store(cell.back, d, backs);
-    hn::Store(hn::Sub(layer, hn::ConvertTo(d, lower)), d, layer_shares);
-    const std::ptrdiff_t right = 4 * layers, below = right * nodes;
-    for_each_lane(wanted, [&](std::size_t lane) HWY_ATTR {
-        const float* const texels =
-            transfer.texels.data() + 4 * static_cast<std::ptrdiff_t>(places[lane]);
-        if (layers > 1) {
-            mix_layers(hn::CappedTag<float, 8>(), texels, right, below, fronts[lane], backs[lane],
-                       layer_shares[lane], entries + 4 * lane);
-        } else {
-            const hn::FixedTag<float, 4> d4;
-            hn::Store(mixed_nodes(d4, texels, right, below, fronts[lane], backs[lane]), d4,
-                      entries + 4 * lane);
-        }
-    });
-    TableEntry entry;
-    hn::LoadInterleaved4(d, entries, entry.emission[0], entry.emission[1], entry.emission[2],
-                         entry.extinction);
-    return entry;
-}
 
 // Coordinates of a scalar: its interval, its node.
 struct TablePlace {
@@ -211,51 +102,84 @@ HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunE
     return sum;
 }
 
-// A segment's colour, not associated, and its optical depth, where it shows anything at all.
+// A segment before the table is looked up.
+struct TableRun {
+    RunEnds ends;
+    TableCell cell;
+    FloatMask seen, cut;  // shows anything at all; crosses ends of intervals
+
+    FloatMask whole() const { return hn::AndNot(cut, seen); }
+};
+
 template <Lookup kind>
-HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floats front,
-                                Floats back, Floats length, FloatMask seen) {
+HWY_INLINE TableRun table_run(const TileTransfer& transfer, Floats front, Floats back,
+                              Floats length, FloatMask seen) {
     const FloatTag d;
-    const IntTag di;
-    const RunEnds run{front, back, length, table_place<kind>(transfer, front),
-                      table_place<kind>(transfer, back)};
     const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
-    const TableCell cell = table_cell(nodes, run.front_place.node, run.back_place.node);
-    const auto cut =
-        hn::And(hn::RebindMask(d, hn::Ne(run.front_place.interval, run.back_place.interval)), seen);
+    TableRun run;
+    run.ends = {front, back, length, table_place<kind>(transfer, front),
+                table_place<kind>(transfer, back)};
+    run.cell = table_cell(nodes, run.ends.front_place.node, run.ends.back_place.node);
+    run.seen = seen;
+    run.cut = hn::And(
+        hn::RebindMask(d, hn::Ne(run.ends.front_place.interval, run.ends.back_place.interval)),
+        seen);
+    return run;
+}
+
+// Lanes that are not cut must not read beyond the intervals.
+HWY_INLINE RunEnds ends_of_cut(const TableRun& run) {
+    const FloatTag d;
+    const auto keep = hn::RebindMask(IntTag(), run.cut);
+    RunEnds ends = run.ends;
+    ends.front_place.interval = hn::IfThenElseZero(keep, ends.front_place.interval);
+    ends.back_place.interval = hn::IfThenElseZero(keep, ends.back_place.interval);
+    ends.length = hn::IfThenElseZero(run.cut, ends.length);
+    ends.back = hn::IfThenElse(run.cut, ends.back, hn::Add(ends.front, hn::Set(d, 1.0f)));
+    return ends;
+}
+
+// A segment's colour, not associated, and its optical depth; `entry`: where it is whole, of tables
+// with colour.
+template <Lookup kind>
+HWY_INLINE RunSum finish_run(const TileTransfer& transfer, bool colored, const TableRun& run,
+                             const TableEntry& entry) {
+    const FloatTag d;
+    const Floats length = run.ends.length;
     RunSum sum;
     if (colored) {
-        const TableEntry entry = table_entry(transfer, cell, length, hn::AndNot(cut, seen));
         sum.depth = hn::Mul(entry.extinction, length);
         const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
                                                   hn::Div(hn::Set(d, 1.0f), entry.extinction));
         for (int channel = 0; channel < 3; ++channel)
             sum.color[channel] = hn::Mul(entry.emission[channel], inverse);
     } else {
-        sum.depth = hn::Mul(table_extinction(*transfer.table, cell), length);
+        sum.depth = hn::Mul(table_extinction(*transfer.table, run.cell), length);
     }
-    if (kind != Lookup::one && !hn::AllFalse(d, cut)) {
-        // Lanes that are not cut must not read beyond the intervals.
-        RunEnds ends = run;
-        const auto keep = hn::RebindMask(di, cut);
-        ends.front_place.interval = hn::IfThenElseZero(keep, run.front_place.interval);
-        ends.back_place.interval = hn::IfThenElseZero(keep, run.back_place.interval);
-        ends.length = hn::IfThenElseZero(cut, length);
-        ends.back = hn::IfThenElse(cut, back, hn::Add(front, hn::Set(d, 1.0f)));
-        const RunSum parts = cut_run<kind>(transfer, colored, ends, cut);
-        sum.depth = hn::IfThenElse(cut, parts.depth, sum.depth);
+    if (kind != Lookup::one && !hn::AllFalse(d, run.cut)) {
+        const RunSum parts = cut_run<kind>(transfer, colored, ends_of_cut(run), run.cut);
+        sum.depth = hn::IfThenElse(run.cut, parts.depth, sum.depth);
         if (colored) {
             const Floats opacity = opacity_from_depth(d, parts.depth);
             const auto some = hn::Gt(parts.depth, hn::Zero(d));
             for (int channel = 0; channel < 3; ++channel) {
                 const Floats color =
                     hn::IfThenElseZero(some, hn::Div(parts.color[channel], opacity));
-                sum.color[channel] = hn::IfThenElse(cut, color, sum.color[channel]);
+                sum.color[channel] = hn::IfThenElse(run.cut, color, sum.color[channel]);
             }
         }
     }
-    sum.depth = hn::IfThenElseZero(seen, sum.depth);
+    sum.depth = hn::IfThenElseZero(run.seen, sum.depth);
     return sum;
+}
+
+template <Lookup kind>
+HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floats front,
+                                Floats back, Floats length, FloatMask seen) {
+    const TableRun run = table_run<kind>(transfer, front, back, length, seen);
+    TableEntry entry;
+    if (colored) entry = table_entry(transfer, run.cell, length, run.whole());
+    return finish_run<kind>(transfer, colored, run, entry);
 }
 
 // Whether there is extinction anywhere between two scalars: in an interval before the last, or in
@@ -323,42 +247,64 @@ HWY_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
     return sum;
 }
 
-// By the table: what shows nothing between the least and the largest of its three samples shows
-// nothing.
-template <Lookup kind>
-HWY_INLINE RunSum integrate_by_table(const TileTransfer& transfer, bool colored, RunScalars run) {
+HWY_INLINE void store_run(const RunSum& run, bool colored, int slab, SlabBlock& block) {
     const FloatTag d;
-    const Floats least = clamp01(d, hn::Min(run.middle, hn::Min(run.front, run.back)));
-    const Floats largest = clamp01(d, hn::Max(run.middle, hn::Max(run.front, run.back)));
-    const auto seen =
-        hn::And(hn::Gt(run.length, hn::Zero(d)), shows_something<kind>(transfer, least, largest));
-    if (hn::AllFalse(d, seen)) return {{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
-    straighten(run);
-    return integrate_run<kind>(transfer, colored, run.front, run.back, run.length, seen);
+    hn::Store(run.depth, d, block.depths + at(slab));
+    if (!colored) return;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        hn::Store(run.color[channel], d, block.colors[channel] + at(slab));
+}
+
+// By the table, in stages of a few slabs, so that many entries are looked up at a time. What shows
+// nothing between the least and the largest of its three samples shows nothing.
+template <Lookup kind>
+HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, bool nan_transparent,
+                                   SlabBlock& block) {
+    const FloatTag d;
+    constexpr int stage = 8;
+    const Floats zero = hn::Zero(d);
+    TableRun runs[stage];
+    EntryPlaces places[stage];
+    alignas(64) float entries[stage][4 * most_lanes];
+    int slabs[stage];
+    for (int begin = block.from; begin < block.end;) {
+        int count = 0;
+        for (; count < stage && begin < block.end; ++begin) {
+            RunScalars run = run_scalars(block, begin, nan_transparent);
+            const Floats least = clamp01(d, hn::Min(run.middle, hn::Min(run.front, run.back)));
+            const Floats largest = clamp01(d, hn::Max(run.middle, hn::Max(run.front, run.back)));
+            const auto seen =
+                hn::And(hn::Gt(run.length, zero), shows_something<kind>(transfer, least, largest));
+            if (hn::AllFalse(d, seen)) {
+                store_run({{zero, zero, zero}, zero}, colored, begin, block);
+                continue;
+            }
+            straighten(run);
+            runs[count] = table_run<kind>(transfer, run.front, run.back, run.length, seen);
+            if (colored) set_places(transfer, runs[count].cell, run.length, places[count]);
+            slabs[count++] = begin;
+        }
+        for (int i = 0; colored && i < count; ++i)
+            look_up_entries(transfer, places[i], runs[i].whole(), entries[i]);
+        for (int i = 0; i < count; ++i) {
+            TableEntry entry;
+            if (colored) entry = load_entry(entries[i]);
+            store_run(finish_run<kind>(transfer, colored, runs[i], entry), colored, slabs[i],
+                      block);
+        }
+    }
 }
 
 // The whole block.
 template <Lookup kind>
 HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
                                SlabBlock& block) {
-    const FloatTag d;
-    const auto integrate_all = [&](const auto& integrate) HWY_ATTR {
-        for (int i = block.from; i < block.end; ++i) {
-            const RunSum run = integrate(run_scalars(block, i, plan.nan_transparent));
-            hn::Store(run.depth, d, block.depths + at(i));
-            if (!colored) continue;
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                hn::Store(run.color[channel], d, block.colors[channel] + at(i));
-        }
-    };
-    if (kind == Lookup::one && plan.linear) {
-        integrate_all([&](RunScalars run) HWY_ATTR {
-            straighten(run);
-            return integrate_linear(transfer, colored, run);
-        });
-    } else {
-        integrate_all([&](const RunScalars& run)
-                          HWY_ATTR { return integrate_by_table<kind>(transfer, colored, run); });
+    if (kind != Lookup::one || !plan.linear)
+        return integrate_by_table<kind>(transfer, colored, plan.nan_transparent, block);
+    for (int i = block.from; i < block.end; ++i) {
+        RunScalars run = run_scalars(block, i, plan.nan_transparent);
+        straighten(run);
+        store_run(integrate_linear(transfer, colored, run), colored, i, block);
     }
 }
 

@@ -88,9 +88,8 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     return corners;
 }
 
-// `hardware`: with weights of 8 bits, as texture units have (NUMERICS section 2).
-HWY_INLINE Floats weight_of(Floats share, bool hardware) {
-    if (!hardware) return share;
+// A weight of 8 bits, as texture units have (NUMERICS section 2).
+HWY_INLINE Floats hardware_weight(Floats share) {
     const FloatTag d;
     return hn::Mul(hn::Round(hn::Mul(share, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256));
 }
@@ -112,24 +111,25 @@ struct Cell {
 };
 
 template <PointKind kind>
-HWY_INLINE Cell cell_at(const TileBrick& brick, bool hardware, const Points& points) {
+HWY_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
     const FloatTag d;
     const IntTag di;
-    const Floats point[3] = {points.x, points.y, points.z};
     Cell cell;
-    Ints lower[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        Floats p = point[axis], least = p;
+    const auto lower_along = [&](std::size_t axis, Floats p) HWY_ATTR {
+        Floats least = p;
         if constexpr (kind != PointKind::inside) {
-            const float last = brick.last_sample[static_cast<std::size_t>(axis)];
+            const float last = brick.last_sample[axis];
             p = hn::Min(hn::Max(p, hn::Zero(d)), hn::Set(d, last));
             least = hn::Min(p, hn::Set(d, std::max(last - 1.0f, 0.0f)));
         }
-        lower[axis] = hn::ConvertTo(di, least);
-        cell.share[axis] = weight_of(hn::Sub(p, hn::ConvertTo(d, lower[axis])), hardware);
-    }
-    cell.index = hn::Add(hn::Add(lower[0], hn::Mul(lower[1], hn::Set(di, brick.row))),
-                         hn::Mul(lower[2], hn::Set(di, brick.slice)));
+        const Ints lower = hn::ConvertTo(di, least);
+        cell.share[axis] = hn::Sub(p, hn::ConvertTo(d, lower));
+        return lower;
+    };
+    const Ints x = lower_along(0, points.x), y = lower_along(1, points.y),
+               z = lower_along(2, points.z);
+    cell.index = hn::Add(hn::Add(x, hn::Mul(y, hn::Set(di, brick.row))),
+                         hn::Mul(z, hn::Set(di, brick.slice)));
     return cell;
 }
 
@@ -149,35 +149,59 @@ HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Float
     return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
 }
 
-// Quads in two stages, a few vectors each, so that many gathers are under way at a time.
+// Word by word: faster than gathers of the instruction set.
+inline HWY_NOINLINE void fetch_words(const std::uint32_t* near, const std::uint32_t* far,
+                                     const std::int32_t* indices, std::size_t count,
+                                     std::uint32_t* near_words, std::uint32_t* far_words) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto index = static_cast<std::ptrdiff_t>(indices[i]);
+        near_words[i] = near[index];
+        far_words[i] = far[index];
+    }
+}
+
+// Quads in three stages of half a block: where, words, scalars. Words of one pixel in each row and
+// column are on their way from farther caches meanwhile; its neighbours' are mostly beside it.
 template <PointKind kind, class PointAt>
 HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, int end,
                              const PointAt& point_at, float* scalars) {
     const FloatTag d;
     const WordTag du;
-    constexpr int stage = 8;
+    constexpr int stage = tile_block_slabs / 2 + 1;  // edges are one more than slabs
+    const std::size_t lanes = hn::Lanes(d);
     const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
     const auto* const far = near + brick.slice;
+    alignas(64) std::int32_t indices[stage * most_lanes];
     alignas(64) std::uint32_t quads[2][stage * most_lanes];
     alignas(64) float shares[3][stage * most_lanes];
     for (int begin = first; begin < end; begin += stage) {
-        const int count = std::min(stage, end - begin);
-        for (int i = 0; i < count; ++i) {
-            const std::size_t place = static_cast<std::size_t>(i) * most_lanes;
-            const Cell cell = cell_at<kind>(brick, hardware, point_at(begin + i));
-            hn::Store(hn::GatherIndex(du, near, cell.index), du, quads[0] + place);
-            hn::Store(hn::GatherIndex(du, far, cell.index), du, quads[1] + place);
-            for (int axis = 0; axis < 3; ++axis)
+        const auto count = static_cast<std::size_t>(std::min(stage, end - begin));
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t place = i * lanes;
+            const Cell cell = cell_at<kind>(brick, point_at(begin + static_cast<int>(i)));
+            hn::Store(cell.index, IntTag(), indices + place);
+            for (std::size_t lane = 0; lane < lanes; lane += TileGrid::block + 1) {
+                __builtin_prefetch(near + indices[place + lane]);
+                __builtin_prefetch(far + indices[place + lane]);
+            }
+            for (std::size_t axis = 0; axis < 3; ++axis)
                 hn::Store(cell.share[axis], d, shares[axis] + place);
         }
-        for (int i = 0; i < count; ++i) {
-            const std::size_t place = static_cast<std::size_t>(i) * most_lanes;
+        fetch_words(near, far, indices, count * lanes, quads[0], quads[1]);
+        if (hardware) {
+            for (float* const axis : shares) {
+                for (std::size_t i = 0; i < count * lanes; i += lanes)
+                    hn::Store(hardware_weight(hn::Load(d, axis + i)), d, axis + i);
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t place = i * lanes;
             const Corners corners =
                 unpack_quads(hn::Load(du, quads[0] + place), hn::Load(du, quads[1] + place));
             const Floats share[3] = {hn::Load(d, shares[0] + place), hn::Load(d, shares[1] + place),
                                      hn::Load(d, shares[2] + place)};
             hn::Store(scalar_in<TileLayout::quads, kind>(brick, corners, share), d,
-                      scalars + static_cast<std::size_t>(begin + i) * most_lanes);
+                      scalars + (static_cast<std::size_t>(begin) + i) * most_lanes);
         }
     }
 }
@@ -190,7 +214,10 @@ HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, 
     const auto sample = [&](auto kind_of_layout) HWY_ATTR {
         constexpr TileLayout layout = decltype(kind_of_layout)::value;
         for (int i = first; i < end; ++i) {
-            const Cell cell = cell_at<kind>(brick, hardware, point_at(i));
+            Cell cell = cell_at<kind>(brick, point_at(i));
+            if (hardware) {
+                for (Floats& share : cell.share) share = hardware_weight(share);
+            }
             const Corners corners = fetch_corners<layout>(brick, cell.index);
             hn::Store(scalar_in<layout, kind>(brick, corners, cell.share), d,
                       scalars + static_cast<std::size_t>(i) * most_lanes);
