@@ -33,7 +33,7 @@ constexpr double most_growth = 4, still_left = 0.7;
 // A picture is compared with one of so many times its slabs, or one that is there and has at least
 // so many times as many.
 constexpr int finer = 3;
-constexpr double fine_enough = 1.5;
+constexpr double fine_enough = 2;
 
 class SlabTrials {
   public:
@@ -53,9 +53,9 @@ class SlabTrials {
             slabs = std::clamp(slabs, too_few + 1, enough - 1);
             const double error = trials.emplace_back(try_slabs(slabs)).error;
             const bool kept = error <= goal_;
-            if (kept && error >= near_aim * goal_) break;
             if (!kept && slabs >= 2 * too_few && error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
+            if (kept && error >= near_aim * goal_) break;
             if (!kept) error_of_too_few = error;
             // The error falls with the square of the number, but where there are steps.
             const double next = std::ceil(slabs * std::sqrt(error / (aim * goal_)));

@@ -9,9 +9,9 @@ namespace lamina {
 namespace {
 
 // Coloured tables are read entry by entry: extinction stands beside emission.
-std::vector<float> with_extinction(const PreintegrationTable& table) {
+TileTransfer::Texels with_extinction(const PreintegrationTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
-    std::vector<float> texels(entries * 4 * layers);
+    TileTransfer::Texels texels(entries * 4 * layers);
     for (std::size_t entry = 0; entry < entries; ++entry) {
         for (std::size_t layer = 0; layer < layers; ++layer) {
             const auto from = static_cast<std::ptrdiff_t>(3 * (layer * entries + entry));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tbb/cache_aligned_allocator.h>
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -35,8 +37,9 @@ struct TileTransfer {
 
     std::shared_ptr<const PreintegrationTable> table;
     // Of a coloured table: emission and mean extinction, RGBA, the layers of a pair of scalars side
-    // by side.
-    std::vector<float> texels;
+    // by side; aligned, so that two of them are in one line of the cache.
+    using Texels = std::vector<float, tbb::cache_aligned_allocator<float>>;
+    Texels texels;
     float layers_per_length = 0;
 
     std::int64_t byte_count() const;
