@@ -196,6 +196,10 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
                           [&](const LinearPiece&) { ++facts.pieces; });
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
+    // A brick's range knows nothing of its samples that are no numbers.
+    if (facts.non_finite == 0)
+        facts.constant_bricks = find_constant_bricks(transfer_function, bricks,
+                                                     facts.occupied_bricks, margin_of(facts));
     measure_view(scene, facts);
     facts.ray_shares = measure_ray_shares(scene, volume, facts);
     return facts;

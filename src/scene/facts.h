@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/camera.h"
+#include "scene/constant_bricks.h"
 #include "scene/occupied_bricks.h"
 #include "scene/ray_shares.h"
 #include "scene/scene.h"
@@ -55,6 +56,7 @@ struct Facts {
     OccupiedBricks occupied_bricks;
     double occupied_share = 0;  // of the bricks
     DepthRange occupied_depth;  // eye-space depths of `occupied`
+    ConstantBricks constant_bricks;
     // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
     std::array<double, 3> extinction_quantiles{};
 

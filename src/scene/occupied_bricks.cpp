@@ -73,6 +73,12 @@ void OccupiedBricks::measure_distances() {
     }
 }
 
+std::size_t OccupiedBricks::place_of(const glm::dvec3& point) const {
+    const std::int64_t x = brick_of(point.x, count[0]), y = brick_of(point.y, count[1]),
+                       z = brick_of(point.z, count[2]);
+    return static_cast<std::size_t>((z * count[1] + y) * count[0] + x);
+}
+
 bool OccupiedBricks::any_in(const glm::dvec3& min, const glm::dvec3& max) const {
     std::array<std::int64_t, 3> first{}, last{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -6,6 +6,7 @@ namespace lamina {
 std::vector<std::string> omission_names() {
     return {"blending",
             "color",
+            "constant_regions",
             "double_precision",
             "drawing",
             "early_termination",

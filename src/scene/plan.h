@@ -57,6 +57,7 @@ struct SlicePlan : CompositingPlan {
     TablePlan table;      // else, for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
     bool occupied_only = false;  // what comes near no occupied brick is not evaluated
+    bool constant_regions = false;  // marched rays take these in one step
     // Marched rays end at this optical depth: what lies behind does not show.
     double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;

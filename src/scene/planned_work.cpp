@@ -54,9 +54,13 @@ double passes_of(const SlicePlan& plan) {
 }
 
 double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
+    const bool early = plan.ends_early();
+    const double in_one_step = !plan.constant_regions ? 0.0
+                               : early                ? shares.constant_before_opaque
+                                                      : shares.constant;
     if (plan.occupied_only)
-        return plan.ends_early() ? shares.occupied_before_opaque : shares.occupied;
-    return plan.ends_early() ? shares.box_before_opaque : shares.box;
+        return (early ? shares.occupied_before_opaque : shares.occupied) - in_one_step;
+    return (early ? shares.box_before_opaque : shares.box) - in_one_step;
 }
 
 // The plan as it would be without one of its omissions.
@@ -80,6 +84,8 @@ Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene,
     if (plan.uses_table()) work.bytes += table_bytes(plan.table);
     if (plan.occupied_only)
         work.bytes += static_cast<double>(facts.occupied_bricks.distance.size());
+    if (plan.constant_regions)
+        work.bytes += 2 * static_cast<double>(facts.constant_bricks.kind.size());
     return work;
 }
 

@@ -38,10 +38,14 @@ class ShareCounter {
             if (glm::clamp(at, facts_.grid.index_min(), facts_.grid.index_max()) != at) continue;
             const bool occupied = facts_.occupied_bricks.any_in(at, at);
             const bool seen = depth < opaque_;
+            const bool constant = !facts_.constant_bricks.kinds.empty() &&
+                                  !facts_.constant_bricks.varied.any_in(at, at);
             steps.box += 1;
             steps.occupied += occupied;
+            steps.constant += constant;
             steps.box_before_opaque += seen;
             steps.occupied_before_opaque += occupied && seen;
+            steps.constant_before_opaque += constant && seen;
             if (occupied && seen) depth += length * extinction_near(at);
         }
         return steps;
@@ -94,8 +98,10 @@ RayShares measure_ray_shares(const Scene& scene, const Volume& volume, const Fac
     for (const RayShares& ray : found) {
         sum.box += ray.box / all;
         sum.occupied += ray.occupied / all;
+        sum.constant += ray.constant / all;
         sum.box_before_opaque += ray.box_before_opaque / all;
         sum.occupied_before_opaque += ray.occupied_before_opaque / all;
+        sum.constant_before_opaque += ray.constant_before_opaque / all;
     }
     return sum;
 }

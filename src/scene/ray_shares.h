@@ -9,12 +9,13 @@ namespace lamina {
 
 struct Facts;
 
-// Of N slabs along the ray of each pixel, the share that lies in the box, that lies in bricks that
-// show something, and of both what comes before the ray is as good as opaque: counted on rays all
-// over the picture, from which a plan predicts its work.
+// Of N slabs along the ray of each pixel, the share that lies in the box, in bricks that show
+// something, in those of them that are constant (Facts::constant_bricks), and of each what comes
+// before the ray is as good as opaque: counted on rays all over the picture, from which a plan
+// predicts its work.
 struct RayShares {
-    double box = 0, occupied = 0;
-    double box_before_opaque = 0, occupied_before_opaque = 0;
+    double box = 0, occupied = 0, constant = 0;
+    double box_before_opaque = 0, occupied_before_opaque = 0, constant_before_opaque = 0;
 };
 
 // A ray ends where all that may lie behind changes no channel by more than this share of the wanted

@@ -72,6 +72,7 @@ class SlicePlanner {
         choose_bricks();
         choose_compositing();
         choose_geometry();
+        choose_constant_regions();
         choose_termination();
         return std::move(plan_);
     }
@@ -140,6 +141,20 @@ class SlicePlanner {
                                                    facts_.occupied_bricks.distance.size() <=
                                                        capabilities_.max_texture_bytes);
         return leaps && facts_.occupied_share < 1 && !jumps;
+    }
+
+    // Codes are those of slabs one by one. On software OpenGL asking where the regions are takes
+    // longer than they do.
+    void choose_constant_regions() {
+        SlicePlan& slice = plan_.slice;
+        if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;
+        if (slice.sampling == VolumeSampling::none || !capabilities_.tiles) return;
+        const ConstantBricks& constant = facts_.constant_bricks;
+        slice.constant_regions = leave_out(
+            !constant.kinds.empty(), "constant_regions",
+            fmt::format("{} of the bricks that show something have one colour and one extinction: "
+                        "rays take them in one step, by maps of {} bytes",
+                        percent(constant.share), 2 * constant.kind.size()));
     }
 
     // In a tree, what is behind one leaf's part of a ray is another leaf's; on GL, of several

@@ -39,21 +39,23 @@ TileBounds::TileBounds(const TileRays& rays, const TileBrickView& brick, int col
 }
 
 // Along a ray points are linear in depth: all lie between those at the front and at the back.
-bool TileBounds::shows(const TileSlabs& slabs, int first, int end) const {
-    const double front = first * slabs.rays.slab_thickness;
-    const double back = end * slabs.rays.slab_thickness;
-    const glm::dvec3 near = middle_ + front * middle_change_, far = middle_ + back * middle_change_;
+bool TileBounds::shows(const OccupiedBricks& bricks, const TileRays& rays, int first,
+                       int end) const {
+    const double front = first * rays.slab_thickness;
+    const double back = end * rays.slab_thickness;
+    const glm::dvec3 near = middle_at(front), far = middle_at(back);
     const glm::dvec3 reach = reach_ + back * reach_change_;
-    return slabs.occupied->any_in(glm::min(near, far) - reach, glm::max(near, far) + reach);
+    return bricks.any_in(glm::min(near, far) - reach, glm::max(near, far) + reach);
 }
 
-TileBounds::Stretch TileBounds::next_stretch(const TileSlabs& slabs, int first, int end) const {
-    const double thickness = slabs.rays.slab_thickness;
+TileBounds::Stretch TileBounds::next_stretch(const OccupiedBricks& bricks, const TileRays& rays,
+                                             int first, int end) const {
+    const double thickness = rays.slab_thickness;
     const double front = first * thickness;
-    const glm::dvec3 middle = middle_ + front * middle_change_;
+    const glm::dvec3 middle = middle_at(front);
     const glm::dvec3 reach = reach_ + front * reach_change_;
     glm::dvec3 min, max;
-    const bool empty = slabs.occupied->empty_around(middle, min, max);
+    const bool empty = bricks.empty_around(middle, min, max);
     double exit = never;
     if (!empty) {
         for (int axis = 0; axis < 3; ++axis)
@@ -74,8 +76,8 @@ TileBounds::Stretch TileBounds::next_stretch(const TileSlabs& slabs, int first, 
     }
     const int empty_end = inside ? slabs_before(exit, thickness, first, end) : first;
     if (empty_end > first) return {empty_end, false};
-    const int tested_end = std::min(first + slabs.rays.tested_slabs, end);
-    return {tested_end, shows(slabs, first, tested_end)};
+    const int tested_end = std::min(first + rays.tested_slabs, end);
+    return {tested_end, shows(bricks, rays, first, tested_end)};
 }
 
 }  // namespace lamina

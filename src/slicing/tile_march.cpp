@@ -131,8 +131,7 @@ class Marcher {
                     if (opaque[p]) continue;
                     block_.wanted = rays_.wanted(slabs_, p, number);
                     if (block_.wanted == 0) continue;
-                    segments_ +=
-                        set_segments(slabs_, brick, rays_.packets[p], !single_color_, block_);
+                    set_block(brick, p, number);
                     const LeafSum before = leaves[p];
                     add_block(leaves[p]);
                     if (plan_.ends_early()) opaque[p] = end_rays(before, leaves[p]);
@@ -144,6 +143,19 @@ class Marcher {
             for (int channel = 0; channel < 3; ++channel)
                 sums[p].color[channel] = to_floats(FloatTag(), leaves[p].color[channel]);
         }
+    }
+
+    void set_block(const TileBrickView& brick, std::size_t packet, int number) {
+        const PacketRays& rays = rays_.packets[packet];
+        const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);
+        block_.wanted &= ~constant;
+        segments_ += set_segments(slabs_, brick, rays, !single_color_, block_);
+        block_.wanted |= constant;
+        for_each_run(constant, [&](int first, int end) {
+            const OpticalProperties& optics =
+                rays_.constant_optics(slabs_, block_.first_slab + first);
+            set_constant_run(slabs_, optics, rays, !single_color_, first, end, block_);
+        });
     }
 
     // Takes back what a block added to rays that were opaque before: each pixel ends by itself,

@@ -180,7 +180,9 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 struct GroupRays {
     PacketRays packets[group_packets];
     TileBounds bounds, block_bounds[group_blocks];
-    SlabMask shown[group_blocks];      // of slabs from `origin` on, where not all are
+    // Of slabs from `origin` on: those that may show something, and, of the group as a whole, those
+    // in which not all is constant.
+    SlabMask shown[group_blocks], varied;
     int origin, first_slab, end_slab;  // of all packets
 
     HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
@@ -211,18 +213,26 @@ struct GroupRays {
             first_slab = std::min(first_slab, rays.first_slab);
             end_slab = std::max(end_slab, rays.end_slab);
         }
-        if (slabs.occupied != nullptr) find_shown(slabs);
+        if (slabs.occupied != nullptr) find_shown(*slabs.occupied, slabs.rays);
+        if (slabs.constant != nullptr) find_varied(slabs.constant->varied, slabs.rays);
     }
 
     // First by all of the group, then block by block where that shows something.
-    void find_shown(const TileSlabs& slabs) {
+    void find_shown(const OccupiedBricks& bricks, const TileRays& rays) {
         for (SlabMask& mask : shown) mask.clear(end_slab - origin);
-        bounds.for_each_shown(slabs, first_slab, end_slab, [&](int first, int end) {
+        bounds.for_each_shown(bricks, rays, first_slab, end_slab, [&](int first, int end) {
             for (std::size_t i = 0; i < group_blocks; ++i) {
-                block_bounds[i].for_each_shown(slabs, first, end, [&](int from, int to) {
+                block_bounds[i].for_each_shown(bricks, rays, first, end, [&](int from, int to) {
                     shown[i].set(from - origin, to - origin);
                 });
             }
+        });
+    }
+
+    void find_varied(const OccupiedBricks& bricks, const TileRays& rays) {
+        varied.clear(end_slab - origin);
+        bounds.for_each_shown(bricks, rays, first_slab, end_slab, [&](int first, int end) {
+            varied.set(first - origin, end - origin);
         });
     }
 
@@ -234,6 +244,18 @@ struct GroupRays {
                                          std::min(rays.end_slab - begin, tile_block_slabs));
         if (slabs.occupied == nullptr) return all;
         return all & shown[packet / block_packets].block(number);
+    }
+
+    // Of these, the ones that a packet takes in one step with those beside them.
+    BlockMask constant(const TileSlabs& slabs, int number, BlockMask wanted) const {
+        return slabs.constant == nullptr ? 0 : wanted & ~varied.block(number);
+    }
+
+    // What a slab that is constant has.
+    const OpticalProperties& constant_optics(const TileSlabs& slabs, int slab) const {
+        const double middle = (slab + 0.5) * slabs.rays.slab_thickness;
+        const ConstantBricks& constant = *slabs.constant;
+        return constant.kinds[constant.kind_at(bounds.middle_at(middle))];
     }
 };
 

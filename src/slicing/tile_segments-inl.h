@@ -185,6 +185,26 @@ inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
     return segments;
 }
 
+// A run of slabs in a constant region becomes its first one, as deep as all.
+HWY_INLINE void set_constant_run(const TileSlabs& slabs, const OpticalProperties& optics,
+                                 const PacketRays& packet, bool colored, int first, int end,
+                                 SlabBlock& block) {
+    const FloatTag d;
+    const BlockRays rays = block_rays(packet, block.first_slab * slabs.rays.slab_thickness);
+    const auto edge = [&](int i) HWY_ATTR {
+        const Floats depth = hn::Set(d, slabs.rays.edges[static_cast<std::size_t>(i)]);
+        return hn::Min(hn::Max(depth, rays.enter), rays.leave);
+    };
+    const Floats length = hn::Mul(hn::Sub(edge(end), edge(first)), packet.length_float);
+    const Floats extinction = hn::Set(d, static_cast<float>(optics.extinction));
+    hn::Store(hn::Mul(extinction, length), d, block.depths + at(first));
+    block.wanted &= ~block_mask(first + 1, end);
+    for (int channel = 0; colored && channel < 3; ++channel) {
+        hn::Store(hn::Set(d, static_cast<float>(optics.color[channel])), d,
+                  block.colors[channel] + at(first));
+    }
+}
+
 // Fills the depths and colours of the slabs that are wanted; returns how many segments have a
 // length.
 inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,

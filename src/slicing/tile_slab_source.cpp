@@ -42,6 +42,10 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         occupied_ = facts.occupied_bricks;
         slabs_.occupied = &occupied_;
     }
+    if (plan_.constant_regions) {
+        constant_ = facts.constant_bricks;
+        slabs_.constant = &constant_;
+    }
     slabs_.bricks.reserve(plan_.bricks.size());
     if (plan_.dither) {
         slabs_.alpha_ranks = dither_ranks(plan_.dither->period, plan_.dither->seed);
@@ -115,7 +119,8 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
 }
 
 std::int64_t TileSlabSource::byte_count() const {
-    return static_cast<std::int64_t>(occupied_.distance.size()) +
+    return static_cast<std::int64_t>(occupied_.distance.size() + constant_.kind.size() +
+                                     constant_.varied.distance.size()) +
            (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
 }
 

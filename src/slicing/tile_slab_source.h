@@ -31,6 +31,7 @@ class TileSlabSource {
     const SlicePlan& plan_;
     Grid grid_;
     OccupiedBricks occupied_;
+    ConstantBricks constant_;
     std::optional<TileTransfer> transfer_;
     std::optional<TileVolume> volume_;
     TileSlabs slabs_;

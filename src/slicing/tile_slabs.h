@@ -45,6 +45,7 @@ struct TileSlabs {
     const SlicePlan* plan = nullptr;
     const TileTransfer* transfer = nullptr;    // null where no scalar is fetched
     const OccupiedBricks* occupied = nullptr;  // null where all slabs are evaluated
+    const ConstantBricks* constant = nullptr;  // null where none of them is taken in one step
     TileRays rays;
     std::vector<TileBrickView> bricks;  // that show something, in the plan's order
     std::array<float, 3> single_color{};
