@@ -44,15 +44,18 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
         farthest_first_ = std::make_unique<FarthestFirst>(mesh);
 }
 
-std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye) {
+std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
+                                                    const std::function<void()>& meanwhile) {
     report_ = {};
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
-        farthest_first_ ? sort_farthest_first() : sort_topologically();
-    } else if (method_ == OrderMethod::centroid) {
-        sort_centroids(eye);
+        parallel_invoke([&] { farthest_first_ ? sort_farthest_first() : sort_topologically(); },
+                        meanwhile);
+        return order_;
     }
+    if (method_ == OrderMethod::centroid) sort_centroids(eye);
+    meanwhile();
     return order_;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -42,7 +43,9 @@ class VisibilityOrder {
     VisibilityOrder(const TetMesh& mesh, OrderMethod method);
 
     // All tets, back to front; valid until the next call. For an eye anywhere, inside the mesh too.
-    std::span<const std::int32_t> sort(const Eye& eye);
+    // `meanwhile` is called once, while the rest takes but one core.
+    std::span<const std::int32_t> sort(
+        const Eye& eye, const std::function<void()>& meanwhile = [] {});
     std::span<const std::int32_t> order() const { return order_; }  // of the last sort()
 
     const OrderReport& report() const { return report_; }

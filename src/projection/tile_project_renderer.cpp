@@ -18,10 +18,10 @@ namespace {
 constexpr double margin = 1e-3;
 
 // Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches
-// (1.3 MB with 800 x 600 pixels), and for two batches to take less memory than a fourth of the
+// (2 MB with 800 x 600 pixels), and for two batches to take less memory than a fourth of the
 // mesh's parts.
 std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
-    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 8);
+    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 12);
 }
 
 double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/visible_parts.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -35,34 +33,38 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
         spans_.resize(tets.size());
         parallel_for(count_, 4096, [&](std::int64_t index) {
             const auto tet = static_cast<std::size_t>(index);
-            spans_[tet] = draw_transparent ? pieces_.met(scalar_, tets[tet])
-                                           : pieces_.visible(scalar_, tets[tet]);
+            const TetPieces::Span span = draw_transparent ? pieces_.met(scalar_, tets[tet])
+                                                          : pieces_.visible(scalar_, tets[tet]);
+            spans_[tet] = {span, span.first};
         });
         // Of no volume, and of planes that say nothing.
-        for (const std::int32_t tet : mesh.flat_tets()) spans_[static_cast<std::size_t>(tet)] = {};
+        for (const std::int32_t tet : mesh.flat_tets())
+            spans_[static_cast<std::size_t>(tet)].span = {};
         count_ = std::transform_reduce(
             spans_.begin(), spans_.end(), std::int64_t{0}, std::plus<>(),
-            [&](const TetPieces::Span& span) -> std::int64_t { return parts_in(span); });
+            [&](const TetSpan& tet) -> std::int64_t { return parts_in(tet.span); });
     }
     parts_.reserve(static_cast<std::size_t>(count_));
     firsts_.reserve(tets.size() / block + 2);
 }
 
-// Of the tets after the first, which lie anywhere in the mesh. (Inlined: see TetSetup::prefetch.)
-void VisibleParts::prefetch(std::span<const std::int32_t> tets) const {
-    constexpr std::size_t near = 8, far = 16;
-    if (spans_.empty() || tets.size() <= far) return;
-    hwy::Prefetch(&spans_[static_cast<std::size_t>(tets[far])]);
-    hwy::Prefetch(&mesh_.tets()[static_cast<std::size_t>(tets[far])]);
-    if (!is_sorted_by_eye(spans_[static_cast<std::size_t>(tets[near])])) return;
-    for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(tets[near])]) {
-        hwy::Prefetch(&mesh_.points()[static_cast<std::size_t>(corner)]);
-        hwy::Prefetch(&scalar_[static_cast<std::size_t>(corner)]);
-    }
+// In the mesh's own order, in which corners lie near one another.
+void VisibleParts::look_from(const Eye& eye) {
+    if (!cut_) return;
+    parallel_for(static_cast<std::int64_t>(spans_.size()), block, [&](std::int64_t index) {
+        const auto tet = static_cast<std::size_t>(index);
+        TetSpan& parts = spans_[tet];
+        if (parts.span.first < parts.span.last) parts.nearest = nearest_piece(tet, eye);
+    });
+}
+
+std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
+    look_from(eye);
+    return list_tets(order);
 }
 
 // How many parts a tet has does not depend on the eye: each task knows where its own begin.
-std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order, const Eye& eye) {
+std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> order) {
     const std::size_t blocks = (order.size() + block - 1) / block;
     const auto tets_of = [&](std::size_t number) {
         return order.subspan(number * block, std::min(block, order.size() - number * block));
@@ -80,10 +82,7 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
         const auto number = static_cast<std::size_t>(index);
         TetPart* next = parts_.data() + firsts_[number];
         const auto tets = tets_of(number);
-        for (std::size_t i = 0; i < tets.size(); ++i) {
-            prefetch(tets.subspan(i));
-            next = list_parts(tets[i], eye, next);
-        }
+        for (const std::int32_t tet : tets) next = list_parts(tet, next);
     });
     return parts_;
 }
@@ -92,10 +91,10 @@ std::span<const TetPart> VisibleParts::sorted(VisibilityOrder& order, const Eye&
                                               bool scattered) {
     if (is_scattered_) return parts_;
     Stage sorting("sort");
-    const auto tets = order.sort(eye);
+    const auto tets = order.sort(eye, [&] { look_from(eye); });
     sorting.end();
     const Stage listing("parts");
-    list(tets, eye);
+    list_tets(tets);
     if (scattered) scatter();
     return parts_;
 }
@@ -119,13 +118,22 @@ std::int64_t VisibleParts::parts_in(const TetPieces::Span& span) const {
 std::size_t VisibleParts::parts_of(std::int32_t tet) const {
     return spans_.empty()
                ? 1
-               : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)]));
+               : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)].span));
 }
 
 // Along every ray the scalar goes one way, away from what it would be at the eye: the part nearest
 // to that hides all others, those above it hide those farther above, those below it those farther
 // below, and no ray meets both.
-TetPart* VisibleParts::list_parts(std::int32_t tet, const Eye& eye, TetPart* next) const {
+std::int32_t VisibleParts::nearest_piece(std::size_t tet, const Eye& eye) const {
+    const TetPieces::Span& span = spans_[tet].span;
+    const double at_eye = scalar_at_eye(mesh_.tets()[tet], eye);
+    std::int32_t nearest = span.first;
+    while (nearest < span.last && pieces_.pieces()[static_cast<std::size_t>(nearest)].to < at_eye)
+        ++nearest;
+    return nearest;
+}
+
+TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
     if (parts_of(tet) == 0) return next;
     if (!cut_) {
         *next++ = {tet};
@@ -134,15 +142,7 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, const Eye& eye, TetPart* nex
     const auto append = [&](std::int32_t piece) {
         if (draw_transparent_ || !pieces_.transparent(piece)) *next++ = {tet, piece};
     };
-    const TetPieces::Span& span = spans_[static_cast<std::size_t>(tet)];
-    std::int32_t nearest = span.first;
-    if (is_sorted_by_eye(span)) {
-        const double at_eye = scalar_at_eye(mesh_.tets()[static_cast<std::size_t>(tet)], eye);
-        const auto end = [&](std::int32_t piece) {
-            return pieces_.pieces()[static_cast<std::size_t>(piece)].to;
-        };
-        while (nearest < span.last && end(nearest) < at_eye) ++nearest;
-    }
+    const auto& [span, nearest] = spans_[static_cast<std::size_t>(tet)];
     for (std::int32_t piece = span.last; piece > nearest; --piece) append(piece);
     for (std::int32_t piece = span.first; piece < nearest; ++piece) append(piece);
     append(nearest);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <hwy/base.h>
-
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,23 +30,26 @@ class VisibleParts {
     std::int64_t count() const { return count_; }  // of every list
 
   private:
-    // Does the order of its parts depend on the eye?
-    bool is_sorted_by_eye(const TetPieces::Span& span) const {
-        return cut_ && span.first < span.last;
-    }
-    HWY_INLINE void prefetch(std::span<const std::int32_t> tets) const;
+    struct TetSpan {
+        TetPieces::Span span;
+        std::int32_t nearest;  // its part that is nearest to what the scalar would be at the eye
+    };
+
+    void look_from(const Eye& eye);  // parallel
+    std::span<const TetPart> list_tets(std::span<const std::int32_t> order);
     void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
+    std::int32_t nearest_piece(std::size_t tet, const Eye& eye) const;
     // From `next` on; returns where the next tet's go.
-    TetPart* list_parts(std::int32_t tet, const Eye& eye, TetPart* next) const;
+    TetPart* list_parts(std::int32_t tet, TetPart* next) const;
     double scalar_at_eye(const Tet& tet, const Eye& eye) const;
 
     const TetMesh& mesh_;
     std::span<const double> scalar_;
     const TetPieces& pieces_;
     bool cut_, draw_transparent_;
-    std::vector<TetPieces::Span> spans_;  // of tets; empty where all are drawn whole
+    std::vector<TetSpan> spans_;  // of tets; empty where all are drawn whole
     std::int64_t count_ = 0;
     std::vector<TetPart> parts_;
     std::vector<std::size_t> firsts_;  // number of each block of tets' first part, and the end
