@@ -179,23 +179,17 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 // The rays of a group through one brick. Packets outside the image want no slabs.
 struct GroupRays {
     PacketRays packets[group_packets];
-    TileBounds bounds, block_bounds[group_blocks];
-    // Of slabs from `origin` on: those that may show something, and, of the group as a whole, those
-    // in which not all is constant.
-    SlabMask shown[group_blocks], varied;
+    TileBounds bounds;
+    // Of slabs from `origin` on: those that may show something, and those in which not all is
+    // constant. Asked for block by block they would be fewer, and take longer than they save.
+    SlabMask shown, varied;
     int origin, first_slab, end_slab;  // of all packets
 
     HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
                                const TileGrid::Tile& area, std::size_t group) {
-        constexpr int edge = TileGrid::block;
-        const auto bounds_of = [&](std::size_t packet, int pixels) {
-            const TileGrid::Place at =
-                TileGrid::pixel_at(static_cast<int>(packet_place(group, packet)));
-            return TileBounds(frame, brick, area.column + at.column, area.row + at.row, pixels);
-        };
-        bounds = bounds_of(0, 2 * edge);
-        for (std::size_t i = 0; i < group_blocks; ++i)
-            block_bounds[i] = bounds_of(i * block_packets, edge);
+        const TileGrid::Place first = TileGrid::pixel_at(static_cast<int>(packet_place(group, 0)));
+        bounds = {frame, brick, area.column + first.column, area.row + first.row,
+                  2 * TileGrid::block};
         for (std::size_t p = 0; p < group_packets; ++p) {
             const TileGrid::Place at = TileGrid::pixel_at(static_cast<int>(packet_place(group, p)));
             packets[p] = packet_rays(frame, brick, area.column + at.column, area.row + at.row);
@@ -213,27 +207,14 @@ struct GroupRays {
             first_slab = std::min(first_slab, rays.first_slab);
             end_slab = std::max(end_slab, rays.end_slab);
         }
-        if (slabs.occupied != nullptr) find_shown(*slabs.occupied, slabs.rays);
-        if (slabs.constant != nullptr) find_varied(slabs.constant->varied, slabs.rays);
+        if (slabs.occupied != nullptr) find(*slabs.occupied, slabs.rays, shown);
+        if (slabs.constant != nullptr) find(slabs.constant->varied, slabs.rays, varied);
     }
 
-    // First by all of the group, then block by block where that shows something.
-    void find_shown(const OccupiedBricks& bricks, const TileRays& rays) {
-        for (SlabMask& mask : shown) mask.clear(end_slab - origin);
-        bounds.for_each_shown(bricks, rays, first_slab, end_slab, [&](int first, int end) {
-            for (std::size_t i = 0; i < group_blocks; ++i) {
-                block_bounds[i].for_each_shown(bricks, rays, first, end, [&](int from, int to) {
-                    shown[i].set(from - origin, to - origin);
-                });
-            }
-        });
-    }
-
-    void find_varied(const OccupiedBricks& bricks, const TileRays& rays) {
-        varied.clear(end_slab - origin);
-        bounds.for_each_shown(bricks, rays, first_slab, end_slab, [&](int first, int end) {
-            varied.set(first - origin, end - origin);
-        });
+    void find(const OccupiedBricks& bricks, const TileRays& rays, SlabMask& mask) const {
+        mask.clear(end_slab - origin);
+        bounds.for_each_shown(bricks, rays, first_slab, end_slab,
+                              [&](int first, int end) { mask.set(first - origin, end - origin); });
     }
 
     // The slabs of block `number` from `origin` on that a packet wants and that may show something.
@@ -243,7 +224,7 @@ struct GroupRays {
         const BlockMask all = block_mask(std::max(rays.first_slab - begin, 0),
                                          std::min(rays.end_slab - begin, tile_block_slabs));
         if (slabs.occupied == nullptr) return all;
-        return all & shown[packet / block_packets].block(number);
+        return all & shown.block(number);
     }
 
     // Of these, the ones that a packet takes in one step with those beside them.
