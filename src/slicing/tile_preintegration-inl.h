@@ -37,18 +37,9 @@ struct RunSum {
     Floats depth;
 };
 
-// Adds a run between two nodes behind `sum`, in the lanes that are `wanted`; others lose their
-// meaning.
-HWY_INLINE void add_run(const TileTransfer& transfer, bool colored, Floats front_node,
-                        Floats back_node, Floats length, FloatMask wanted, RunSum& sum) {
+// Adds a part with an entry behind `sum`.
+HWY_INLINE void add_entry(const TableEntry& entry, Floats length, RunSum& sum) {
     const FloatTag d;
-    const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
-    const TableCell cell = table_cell(nodes, front_node, back_node);
-    if (!colored) {
-        sum.depth = mul_add(table_extinction(*transfer.table, cell), length, sum.depth);
-        return;
-    }
-    const TableEntry entry = table_entry(transfer, cell, length, wanted);
     const Floats depth = hn::Mul(entry.extinction, length);
     const auto seen = hn::Gt(depth, hn::Zero(d));
     const Floats transmitted = exp_of(d, hn::Neg(sum.depth));
@@ -64,14 +55,31 @@ struct RunEnds {
     TablePlace front_place, back_place;
 };
 
-// Of segments that cross ends of intervals, those of the lanes that are `wanted`: cut at the first
-// and at the last of these.
+// The part of a segment that is looked up at a time.
+struct TableRun {
+    TableCell cell;
+    Floats length;
+};
+
+// A segment before the table is looked up. Where it crosses ends of intervals it is cut at the
+// first and at the last of these: `first` is the part before them, else all of it. Most cross one
+// end, and have nothing `between`.
+struct Segment {
+    TableRun first, between, last;
+    FloatMask seen, cut, parted;  // shows anything at all; is cut; has something between
+    bool some_cut;
+};
+
+HWY_INLINE std::int32_t table_nodes(const TileTransfer& transfer) {
+    return static_cast<std::int32_t>(transfer.table->nodes.size());
+}
+
+// Sets the parts of lanes that are cut.
 template <Lookup kind>
-HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunEnds& run,
-                          FloatMask wanted) {
-    const FloatTag d;
+HWY_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run, Segment& segment) {
     const IntTag di;
     const Ints one = hn::Set(di, 1);
+    const std::int32_t nodes = table_nodes(transfer);
     const auto rising = hn::Lt(run.front, run.back);
     const auto rising_int = hn::RebindMask(di, rising);
     const Ints front_interval = run.front_place.interval, back_interval = run.back_place.interval;
@@ -88,98 +96,123 @@ HWY_INLINE RunSum cut_run(const TileTransfer& transfer, bool colored, const RunE
     const Floats front_end = hn::IfThenElse(rising, right_node(front_interval),
                                             look_up<kind>(transfer.first_node, front_interval));
     const Floats per_scalar = hn::Div(run.length, hn::Sub(run.back, run.front));
-    RunSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
-    add_run(transfer, colored, run.front_place.node, front_end,
-            hn::Mul(hn::Sub(first_end, run.front), per_scalar), wanted, sum);
-    // Most segments cross one end: nothing lies between the first and the last.
-    const auto between = hn::And(wanted, hn::Ne(first_end, last_end));
-    if (!hn::AllFalse(d, between)) {
-        add_run(transfer, colored, look_up<kind>(transfer.first_node, first), back_end,
-                hn::Mul(hn::Sub(last_end, first_end), per_scalar), between, sum);
-    }
-    add_run(transfer, colored, back_end, run.back_place.node,
-            hn::Mul(hn::Sub(run.back, last_end), per_scalar), wanted, sum);
-    return sum;
-}
-
-// A segment before the table is looked up.
-struct TableRun {
-    RunEnds ends;
-    TableCell cell;
-    FloatMask seen, cut;  // shows anything at all; crosses ends of intervals
-
-    FloatMask whole() const { return hn::AndNot(cut, seen); }
-};
-
-template <Lookup kind>
-HWY_INLINE TableRun table_run(const TileTransfer& transfer, Floats front, Floats back,
-                              Floats length, FloatMask seen) {
-    const FloatTag d;
-    const auto nodes = static_cast<std::int32_t>(transfer.table->nodes.size());
-    TableRun run;
-    run.ends = {front, back, length, table_place<kind>(transfer, front),
-                table_place<kind>(transfer, back)};
-    run.cell = table_cell(nodes, run.ends.front_place.node, run.ends.back_place.node);
-    run.seen = seen;
-    run.cut = hn::And(
-        hn::RebindMask(d, hn::Ne(run.ends.front_place.interval, run.ends.back_place.interval)),
-        seen);
-    return run;
+    const auto length = [&](Floats from, Floats to)
+                            HWY_ATTR { return hn::Mul(hn::Sub(to, from), per_scalar); };
+    const FloatMask cut = segment.cut;
+    segment.parted = hn::And(cut, hn::Ne(first_end, last_end));
+    segment.first = {table_cell(nodes, run.front_place.node,
+                                hn::IfThenElse(cut, front_end, run.back_place.node)),
+                     hn::IfThenElse(cut, length(run.front, first_end), segment.first.length)};
+    segment.between = {table_cell(nodes, look_up<kind>(transfer.first_node, first), back_end),
+                       length(first_end, last_end)};
+    segment.last = {table_cell(nodes, back_end, run.back_place.node), length(last_end, run.back)};
 }
 
 // Lanes that are not cut must not read beyond the intervals.
-HWY_INLINE RunEnds ends_of_cut(const TableRun& run) {
+HWY_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
     const FloatTag d;
-    const auto keep = hn::RebindMask(IntTag(), run.cut);
-    RunEnds ends = run.ends;
+    const auto keep = hn::RebindMask(IntTag(), cut);
+    RunEnds ends = run;
     ends.front_place.interval = hn::IfThenElseZero(keep, ends.front_place.interval);
     ends.back_place.interval = hn::IfThenElseZero(keep, ends.back_place.interval);
-    ends.length = hn::IfThenElseZero(run.cut, ends.length);
-    ends.back = hn::IfThenElse(run.cut, ends.back, hn::Add(ends.front, hn::Set(d, 1.0f)));
+    ends.length = hn::IfThenElseZero(cut, ends.length);
+    ends.back = hn::IfThenElse(cut, ends.back, hn::Add(ends.front, hn::Set(d, 1.0f)));
     return ends;
 }
 
-// A segment's colour, not associated, and its optical depth; `entry`: where it is whole, of tables
-// with colour.
 template <Lookup kind>
-HWY_INLINE RunSum finish_run(const TileTransfer& transfer, bool colored, const TableRun& run,
-                             const TableEntry& entry) {
+HWY_INLINE Segment segment_of(const TileTransfer& transfer, Floats front, Floats back,
+                              Floats length, FloatMask seen) {
     const FloatTag d;
-    const Floats length = run.ends.length;
+    const RunEnds ends{front, back, length, table_place<kind>(transfer, front),
+                       table_place<kind>(transfer, back)};
+    Segment segment;
+    segment.first.length = length;
+    segment.seen = seen;
+    segment.cut = hn::And(
+        hn::RebindMask(d, hn::Ne(ends.front_place.interval, ends.back_place.interval)), seen);
+    segment.some_cut = kind != Lookup::one && !hn::AllFalse(d, segment.cut);
+    if (segment.some_cut) {
+        cut_segment<kind>(transfer, ends_of_cut(ends, segment.cut), segment);
+    } else {
+        segment.first.cell =
+            table_cell(table_nodes(transfer), ends.front_place.node, ends.back_place.node);
+    }
+    return segment;
+}
+
+// The entries of a segment's first and last parts.
+struct SegmentEntries {
+    TableEntry first, last;
+};
+
+// Colour and depth of the lanes that are cut; others lose their meaning.
+HWY_INLINE RunSum sum_of_parts(const TileTransfer& transfer, bool colored, const Segment& segment,
+                               const SegmentEntries& entries) {
+    const FloatTag d;
+    RunSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
+    const bool some_parted = !hn::AllFalse(d, segment.parted);
+    if (!colored) {
+        const auto add = [&](const TableRun& run) HWY_ATTR {
+            sum.depth = mul_add(table_extinction(*transfer.table, run.cell), run.length, sum.depth);
+        };
+        add(segment.first);
+        if (some_parted) add(segment.between);
+        add(segment.last);
+        return sum;
+    }
+    add_entry(entries.first, segment.first.length, sum);
+    if (some_parted) {
+        const TableRun& run = segment.between;
+        add_entry(table_entry(transfer, run.cell, run.length, segment.parted), run.length, sum);
+    }
+    add_entry(entries.last, segment.last.length, sum);
+    return sum;
+}
+
+// A segment's colour, not associated, and its optical depth; `entries`: of tables with colour.
+HWY_INLINE RunSum integrate_segment(const TileTransfer& transfer, bool colored,
+                                    const Segment& segment, const SegmentEntries& entries) {
+    const FloatTag d;
     RunSum sum;
     if (colored) {
-        sum.depth = hn::Mul(entry.extinction, length);
+        const TableEntry& entry = entries.first;
+        sum.depth = hn::Mul(entry.extinction, segment.first.length);
         const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
                                                   hn::Div(hn::Set(d, 1.0f), entry.extinction));
         for (int channel = 0; channel < 3; ++channel)
             sum.color[channel] = hn::Mul(entry.emission[channel], inverse);
     } else {
-        sum.depth = hn::Mul(table_extinction(*transfer.table, run.cell), length);
+        sum.depth =
+            hn::Mul(table_extinction(*transfer.table, segment.first.cell), segment.first.length);
     }
-    if (kind != Lookup::one && !hn::AllFalse(d, run.cut)) {
-        const RunSum parts = cut_run<kind>(transfer, colored, ends_of_cut(run), run.cut);
-        sum.depth = hn::IfThenElse(run.cut, parts.depth, sum.depth);
+    if (segment.some_cut) {
+        const RunSum parts = sum_of_parts(transfer, colored, segment, entries);
+        sum.depth = hn::IfThenElse(segment.cut, parts.depth, sum.depth);
         if (colored) {
             const Floats opacity = opacity_from_depth(d, parts.depth);
             const auto some = hn::Gt(parts.depth, hn::Zero(d));
             for (int channel = 0; channel < 3; ++channel) {
                 const Floats color =
                     hn::IfThenElseZero(some, hn::Div(parts.color[channel], opacity));
-                sum.color[channel] = hn::IfThenElse(run.cut, color, sum.color[channel]);
+                sum.color[channel] = hn::IfThenElse(segment.cut, color, sum.color[channel]);
             }
         }
     }
-    sum.depth = hn::IfThenElseZero(run.seen, sum.depth);
+    sum.depth = hn::IfThenElseZero(segment.seen, sum.depth);
     return sum;
 }
 
 template <Lookup kind>
 HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floats front,
                                 Floats back, Floats length, FloatMask seen) {
-    const TableRun run = table_run<kind>(transfer, front, back, length, seen);
-    TableEntry entry;
-    if (colored) entry = table_entry(transfer, run.cell, length, run.whole());
-    return finish_run<kind>(transfer, colored, run, entry);
+    const Segment segment = segment_of<kind>(transfer, front, back, length, seen);
+    SegmentEntries entries;
+    const auto entry = [&](const TableRun& run, FloatMask wanted)
+                           HWY_ATTR { return table_entry(transfer, run.cell, run.length, wanted); };
+    if (colored) entries.first = entry(segment.first, seen);
+    if (colored && segment.some_cut) entries.last = entry(segment.last, segment.cut);
+    return integrate_segment(transfer, colored, segment, entries);
 }
 
 // Whether there is extinction anywhere between two scalars: in an interval before the last, or in
@@ -263,9 +296,9 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
     const FloatTag d;
     constexpr int stage = 8;
     const Floats zero = hn::Zero(d);
-    TableRun runs[stage];
-    EntryPlaces places[stage];
-    alignas(64) float entries[stage][4 * most_lanes];
+    Segment segments[stage];
+    EntryPlaces first_places[stage], last_places[stage];
+    alignas(64) float first_entries[stage][4 * most_lanes], last_entries[stage][4 * most_lanes];
     int slabs[stage];
     for (int begin = block.from; begin < block.end;) {
         int count = 0;
@@ -280,16 +313,28 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
                 continue;
             }
             straighten(run);
-            runs[count] = table_run<kind>(transfer, run.front, run.back, run.length, seen);
-            if (colored) set_places(transfer, runs[count].cell, run.length, places[count]);
+            Segment& segment = segments[count];
+            segment = segment_of<kind>(transfer, run.front, run.back, run.length, seen);
+            if (colored) {
+                const auto set = [&](const TableRun& part, EntryPlaces& places) HWY_ATTR {
+                    set_places(transfer, part.cell, part.length, places);
+                };
+                set(segment.first, first_places[count]);
+                if (segment.some_cut) set(segment.last, last_places[count]);
+            }
             slabs[count++] = begin;
         }
-        for (int i = 0; colored && i < count; ++i)
-            look_up_entries(transfer, places[i], runs[i].whole(), entries[i]);
+        for (int i = 0; colored && i < count; ++i) {
+            const Segment& segment = segments[i];
+            look_up_entries(transfer, first_places[i], segment.seen, first_entries[i]);
+            if (segment.some_cut)
+                look_up_entries(transfer, last_places[i], segment.cut, last_entries[i]);
+        }
         for (int i = 0; i < count; ++i) {
-            TableEntry entry;
-            if (colored) entry = load_entry(entries[i]);
-            store_run(finish_run<kind>(transfer, colored, runs[i], entry), colored, slabs[i],
+            SegmentEntries entries;
+            if (colored) entries.first = load_entry(first_entries[i]);
+            if (colored && segments[i].some_cut) entries.last = load_entry(last_entries[i]);
+            store_run(integrate_segment(transfer, colored, segments[i], entries), colored, slabs[i],
                       block);
         }
     }
