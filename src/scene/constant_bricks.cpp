@@ -98,10 +98,9 @@ class ConstantFinder {
         std::vector<std::pair<std::size_t, Key>> by_count;
         for (const auto& [key, times] : found) by_count.emplace_back(times, key);
         std::ranges::sort(by_count, std::greater());
+        by_count.resize(std::min(by_count.size(), ConstantBricks::most_kinds));
         std::vector<Key> keys;
-        for (const auto& [times, key] : by_count) {
-            if (keys.size() < ConstantBricks::most_kinds) keys.push_back(key);
-        }
+        for (const auto& [times, key] : by_count) keys.push_back(key);
         return keys;
     }
 

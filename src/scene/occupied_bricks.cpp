@@ -74,9 +74,8 @@ void OccupiedBricks::measure_distances() {
 }
 
 std::size_t OccupiedBricks::place_of(const glm::dvec3& point) const {
-    const std::int64_t x = brick_of(point.x, count[0]), y = brick_of(point.y, count[1]),
-                       z = brick_of(point.z, count[2]);
-    return static_cast<std::size_t>((z * count[1] + y) * count[0] + x);
+    return place(brick_of(point.x, count[0]), brick_of(point.y, count[1]),
+                 brick_of(point.z, count[2]));
 }
 
 bool OccupiedBricks::any_in(const glm::dvec3& min, const glm::dvec3& max) const {

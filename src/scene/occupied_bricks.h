@@ -24,11 +24,14 @@ struct OccupiedBricks {
     // Replaces distances of 0 and `farthest`, shown and not, by the true ones.
     void measure_distances();
 
+    std::size_t place(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return static_cast<std::size_t>((z * count[1] + y) * count[0] + x);
+    }
     // Of the brick that holds a point of index space, or is nearest to it.
     std::size_t place_of(const glm::dvec3& point) const;
 
     std::uint8_t distance_at(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return distance[static_cast<std::size_t>((z * count[1] + y) * count[0] + x)];
+        return distance[place(x, y, z)];
     }
 
     // Whether one that shows something touches the part of the volume between two points of index

@@ -143,8 +143,8 @@ class SlicePlanner {
         return leaps && facts_.occupied_share < 1 && !jumps;
     }
 
-    // Codes are those of slabs one by one. On software OpenGL asking where the regions are takes
-    // longer than they do.
+    // Codes are those of slabs one by one. In OpenGL, measured in software, asking where the
+    // regions are takes longer than they do.
     void choose_constant_regions() {
         SlicePlan& slice = plan_.slice;
         if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;

@@ -148,9 +148,9 @@ class Marcher {
     void set_block(const TileBrickView& brick, std::size_t packet, int number) {
         const PacketRays& rays = rays_.packets[packet];
         const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);
-        block_.wanted &= ~constant;
+        block_.wanted ^= constant;
         segments_ += set_segments(slabs_, brick, rays, !single_color_, block_);
-        block_.wanted |= constant;
+        block_.wanted ^= constant;
         for_each_run(constant, [&](int first, int end) {
             const OpticalProperties& optics =
                 rays_.constant_optics(slabs_, block_.first_slab + first);

@@ -44,6 +44,8 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     }
     if (plan_.constant_regions) {
         constant_ = facts.constant_bricks;
+        for (OpticalProperties& kind : constant_.kinds)
+            kind.extinction = std::min(kind.extinction, max_shader_extinction);
         slabs_.constant = &constant_;
     }
     slabs_.bricks.reserve(plan_.bricks.size());

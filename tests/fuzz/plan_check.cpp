@@ -81,8 +81,10 @@ void check_facts(const Facts& facts) {
     require_finite(facts.voxels_along_view, "the number of voxels along the view");
     require_finite(facts.max_length_per_depth, "the longest ray");
     const RayShares& shares = facts.ray_shares;
-    for (const double share : {shares.box, shares.occupied, shares.box_before_opaque,
-                               shares.occupied_before_opaque, facts.occupied_share}) {
+    for (const double share :
+         {shares.box, shares.occupied, shares.constant, shares.box_before_opaque,
+          shares.occupied_before_opaque, shares.constant_before_opaque, facts.occupied_share,
+          facts.constant_bricks.share}) {
         require(share >= 0 && share <= 1 + 1e-9, "a share is " + std::to_string(share));
     }
 }

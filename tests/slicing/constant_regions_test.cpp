@@ -77,8 +77,7 @@ TEST(ConstantRegionsTest, KeepThePicture) {
     }
 }
 
-// What is constant is exact with any number of slabs: nine here, a region's border lying inside
-// one.
+// Against the tracer.
 TEST(ConstantRegionsTest, AreExact) {
     const Volume volume = test::volume_of<std::uint8_t>(
         unit_grid(33), [](double x, double, double) { return x < 16 ? 40 : 200; });
@@ -94,6 +93,20 @@ TEST(ConstantRegionsTest, AreExact) {
     const double slabs = 255 * 2 * 352 * h * h / 8;
     EXPECT_LE(image_error(render_tiles(volume, scene), trace(volume, scene, 1e-8)).all.linf,
               slabs + bound(scene));
+}
+
+// Extinctions beyond float's range, where a ray that misses the region has a length of 0.
+TEST(ConstantRegionsTest, OfExtremeExtinction) {
+    const Volume volume = layered();
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(0, {.1, .9, .3}, 0), knot(255, {1, .1, .6}, 1e300)}),
+        Projection::orthographic);
+    scene.slice.samples = 150;
+    ASSERT_TRUE(takes_regions(volume, scene));
+    const Image image = render_tiles(volume, scene);
+    EXPECT_TRUE(std::ranges::all_of(image.rgba, [](float v) { return std::isfinite(v); }));
+    EXPECT_LE(image_error(image, render_tiles(volume, scene, keep("constant_regions"))).all.linf,
+              bound(scene));
 }
 
 // Trees march their leaves; codes are those of slabs one by one.
