@@ -5,6 +5,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <functional>
 #include <string>
@@ -118,7 +119,13 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     check("setting up the context");
 
-    capabilities_.exact_float_filter = measure_float_filter_error() <= 1e-6;
+    capabilities_.exact_float_filter = measure_filter_error(TextureFormat::r32f) <= 1e-6;
+    if (capabilities_.exact_float_filter) return;
+    capabilities_.eight_bit_filter =
+        std::ranges::all_of(std::array{TextureFormat::r8, TextureFormat::r16, TextureFormat::r32f},
+                            [](TextureFormat format) {
+                                return measure_filter_error(format) <= eight_bit_filter_error;
+                            });
 }
 
 }  // namespace lamina::gl

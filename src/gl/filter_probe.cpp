@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gl/framebuffer.h"
@@ -18,19 +20,29 @@ namespace {
 constexpr int texels = 4;    // a side of the texture
 constexpr int samples = 16;  // a side of the image
 
-using Values = std::array<float, texels * texels * texels>;
+template <typename Value>
+using Values = std::array<Value, texels * texels * texels>;
 
-// Scattered over [0, 1): a linear ramp would hide errors of the weights that cancel.
-Values scattered_values() {
-    Values values;
+// How a format's values are probed: where textures give them as value / scale, they are scattered
+// over [least, least + range). Of codes, so few that rounded results show beside rounded weights.
+struct Probe {
+    double scale, least, range;
+};
+
+// A linear ramp would hide errors of the weights that cancel.
+template <typename Value>
+Values<Value> scattered_values(const Probe& probe) {
+    Values<Value> values;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double irrational = 0.6180339887498949 * static_cast<double>(i + 1);
-        values[i] = static_cast<float>(irrational - std::floor(irrational));
+        values[i] =
+            static_cast<Value>(probe.least + probe.range * (irrational - std::floor(irrational)));
     }
     return values;
 }
 
-double trilinear(const Values& values, const std::array<double, 3>& position) {
+template <typename Value>
+double trilinear(const Values<Value>& values, const std::array<double, 3>& position) {
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
         double weight = 1;
@@ -54,12 +66,12 @@ std::array<double, 3> probe_position(int index) {
             index * 2741 % 12288 / 4096.0};
 }
 
-}  // namespace
-
-double measure_float_filter_error() {
-    const Values values = scattered_values();
-    Texture texture = Texture::make_3d(TextureFormat::r32f, texels, texels, texels);
-    texture.upload({.width = texels, .height = texels, .depth = texels}, values);
+template <typename Value>
+double measure(TextureFormat format, const Probe& probe) {
+    const Values<Value> values = scattered_values<Value>(probe);
+    Texture texture = Texture::make_3d(format, texels, texels, texels);
+    texture.upload({.width = texels, .height = texels, .depth = texels},
+                   std::span<const Value>(values));
     texture.set_filter(TextureFilter::linear);
 
     const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, samples, samples));
@@ -73,12 +85,23 @@ double measure_float_filter_error() {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     double error = 0;
     for (int i = 0; i < samples * samples; ++i) {
-        const double exact = trilinear(values, probe_position(i));
-        error = std::max(
-            error,
-            std::abs(static_cast<double>(filtered[4 * static_cast<std::size_t>(i)]) - exact));
+        const double found = probe.scale * filtered[4 * static_cast<std::size_t>(i)];
+        error = std::max(error, std::abs(found - trilinear(values, probe_position(i))));
     }
-    return error / static_cast<double>(*most - *least);
+    return error / (static_cast<double>(*most) - static_cast<double>(*least));
+}
+
+}  // namespace
+
+double measure_filter_error(TextureFormat format) {
+    switch (format) {
+        case TextureFormat::r8:
+            return measure<std::uint8_t>(format, {.scale = 255, .least = 96, .range = 8});
+        case TextureFormat::r16:
+            return measure<std::uint16_t>(format, {.scale = 65535, .least = 32768, .range = 256});
+        default:
+            return measure<float>(TextureFormat::r32f, {.scale = 1, .least = 0, .range = 1});
+    }
 }
 
 }  // namespace lamina::gl

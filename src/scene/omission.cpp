@@ -11,6 +11,7 @@ std::vector<std::string> omission_names() {
             "drawing",
             "early_termination",
             "empty_space",
+            "exact_filter",
             "length_layers",
             "order",
             "perspective",

@@ -38,7 +38,8 @@ struct TextureBrick {
 struct SlicePlan : CompositingPlan {
     int slabs = 1;
     std::optional<SlabTrial> slab_trial;  // of "samples": "auto"
-    std::string target_reason;            // of "target": "auto"
+    double filter_error = 0;    // of "filter": "auto" where samples are given, found, in 1/255
+    std::string target_reason;  // of "target": "auto"
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
     std::optional<double> error_bound;  // of "tree": "auto", in 1/255, with its reason
@@ -56,7 +57,7 @@ struct SlicePlan : CompositingPlan {
     bool linear = false;  // pre-integrated in closed form: colour and extinction are linear
     TablePlan table;      // else, for Classification::preintegrated
     IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
-    bool occupied_only = false;  // what comes near no occupied brick is not evaluated
+    bool occupied_only = false;     // what comes near no occupied brick is not evaluated
     bool constant_regions = false;  // marched rays take these in one step
     // Marched rays end at this optical depth: what lies behind does not show.
     double opaque_depth = std::numeric_limits<double>::infinity();

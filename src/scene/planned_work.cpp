@@ -63,6 +63,15 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
     return (early ? shares.box_before_opaque : shares.box) - in_one_step;
 }
 
+// Where one program marches many slabs, a scalar between two of them is that of both.
+double fetches_per_segment(const SlicePlan& plan) {
+    if (plan.sampling == VolumeSampling::none) return 0;
+    const double scalars = plan.classification == Classification::post ? 1
+                           : plan.has_tree(NodeArithmetic::shader)     ? 2
+                                                                       : 3;
+    return plan.sampling == VolumeSampling::fetch ? 8 * scalars : scalars;
+}
+
 // The plan as it would be without one of its omissions.
 ProjectPlan without(ProjectPlan plan, const std::string& name) {
     if (name == "transparent_tets") plan.draw_transparent = plan.tree.empty();
@@ -80,6 +89,7 @@ Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene,
                  pixels_of(scene) * (tiles ? 16 : bytes_per_pixel(plan.target));
     if (plan.nothing_visible) return work;
     work.segments = pixels_of(scene) * plan.slabs * share_of_rays(plan, facts.ray_shares);
+    if (!tiles) work.fetches = work.segments * fetches_per_segment(plan);
     work.passes = passes_of(plan);
     if (plan.uses_table()) work.bytes += table_bytes(plan.table);
     if (plan.occupied_only)

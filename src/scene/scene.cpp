@@ -40,7 +40,14 @@ const char* name_of(Order order) {
 }
 
 const char* name_of(Filter filter) {
-    return filter == Filter::exact ? "exact" : "hardware";
+    switch (filter) {
+        case Filter::exact:
+            return "exact";
+        case Filter::hardware:
+            return "hardware";
+        default:
+            return "auto";
+    }
 }
 
 const char* name_of(NodeArithmetic nodes) {

@@ -22,7 +22,7 @@ namespace lamina {
 enum class Method { slice, project, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
 enum class Classification { post, preintegrated };
-enum class Filter { exact, hardware };
+enum class Filter { exact, hardware, automatic };
 // What the method "trace" looks at.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };

@@ -51,4 +51,13 @@ SlabTrial chosen_slabs(const Facts& facts) {
     return std::ranges::min(facts.slab_trials, {}, &SlabTrial::error);
 }
 
+std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts) {
+    std::optional<SlabTrial> fewest;
+    for (const SlabTrial& trial : facts.filter_trials) {
+        if (trial.error <= facts.slab_goal && (!fewest || trial.slabs < fewest->slabs))
+            fewest = trial;
+    }
+    return fewest;
+}
+
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/facts.h"
@@ -21,5 +22,9 @@ double slab_error_goal(const Scene& scene);
 // where none does, of two a voxel and more the fewest whose error is near the least. Where nothing
 // was tried, two a voxel, of an error that is not known (NaN).
 SlabTrial chosen_slabs(const Facts& facts);
+
+// "filter": "auto": of what was tried with the weights of texture units (Facts::filter_trials) the
+// fewest slabs that keep the goal, if any do.
+std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts);
 
 }  // namespace lamina

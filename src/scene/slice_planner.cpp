@@ -66,6 +66,7 @@ class SlicePlanner {
         slice.table_filtered =
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
         choose_slabs();
+        choose_filter();
         choose_precision();
         choose_sampling();
         choose_table();
@@ -94,6 +95,30 @@ class SlicePlanner {
         const SlabTrial chosen = chosen_slabs(facts_);
         slice.slabs = chosen.slabs;
         if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
+    }
+
+    // Eight fetches are left out where the texture unit was measured to be no worse than what was
+    // tried. (Tables keep theirs: nothing was tried of those.)
+    void choose_filter() {
+        if (scene_.slice.filter == Filter::hardware)
+            plan_.slice.sampling = VolumeSampling::hardware;
+        const std::optional<SlabTrial> trial = slabs_of_hardware_filter(facts_);
+        if (!trial || !capabilities_.eight_bit_filter) return;
+        if (!leave_out(
+                true, "exact_filter",
+                fmt::format("the texture unit's filter, of one look-up instead of eight "
+                            "fetches, makes an error of {:.2g} / 255{}: at most {:.3g} are "
+                            "wanted",
+                            trial->error, scene_.slice.samples ? "" : " with that of the slabs",
+                            facts_.slab_goal)))
+            return;
+        plan_.slice.sampling = VolumeSampling::hardware;
+        if (scene_.slice.samples) {
+            plan_.slice.filter_error = trial->error;
+        } else {
+            plan_.slice.slabs = trial->slabs;
+            plan_.slice.slab_trial = trial;
+        }
     }
 
     void choose_precision() {
@@ -189,9 +214,8 @@ class SlicePlanner {
         }
         const std::uint64_t float_bytes =
             4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
-        if (scene_.slice.filter == Filter::hardware) {
-            slice.sampling = VolumeSampling::hardware;
-        } else if (capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes) {
+        if (slice.sampling == VolumeSampling::fetch && capabilities_.exact_float_filter &&
+            float_bytes <= max_filtered_bytes) {
             slice.sampling = VolumeSampling::filtered;
         }
         slice.float_texture =
@@ -333,10 +357,8 @@ class SlicePlanner {
         }
         question.largest_color = facts_.max_color;
         question.max_error = scene_.max_error;
-        if (slice.slab_trial) {
-            question.max_error = std::max(scene_.max_error - slice.slab_trial->error,
-                                          scene_.max_error * target_share);
-        }
+        const double found = slice.slab_trial ? slice.slab_trial->error : slice.filter_error;
+        question.max_error = std::max(scene_.max_error - found, scene_.max_error * target_share);
         return question;
     }
 

@@ -49,8 +49,9 @@ SliceSettings read_slice(JsonReader reader) {
         {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}});
     slice.order = reader.choice<Order>("order", {{"back_to_front", Order::back_to_front},
                                                  {"front_to_back", Order::front_to_back}});
-    slice.filter =
-        reader.choice<Filter>("filter", {{"exact", Filter::exact}, {"hardware", Filter::hardware}});
+    slice.filter = reader.choice<Filter>(
+        "filter",
+        {{"exact", Filter::exact}, {"hardware", Filter::hardware}, {"auto", Filter::automatic}});
     if (reader.has("dither")) slice.dither = read_dither(reader.object("dither"));
     slice.tree = read_tree(reader);
     reader.close();

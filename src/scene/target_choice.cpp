@@ -42,7 +42,9 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts) {
         return {Target::float32, "no smaller target has a bound for a tree of given factors"};
     }
     TreeQuestion question;
-    question.visible_slabs = scene.slice.samples.value_or(chosen_slabs(facts).slabs);
+    const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(facts);
+    question.visible_slabs = scene.slice.samples.value_or(
+        std::max(chosen_slabs(facts).slabs, filtered ? filtered->slabs : 0));
     question.largest_color = facts.max_color;
     question.max_error = scene.max_error;
     return smallest_target(question, one_level_error_bound);

@@ -21,6 +21,7 @@ std::vector<std::pair<const char*, double>> Work::amounts() const {
         if (amount != 0) found.emplace_back(name, amount);
     };
     add("segments", segments);
+    add("fetches", fetches);
     add("tets", tets);
     add("ordered tets", ordered);
     add("passes", passes);
@@ -29,8 +30,8 @@ std::vector<std::pair<const char*, double>> Work::amounts() const {
 }
 
 Work operator-(const Work& a, const Work& b) {
-    return {a.segments - b.segments, a.tets - b.tets, a.ordered - b.ordered, a.passes - b.passes,
-            a.bytes - b.bytes};
+    return {a.segments - b.segments, a.fetches - b.fetches, a.tets - b.tets,
+            a.ordered - b.ordered,   a.passes - b.passes,   a.bytes - b.bytes};
 }
 
 std::string to_text(const Work& work) {

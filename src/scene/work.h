@@ -10,6 +10,7 @@ namespace lamina {
 // What a frame takes, as a plan predicts it.
 struct Work {
     double segments = 0;  // of rays through slabs, evaluated
+    double fetches = 0;   // of the volume's texels, by OpenGL's fragments
     double tets = 0;      // or the parts that they are cut into, projected
     double ordered = 0;   // tets put in visibility order
     double passes = 0;    // layers put into images one by one

@@ -46,12 +46,30 @@ class SlabTrials {
                            max_slabs / finer)) {}
 
     std::vector<SlabTrial> run() {
+        std::vector<SlabTrial> trials = run_from(slabs_per_voxel(facts_, 1), Filter::exact);
+        const double least = std::ranges::min(trials, {}, &SlabTrial::error).error;
+        if (least > goal_)
+            trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact));
+        return trials;
+    }
+
+    // From the slabs that the exact filter needs.
+    std::vector<SlabTrial> run_filter(int first) { return run_from(first, Filter::hardware); }
+
+    // Of the weights alone.
+    SlabTrial try_filter(int slabs) {
+        const Image exact = draw(slabs, Filter::exact, {});
+        return {slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf, rays()};
+    }
+
+  private:
+    std::vector<SlabTrial> run_from(int slabs, Filter filter) {
         std::vector<SlabTrial> trials;
         double error_of_too_few = std::numeric_limits<double>::infinity();
-        int slabs = slabs_per_voxel(facts_, 1), too_few = 0, enough = most_ + 1;
+        int too_few = 0, enough = most_ + 1;
         while (trials.size() < most_trials && too_few + 1 < enough) {
             slabs = std::clamp(slabs, too_few + 1, enough - 1);
-            const double error = trials.emplace_back(try_slabs(slabs)).error;
+            const double error = trials.emplace_back(try_slabs(slabs, filter)).error;
             const bool kept = error <= goal_;
             if (!kept && slabs >= 2 * too_few && error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
@@ -61,12 +79,9 @@ class SlabTrials {
             const double next = std::ceil(slabs * std::sqrt(error / (aim * goal_)));
             slabs = static_cast<int>(std::min({next, double(most_), most_growth * slabs}));
         }
-        if (enough > most_)
-            trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_)));
         return trials;
     }
 
-  private:
     static Facts seen_by(const Scene& scene, Facts facts) {
         measure_view(scene, facts);
         return facts;
@@ -82,22 +97,24 @@ class SlabTrials {
         return scene;
     }
 
+    std::int64_t rays() const { return static_cast<std::int64_t>(scene_.width) * scene_.height; }
+
     // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
-    SlabTrial try_slabs(int slabs) {
+    SlabTrial try_slabs(int slabs, Filter filter) {
         if (fine_slabs_ < fine_enough * slabs) {
             fine_slabs_ = finer * slabs;
             OmissionSwitch exact;  // the error of early termination is one of the trial's
             exact.kept = {"early_termination"};
-            fine_ = draw(fine_slabs_, exact);
+            fine_ = draw(fine_slabs_, Filter::exact, exact);
         }
-        const double found = image_error(draw(slabs, {}), *fine_).all.linf;
+        const double found = image_error(draw(slabs, filter, {}), *fine_).all.linf;
         const double share = static_cast<double>(slabs) / fine_slabs_;
-        return {slabs, found / (1 - share * share),
-                static_cast<std::int64_t>(scene_.width) * scene_.height};
+        return {slabs, found / (1 - share * share), rays()};
     }
 
-    Image draw(int slabs, const OmissionSwitch& omissions) {
+    Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
         scene_.slice.samples = slabs;
+        scene_.slice.filter = filter;
         const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
                                    scene_.width, scene_.height);
@@ -120,14 +137,30 @@ bool shows_something(const Facts& facts) {
     return !facts.occupied.empty() && facts.far_depth > facts.near_depth;
 }
 
+// What texture units make of NaN is their own.
+bool tries_filter(const Scene& scene, const Facts& facts) {
+    return scene.slice.filter == Filter::automatic && facts.non_finite == 0 && !facts.constant;
+}
+
+void run_trials(const Scene& scene, const Volume& volume, Facts& facts) {
+    const bool slabs = !scene.slice.samples, filter = tries_filter(scene, facts);
+    if (!slabs && !filter) return;
+    facts.slab_goal = slab_error_goal(scene);
+    SlabTrials trials(scene, volume, facts);
+    if (slabs) facts.slab_trials = trials.run();
+    if (!filter) return;
+    if (!slabs) {
+        facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
+    } else if (const SlabTrial exact = chosen_slabs(facts); exact.error <= facts.slab_goal) {
+        facts.filter_trials = trials.run_filter(exact.slabs);
+    }
+}
+
 }  // namespace
 
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure(scene, volume, bricks);
-    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts)) {
-        facts.slab_goal = slab_error_goal(scene);
-        facts.slab_trials = SlabTrials(scene, volume, facts).run();
-    }
+    if (scene.method == Method::slice && shows_something(facts)) run_trials(scene, volume, facts);
     return facts;
 }
 

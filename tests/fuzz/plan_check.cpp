@@ -29,6 +29,7 @@ std::array<Capabilities, 3> usual_capabilities() {
     gpu = mesa;
     gpu.renderer = "GPU";
     gpu.software = gpu.framebuffer_fetch = gpu.exact_float_filter = false;
+    gpu.eight_bit_filter = true;
     return {native, mesa, gpu};
 }
 
@@ -107,6 +108,7 @@ void check_slice_plans(const Scene& scene, const Volume& volume) {
     if (scene.method == Method::slice && !scene.slice.samples) {
         facts.slab_trials = made_up_trials(facts);
         facts.slab_goal = slab_error_goal(scene);
+        if (scene.slice.filter == Filter::automatic) facts.filter_trials = facts.slab_trials;
     }
     for_all_contexts([&](const Capabilities& capabilities, const OmissionSwitch& omissions) {
         const Plan plan = make_plan(scene, facts, capabilities, omissions);

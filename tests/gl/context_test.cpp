@@ -44,7 +44,7 @@ TEST_P(AnyContext, HasNoErrorToBeginWith) {
 }
 
 TEST_P(AnyContext, MeasuresTheFloatFilter) {
-    const double error = measure_float_filter_error();
+    const double error = measure_filter_error(TextureFormat::r32f);
     EXPECT_EQ(capabilities().exact_float_filter, error <= 1e-6);
     // Weights and sums in float32: three nested interpolations of values below 1, each with at most
     // 3 roundings of 2^-24, gives 9 * 2^-24 = 5.4e-7. A GPU's 8-bit weights are off by up to 1/512
@@ -53,6 +53,21 @@ TEST_P(AnyContext, MeasuresTheFloatFilter) {
     // Even correctly rounded float32 results are off by up to 2^-25 each: no error at all means
     // nothing was measured.
     EXPECT_GT(error, 0.0);
+}
+
+// Software rounds the results of bytes to codes, too, perhaps at each of three steps: by half of
+// one among 7, each.
+TEST_P(AnyContext, MeasuresTheFiltersOfCodes) {
+    const double bytes = measure_filter_error(TextureFormat::r8);
+    const double words = measure_filter_error(TextureFormat::r16);
+    EXPECT_LE(bytes, eight_bit_filter_error + (capabilities().software ? 1.5 / 7 : 0));
+    EXPECT_LE(words, eight_bit_filter_error);
+    EXPECT_GT(bytes, 0.0);
+    EXPECT_GT(words, 0.0);
+    // Which is no filter that a picture's error could be told of beforehand.
+    if (bytes > eight_bit_filter_error) {
+        EXPECT_FALSE(capabilities().eight_bit_filter);
+    }
 }
 
 TEST_P(AnyContext, TurnsErrorsIntoExceptions) {

@@ -3,6 +3,7 @@
 // promises.
 #include <cmath>
 
+#include "slicing/slab_trials.h"
 #include "slicing_fixture.h"
 
 namespace lamina {
@@ -92,6 +93,37 @@ TEST_F(SlicingTest, HardwareFilterHasAnErrorOfItsOwn) {
     // that over a chord of at most sqrt(3), and opacity by no more than optical depth.
     EXPECT_LE(error, 255 * 3 * std::sqrt(3.) * (3. / 256 + .5 / 255));
     EXPECT_GT(error, 0);
+}
+
+// What is planned for a GPU, whose filter cannot be exact, drawn with software's of 16 bits, which
+// is no worse.
+TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
+    const Volume volume =
+        generate({"gaussians", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::uint16});
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(0, {.1, .2, .6}, 0), knot(65535, {1, .3, .1}, 6)}),
+        Projection::perspective);
+    scene.slice.filter = Filter::automatic;
+    Capabilities gpu = capabilities();
+    gpu.exact_float_filter = false;
+    gpu.eight_bit_filter = true;
+    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    const Image traced = trace(volume, scene, 1e-7);
+    const auto draw = [&](const OmissionSwitch& omissions, VolumeSampling expected) {
+        const Plan plan = make_plan(scene, facts, gpu, omissions);
+        EXPECT_EQ(plan.slice.sampling, expected);
+        GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, gpu,
+                                 scene.width, scene.height);
+        renderer.draw(View(scene.camera, scene.width, scene.height));
+        return renderer.read();
+    };
+    const Image filtered = draw({}, VolumeSampling::hardware);
+    const Image fetched = draw(keep("exact_filter"), VolumeSampling::fetch);
+    EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
+    EXPECT_LE(image_error(fetched, traced).all.linf, scene.max_error);
+
+    gpu.eight_bit_filter = false;
+    draw({}, VolumeSampling::fetch);
 }
 
 }  // namespace

@@ -97,5 +97,69 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
     EXPECT_LE(chosen.slabs, 4 * 26);
 }
 
+// Scalars of weights of 8 bits, as the native engine has them on request, in as many slabs as the
+// trials of them choose: with automatic slabs all errors together, else that of the weights.
+TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
+    for (const Volume& volume : {gaussians(32), mixing(24)}) {
+        Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+        scene.slice.filter = Filter::automatic;
+        const Image traced = trace(volume, scene, 1e-7);
+        const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+        const SlabTrial trial = slabs_of_hardware_filter(facts).value();
+        EXPECT_LE(trial.error, facts.slab_goal);
+        Scene given = scene;
+        given.slice.samples = trial.slabs;
+        given.slice.filter = Filter::hardware;
+        const Image filtered = draw(volume, given, facts);
+        EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
+
+        given.slice.filter = Filter::automatic;
+        const Facts with_slabs = measure_slicing(given, volume, measure_bricks(volume));
+        given.slice.filter = Filter::exact;
+        EXPECT_DOUBLE_EQ(with_slabs.filter_trials.at(0).error,
+                         image_error(filtered, draw(volume, given, facts)).all.linf);
+        EXPECT_GT(with_slabs.filter_trials.at(0).error, 0);
+    }
+}
+
+// A step in opacity where the data rise slowly: weights of 8 bits move it by 1/512 of a voxel and
+// more, which no number of slabs mends.
+TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
+    const Volume volume = mixing(24);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+    scene.slice.filter = Filter::automatic;
+    scene.slice.samples = 200;
+    const auto found = [&](double max_error) {
+        scene.max_error = max_error;
+        const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+        return std::pair(facts.filter_trials.at(0).error, slabs_of_hardware_filter(facts));
+    };
+    const double error = found(1).first;
+    const double goal_per_max = slab_error_goal(scene) / scene.max_error;
+    EXPECT_TRUE(found(1.01 * error / goal_per_max).second);
+    EXPECT_FALSE(found(.99 * error / goal_per_max).second);
+}
+
+TEST(SlabTrials, NoFilterIsTriedThatNobodyAskedForOrThatMeetsNoScalarOrNan) {
+    Volume volume = gaussians(8);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+    scene.slice.samples = 9;
+    const auto trials = [&] {
+        return measure_slicing(scene, volume, measure_bricks(volume)).filter_trials.size();
+    };
+    EXPECT_EQ(trials(), 0u);
+    scene.slice.filter = Filter::automatic;
+    EXPECT_EQ(trials(), 1u);
+    scene.transfer_function = TransferFunction::linear({knot(0, {.2, .4, .8}, 2)});
+    EXPECT_EQ(trials(), 0u);
+    scene.transfer_function = smooth_transfer_function();
+    scene.nan = NanPolicy::transparent;
+    std::vector<float> samples(8 * 8 * 8, .5f);
+    samples[9] = .75f;
+    samples[100] = NAN;
+    volume = reference_test::make_volume(volume.grid(), samples);
+    EXPECT_EQ(trials(), 0u);
+}
+
 }  // namespace
 }  // namespace lamina
