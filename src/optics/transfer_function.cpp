@@ -138,6 +138,11 @@ bool TransferFunction::constant_extinction(double lo, double hi) const {
     return same_everywhere(knots_, lo, hi, extinction, always);
 }
 
+bool TransferFunction::constant_color(double lo, double hi) const {
+    const auto color = [](const OpticalProperties& optics) { return optics.color; };
+    return same_everywhere(knots_, lo, hi, color, always);
+}
+
 bool TransferFunction::single_color(double lo, double hi) const {
     const auto color = [](const OpticalProperties& optics) { return optics.color; };
     const auto seen = [](const OpticalProperties& a, const OpticalProperties& b) {

@@ -38,6 +38,7 @@ class TransferFunction {
     bool transparent(double lo, double hi) const { return max_extinction(lo, hi) == 0; }
     bool constant(double lo, double hi) const;  // same colour and extinction everywhere
     bool constant_extinction(double lo, double hi) const;
+    bool constant_color(double lo, double hi) const;  // also of what shows nothing
     bool single_color(double lo,
                       double hi) const;  // the colours of all parts with extinction > 0 are equal
 

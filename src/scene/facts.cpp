@@ -49,7 +49,8 @@ double side_ratio_of(const Grid& grid) {
     return std::max({sides.x, sides.y, sides.z}) / std::min({sides.x, sides.y, sides.z});
 }
 
-// Colour is linear between knots: its extremes are at knots and at the ends of the range.
+// Colour is linear between knots: its extremes are at knots, both sides of steps, and at the ends
+// of the range.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
     double largest = 0;
     const auto include = [&](const glm::dvec3& color) {
@@ -58,7 +59,7 @@ double largest_color(const TransferFunction& transfer_function, const ValueRange
     include(transfer_function.at(range.lo).color);
     include(transfer_function.at(range.hi).color);
     for (const TransferKnot& knot : transfer_function.knots()) {
-        if (knot.value > range.lo && knot.value < range.hi) include(knot.optics.color);
+        if (knot.value >= range.lo && knot.value <= range.hi) include(knot.optics.color);
     }
     return largest;
 }
@@ -84,16 +85,37 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
 
+// Where the transfer function rises from 0 at a brick's own least or largest value, roundings that
+// leave its range may show this optical depth on a ray through the whole box, of a brick that is
+// transparent: .026 / 255.
+constexpr double faint_depth = 1e-4;
+
+double faint_extinction(const Facts& facts) {
+    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
+    double longest = 0;  // of the box's diagonals
+    for (const glm::dvec3& side :
+         {glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1, -1, 1), glm::dvec3(1, 1, -1)}) {
+        const glm::dvec3 extent = side * (hi - lo);
+        longest = std::max(
+            longest, glm::length(facts.grid.to_world(extent) - facts.grid.to_world(glm::dvec3(0))));
+    }
+    return faint_depth / (longest * std::max(facts.max_color, 1.0));
+}
+
 void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
-                   double margin, OccupiedBricks& occupied) {
+                   Facts& facts) {
+    OccupiedBricks& occupied = facts.occupied_bricks;
+    const double margin = margin_of(facts), faint = faint_extinction(facts);
+    const auto shown = [&](const ValueRange& range) {
+        if (range.empty()) return false;
+        const double most = transfer_function.max_extinction(range.lo - margin, range.hi + margin);
+        return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
+    };
     occupied = {bricks.count, {}};
     occupied.distance.resize(bricks.ranges.size());
     parallel_for(static_cast<std::int64_t>(bricks.ranges.size()), 4096, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
-        const ValueRange range = bricks.ranges[i];
-        const bool shown =
-            !range.empty() && !transfer_function.transparent(range.lo - margin, range.hi + margin);
-        occupied.distance[i] = shown ? 0 : OccupiedBricks::farthest;
+        occupied.distance[i] = shown(bricks.ranges[i]) ? 0 : OccupiedBricks::farthest;
     });
     occupied.measure_distances();
 }
@@ -114,8 +136,8 @@ IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& coun
 
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                       Facts& facts) {
+    find_occupied(transfer_function, bricks, facts);
     const OccupiedBricks& occupied = facts.occupied_bricks;
-    find_occupied(transfer_function, bricks, margin_of(facts), facts.occupied_bricks);
     std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
     std::int64_t seen = 0;
     for (std::int64_t z = 0; z < bricks.count[2]; ++z) {

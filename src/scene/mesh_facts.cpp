@@ -19,12 +19,19 @@ void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
     facts.diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
 }
 
+// Between points of a tet, or along a segment, whatever their extinction.
+bool mixes_colors(Coloring coloring) {
+    return coloring == Coloring::vertex || coloring == Coloring::attenuation;
+}
+
 void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,
                                MeshFacts& facts) {
     const TransferFunction& transfer_function = scene.transfer_function;
     const double lo = facts.range.lo, hi = facts.range.hi;
     facts.constant = transfer_function.constant(lo, hi);
-    facts.single_color = transfer_function.single_color(lo, hi);
+    facts.single_color = mixes_colors(scene.project.coloring)
+                             ? transfer_function.constant_color(lo, hi)
+                             : transfer_function.single_color(lo, hi);
     facts.max_extinction = transfer_function.max_extinction(lo, hi);
     for (const Tet& tet : mesh.mesh.tets()) {
         const TetPieces::Span span = pieces.visible(mesh.scalar.values, tet);

@@ -28,7 +28,8 @@ struct MeshFacts {
 
     // The transfer function over `range`.
     bool constant = false;              // one colour, one extinction
-    bool single_color = false;          // one colour wherever there is extinction
+    bool single_color = false;          // one colour wherever there is extinction; where colours
+                                        // are interpolated, everywhere
     double max_extinction = 0;          // per world unit
     std::int64_t transparent_tets = 0;  // that show nothing; with them those with a value that is
                                         // no finite number

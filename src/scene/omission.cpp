@@ -7,6 +7,7 @@ std::vector<std::string> omission_names() {
     return {"blending",
             "color",
             "constant_regions",
+            "dither",
             "double_precision",
             "drawing",
             "early_termination",

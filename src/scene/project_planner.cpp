@@ -102,7 +102,7 @@ class ProjectPlanner {
         if (plan_.orthographic) {
             omitted_.push_back({"perspective",
                                 "parallel rays: depth is linear in the picture, nothing is divided "
-                                "per fragment"});
+                                "per fragment, with --no-omit neither"});
         }
         const bool transparent = facts_.transparent_tets == facts_.tets;
         plan_.nothing_visible =
@@ -173,7 +173,7 @@ class ProjectPlanner {
             settings_.order == ProjectOrder::automatic &&
             leave_out(true, "order",
                       "one colour: leaves take tets from all over the mesh, so that every ray "
-                      "meets some of each leaf");
+                      "meets some of each leaf; codes are rounded in another order");
         if (plan_.scattered) plan_.visibility = OrderMethod::none;
     }
 

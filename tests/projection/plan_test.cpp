@@ -95,6 +95,23 @@ TEST(ProjectPlan, VertexColoursAreInterpolatedInThePicture) {
     EXPECT_EQ(plan.project.interpolation, Interpolation::linear);
 }
 
+// Nor are they one colour where what shows nothing has another, which they are mixed with.
+TEST(ProjectPlan, ColoursThatAreMixedAreOneWhereAllAreEqual) {
+    const auto hidden = [](const glm::dvec3& color) {
+        return TransferFunction::linear(
+            {knot(0, color, 0), knot(.5, color, 0), knot(.5, {1, 0, 0}, 0), knot(1, {1, 0, 0}, 1)});
+    };
+    for (const Coloring coloring :
+         {Coloring::vertex, Coloring::attenuation, Coloring::preintegrated, Coloring::analytic}) {
+        const auto colored_by = [&](Scene& scene) { scene.project.coloring = coloring; };
+        const bool mixed = coloring == Coloring::vertex || coloring == Coloring::attenuation;
+        for (const char* name : {"order", "color"}) {
+            EXPECT_EQ(leaves_out(plan_for(hidden({0, 1, 0}), colored_by), name), !mixed);
+            EXPECT_TRUE(leaves_out(plan_for(hidden({1, 0, 0}), colored_by), name));
+        }
+    }
+}
+
 TEST(ProjectPlan, DitherNeedsCodes) {
     const auto dithered = [](Scene& scene) { scene.project.dither = ProjectDither::after_blend; };
     const Plan plan = plan_for(colored, dithered);

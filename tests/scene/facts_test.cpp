@@ -49,6 +49,21 @@ TEST(Facts, TransferFunctionIsJudgedOverTheVolumesRangeOnly) {
     EXPECT_TRUE(facts.single_color);
     EXPECT_EQ(facts.max_extinction, 1);
     EXPECT_EQ(facts.occupied_share, 1);
+    EXPECT_EQ(facts.max_color, 1);
+    // Both sides of steps are met, at the ends of the range, too.
+    const auto step_at = [&](double value, double before, double behind) {
+        auto& points = document["transfer_function"]["points"];
+        points[1]["value"] = points[2]["value"] = value;
+        points[1]["color"] = {0, before, 0};
+        points[2]["color"] = {0, behind, 0};
+        return facts_of(document).max_color;
+    };
+    document["volume"] = {{"generate", "ramp"}};  // 0 .. 255
+    for (const double value : {128., 255.}) {
+        EXPECT_EQ(step_at(value, 9, 1), 9);
+        EXPECT_EQ(step_at(value, 1, 9), 9);
+    }
+    EXPECT_EQ(step_at(510, 9, 1), 4.5);
 }
 
 // A sheet in x, on the common border of bricks 3 and 4 of twelve: both show it.
@@ -70,6 +85,25 @@ TEST(Facts, OccupiedBricksAreThoseThatShowSomething) {
     EXPECT_TRUE(bricks.any_in({19.9, 3, 40}, {70, 3, 40}));
     EXPECT_FALSE(bricks.any_in({20, -2, 0}, {70, 20, 40}));
     EXPECT_TRUE(bricks.any_in({-7, -2, 0}, {12.1, 20, 40}));
+}
+
+// Bricks of the very value from which on something shows are empty, however steeply it rises, but
+// where roundings would show it, above all at a step. The box's diagonal is 32.03 long.
+TEST(Facts, BricksThatEndWhereSomethingBeginsAreEmpty) {
+    const Volume volume =
+        test::volume_of<float>(test::grid_of({33, 2, 2}, Centering::node),
+                               [](double i, double, double) { return i > 16 ? 1 : .25; });
+    Scene scene = read_scene(minimal_scene(), "s");
+    const auto share = [&](double value, double extinction) {
+        scene.transfer_function = TransferFunction::linear(
+            {test::knot(.25, {1, 1, 1}, 0), test::knot(value, {1, 1, 1}, extinction)});
+        return measure(scene, volume, measure_bricks(volume)).occupied_share;
+    };
+    // .75e-6 beyond .25 and 32.03 long, extinction that rises by 4 .. 5 shows a depth of 1e-4.
+    EXPECT_EQ(share(.5, .9), .5);
+    EXPECT_EQ(share(.5, 1.2), 1);
+    EXPECT_EQ(share(.25, 1e-3), 1);
+    EXPECT_EQ(share(.25, 1e-12), 1);
 }
 
 // In float32 codes of 16 bits, from 32768 on, are good to 2^-24 of them, .002 each rounding.

@@ -101,14 +101,15 @@ TEST_F(EarlyTerminationTest, LeavesOutWhatLiesBehind) {
     EXPECT_LT(some->samples(), every->samples() / 2);
 }
 
-// As deep as a ray can get, almost; and far behind something of a colour of 1e4, which shows
-// through where a colour of 1 would not.
+// As deep as a ray can get, almost; deeper than any that is met; and far behind something of a
+// colour of 1e4, which shows through where a colour of 1 would not.
 TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     const Volume volume = gaussians(24);
     const Facts facts = measure(fog(1), volume, measure_bricks(volume));
     const double depth = std::log(255 * 1024.) / (facts.far_depth - facts.near_depth);
     EXPECT_FALSE(ends_early(volume, fog(.99 * depth)));
-    EXPECT_TRUE(ends_early(volume, fog(1.01 * depth)));
+    EXPECT_FALSE(ends_early(volume, fog(1.01 * depth)));
+    EXPECT_TRUE(ends_early(volume, fog(2 * depth)));
 
     const Volume ramp = test::volume_of<float>(
         reference_test::make_grid({65, 9, 9}, Centering::node, glm::dvec3(1. / 64)),
@@ -120,11 +121,21 @@ TEST_F(EarlyTerminationTest, LeavesOutNothingThatShows) {
     // 11 deep in front, .005 of 1e4 behind: half of full scale in a picture of which
     // 1 / 255 / 1024 counts.
     scene.transfer_function = TransferFunction::linear(
-        {knot(0, {1, 0, 0}, 22), knot(.5, {1, 0, 0}, 22), knot(.5, {1, 1e4, 1}, 22)});
+        {knot(0, {1, 0, 0}, 22), knot(.5, {1, 0, 0}, 22), knot(.5, {1, 1e4, 1}, 60)});
     ASSERT_TRUE(ends_early(ramp, scene));
     expect_bound(ramp, scene, "bright");
     const Image image = render_tiles(ramp, scene);
     EXPECT_GT(image.pixel(22, 19)[1], .1f);
+
+    // Nearly of that colour just below the largest value, a step of its own, where the ramp ends in
+    // a plateau.
+    const Volume plateau = test::volume_of<float>(
+        ramp.grid(), [](double i, double, double) { return std::min(i / 32, 1.); });
+    scene.transfer_function =
+        TransferFunction::linear({knot(0, {1, 0, 0}, 28), knot(.9, {1, 0, 0}, 28),
+                                  knot(1, {1, 1e4, 1}, 28), knot(1, {1, 0, 0}, 60)});
+    ASSERT_TRUE(ends_early(plateau, scene));
+    expect_bound(plateau, scene, "bright below the largest value");
 }
 
 // Slabs that are blended one after the other, trees of several levels: all is evaluated.
