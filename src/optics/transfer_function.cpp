@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include "base/error.h"
 #include "optics/linear_pieces.h"
@@ -50,6 +50,24 @@ void check(std::span<const TransferKnot> points) {
     }
 }
 
+bool same(const OpticalProperties& a, const OpticalProperties& b) {
+    return a.color == b.color && a.extinction == b.extinction;
+}
+
+// But for roundings: terms of interpolate() are >= 0, so it is good to a few of them.
+bool on_line(const TransferKnot& a, const TransferKnot& between, const TransferKnot& b) {
+    constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
+    if (!(a.value < between.value && between.value < b.value)) return false;
+    const OpticalProperties there = interpolate(a, b, between.value);
+    const auto near = [&](double found, double wanted) {
+        return std::abs(found - wanted) <= roundings * wanted;
+    };
+    return near(there.extinction, between.optics.extinction) &&
+           near(there.color.r, between.optics.color.r) &&
+           near(there.color.g, between.optics.color.g) &&
+           near(there.color.b, between.optics.color.b);
+}
+
 // Calls visit(a, b) with the ends of every linear piece that shares more than a point with [lo,
 // hi], and visit(k, k) for every knot in [lo, hi] and for the constant parts outside the knots.
 template <typename Visit>
@@ -84,9 +102,20 @@ constexpr auto always = [](const OpticalProperties&, const OpticalProperties&) {
 
 }  // namespace
 
-TransferFunction TransferFunction::linear(std::vector<TransferKnot> points) {
+TransferFunction::TransferFunction(std::span<const TransferKnot> knots) {
+    for (const TransferKnot& knot : knots) {
+        if (!knots_.empty() && knots_.back().value == knot.value &&
+            same(knots_.back().optics, knot.optics))
+            continue;
+        while (knots_.size() > 1 && on_line(knots_[knots_.size() - 2], knots_.back(), knot))
+            knots_.pop_back();
+        knots_.push_back(knot);
+    }
+}
+
+TransferFunction TransferFunction::linear(const std::vector<TransferKnot>& points) {
     check(points);
-    return TransferFunction(std::move(points));
+    return TransferFunction(points);
 }
 
 TransferFunction TransferFunction::nearest(const std::vector<TransferKnot>& points) {
@@ -104,7 +133,7 @@ TransferFunction TransferFunction::nearest(const std::vector<TransferKnot>& poin
         knots.push_back({step, points[i].optics});
     }
     if (knots.size() > 1) knots.erase(knots.begin());
-    return TransferFunction(std::move(knots));
+    return TransferFunction(knots);
 }
 
 OpticalProperties TransferFunction::at(double value) const {

@@ -26,9 +26,10 @@ class TransferFunction {
   public:
     // Knots in order of value, at least one, at most two at one value, all numbers finite, colour
     // and extinction >= 0; else throws Error, naming the point by its index.
-    static TransferFunction linear(std::vector<TransferKnot> points);
+    static TransferFunction linear(const std::vector<TransferKnot>& points);
     static TransferFunction nearest(const std::vector<TransferKnot>& points);
 
+    // Points on the straight line between their neighbours are left out.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
 
@@ -43,7 +44,7 @@ class TransferFunction {
                       double hi) const;  // the colours of all parts with extinction > 0 are equal
 
   private:
-    explicit TransferFunction(std::vector<TransferKnot> knots) : knots_(std::move(knots)) {}
+    explicit TransferFunction(std::span<const TransferKnot> knots);
     std::vector<TransferKnot> knots_;
 };
 

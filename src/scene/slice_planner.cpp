@@ -101,27 +101,25 @@ class SlicePlanner {
         if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
     }
 
-    // Eight fetches are left out where the texture unit was measured to be no worse than what was
-    // tried. (Tables keep theirs: nothing was tried of those.)
+    // Where the texture unit was measured to be no worse than what was tried. (Of tables nothing
+    // was tried: they keep their fetches.)
     void choose_filter() {
-        if (scene_.slice.filter == Filter::hardware)
-            plan_.slice.sampling = VolumeSampling::hardware;
+        SlicePlan& slice = plan_.slice;
+        if (scene_.slice.filter == Filter::hardware) slice.sampling = VolumeSampling::hardware;
         const std::optional<SlabTrial> trial = slabs_of_hardware_filter(facts_);
         if (!trial || !capabilities_.eight_bit_filter) return;
-        if (!leave_out(
-                true, "exact_filter",
-                fmt::format("the texture unit's filter, of one look-up instead of eight "
-                            "fetches, makes an error of {:.2g} / 255{}: at most {:.3g} are "
-                            "wanted",
-                            trial->error, scene_.slice.samples ? "" : " with that of the slabs",
-                            facts_.slab_goal)))
+        const char* const whose = scene_.slice.samples ? "its own" : "with that of the slabs";
+        if (!leave_out(true, "exact_filter",
+                       fmt::format("one look-up of the texture unit instead of eight fetches: an "
+                                   "error of {:.2g} / 255, {}, was found, of {:.3g} wanted",
+                                   trial->error, whose, facts_.slab_goal)))
             return;
-        plan_.slice.sampling = VolumeSampling::hardware;
+        slice.sampling = VolumeSampling::hardware;
         if (scene_.slice.samples) {
-            plan_.slice.filter_error = trial->error;
+            slice.filter_error = trial->error;
         } else {
-            plan_.slice.slabs = trial->slabs;
-            plan_.slice.slab_trial = trial;
+            slice.slabs = trial->slabs;
+            slice.slab_trial = trial;
         }
     }
 
@@ -305,7 +303,9 @@ class SlicePlanner {
                 if (!whole) slice.tree->factors = {(slice.slabs + most - 1) / most, most};
             }
         }
-        check_leaves();
+        if (slice.has_tree(NodeArithmetic::shader))
+            check_leaves(scene_, TreeShape(slice.tree->factors, slice.slabs),
+                         most_marched_slabs(scene_, facts_, capabilities_), capabilities_);
         if (slice.tree && is_fixed_point(slice.target)) {
             slice.tree->largest_color = std::max(facts_.max_color, 1.0);
         }
@@ -313,21 +313,6 @@ class SlicePlanner {
             slice.blending = programmable_blending(capabilities_);
         }
         if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
-    }
-
-    void check_leaves() const {
-        const SlicePlan& slice = plan_.slice;
-        if (!slice.has_tree(NodeArithmetic::shader)) return;
-        const int most = most_marched_slabs(scene_, facts_, capabilities_);
-        const TreeShape shape(slice.tree->factors, slice.slabs);
-        int leaf = slice.slabs;
-        for (int level = 0; level + 1 < shape.levels(); ++level)
-            leaf = (leaf + shape.factor(level) - 1) / shape.factor(level);
-        if (leaf <= most) return;
-        fail(
-            "{}: render.slice.tree.factors: found leaves of {} slabs, expected at most {} with {}, "
-            "which ends longer loops: add a level, or use --context cpu",
-            scene_.file.string(), leaf, most, capabilities_.renderer);
     }
 
     void choose_tree_for(const TreeSettings& settings) {

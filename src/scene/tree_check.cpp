@@ -64,4 +64,16 @@ void check_project_tree(const Scene& scene, bool single_color) {
     }
 }
 
+void check_leaves(const Scene& scene, const TreeShape& shape, int most,
+                  const Capabilities& capabilities) {
+    int leaf = shape.samples();
+    for (int level = 0; level + 1 < shape.levels(); ++level)
+        leaf = (leaf + shape.factor(level) - 1) / shape.factor(level);
+    if (leaf <= most) return;
+    fail(
+        "{}: render.slice.tree.factors: found leaves of {} slabs, expected at most {} with {}, "
+        "which ends longer loops: add a level, or use --context cpu",
+        scene.file.string(), leaf, most, capabilities.renderer);
+}
+
 }  // namespace lamina

@@ -68,6 +68,26 @@ TEST(TransferFunction, NearestOfNeighbouringDoublesHasAtMostTwoKnotsAtAValue) {
     EXPECT_EQ(f.at(2).extinction, 8);
 }
 
+// In colour and extinction; both to a few roundings of their own value, so that nothing faint is
+// lost; of steps, the height.
+TEST(TransferFunction, PointsOnTheLineBetweenTheirNeighboursAreLeftOut) {
+    const auto count = [](const std::vector<TransferKnot>& points) {
+        return TransferFunction::linear(points).knots().size();
+    };
+    const glm::dvec3 grey(.3), red(.3, 0, 0);
+    EXPECT_EQ(count({knot(0, 0, grey), knot(.1, .1, grey), knot(.7, .7, grey), knot(1, 1, grey)}),
+              2u);
+    EXPECT_EQ(count({knot(0, 2, grey), knot(3, 2, grey), knot(3, 2, grey), knot(9, 2, grey)}), 2u);
+    EXPECT_EQ(count({knot(0, 0, grey), knot(.5, .5, red), knot(1, 1, grey)}), 3u);
+    EXPECT_EQ(count({knot(0, 0, grey), knot(.5, .5 + 1e-14, grey), knot(1, 1, grey)}), 3u);
+    EXPECT_EQ(count({knot(0, 0, grey), knot(.5, 1e-300, grey), knot(1, 0, grey)}), 3u);
+    EXPECT_EQ(count({knot(0, 0, grey), knot(.5, .5, grey), knot(.5, .7, grey), knot(1, 1, grey)}),
+              4u);
+    const std::vector<TransferKnot> labels{knot(0, 0, grey), knot(1, 0, grey), knot(2, 1, red),
+                                           knot(3, 1, red), knot(4, 0, grey)};
+    EXPECT_EQ(TransferFunction::nearest(labels).knots().size(), 5u);  // its begin, two steps
+}
+
 TEST(TransferFunction, NamesTheBadPoint) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(message_of({}), "no points, expected at least one");

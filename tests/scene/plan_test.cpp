@@ -117,7 +117,7 @@ TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
 
     nlohmann::json points = nlohmann::json::array();
     for (int i = 0; i < 100; ++i)
-        points.push_back({{"value", 1e-6 * i}, {"color", {1, 1, 1}}, {"extinction", i}});
+        points.push_back({{"value", 1e-6 * i}, {"color", {1, 1, 1}}, {"extinction", i % 2}});
     document["transfer_function"]["points"] = points;
     EXPECT_LE(factors(usual())[1] * 4 * 100, 65535);
 
