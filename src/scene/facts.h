@@ -73,7 +73,6 @@ struct Facts {
 
     // For "samples": "auto" (slicing/slab_trials.h); else none.
     std::vector<SlabTrial> slab_trials;
-    double slab_goal = 0;  // slab_error_goal() of the scene, in 1/255, where anything was tried
     // For "filter": "auto": with weights rounded to 8 bits, as texture units have them. Where the
     // number of slabs was given, the error is that of the weights alone.
     std::vector<SlabTrial> filter_trials;

@@ -13,18 +13,18 @@ namespace lamina {
 // So many slabs a voxel along the view, 1 .. max_slabs.
 int slabs_per_voxel(const Facts& facts, double slabs);
 
-// What slabs may be found to add to the picture's error where their number is automatic, in 1/255:
-// what compositing that is automatic, too, leaves of max_error, and a little less, for the rays
-// that are not tried.
-double slab_error_goal(const Scene& scene);
+// What so many slabs may be found to add to the picture's error where their number is automatic, in
+// 1/255: what compositing that is automatic, too, leaves of max_error, and a little less, more so
+// where not all rays are tried.
+double slab_error_goal(const Scene& scene, double max_color, int slabs, bool all_rays);
 
-// "samples": "auto": of what was tried (Facts::slab_trials) the fewest slabs that keep the goal;
+// "samples": "auto": of what was tried (Facts::slab_trials) the fewest slabs that keep their goal;
 // where none does, of two a voxel and more the fewest whose error is near the least. Where nothing
 // was tried, two a voxel, of an error that is not known (NaN).
 SlabTrial chosen_slabs(const Facts& facts);
 
 // "filter": "auto": of what was tried with the weights of texture units (Facts::filter_trials) the
-// fewest slabs that keep the goal, if any do.
+// fewest slabs that keep their goal, if any do.
 std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts);
 
 }  // namespace lamina

@@ -10,6 +10,8 @@ struct SlabTrial {
     int slabs = 1;
     double error = 0;       // Linf of colour and opacity, in 1/255
     std::int64_t rays = 0;  // that were tried
+    double goal = 0;        // what the error may be: slab_error_goal(), in 1/255
+    bool keeps_goal() const { return error <= goal; }
 };
 
 }  // namespace lamina

@@ -112,7 +112,7 @@ class SlicePlanner {
         if (!leave_out(true, "exact_filter",
                        fmt::format("one look-up of the texture unit instead of eight fetches: an "
                                    "error of {:.2g} / 255, {}, was found, of {:.3g} wanted",
-                                   trial->error, whose, facts_.slab_goal)))
+                                   trial->error, whose, trial->goal)))
             return;
         slice.sampling = VolumeSampling::hardware;
         if (scene_.slice.samples) {

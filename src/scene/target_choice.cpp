@@ -22,9 +22,11 @@ TargetChoice smallest_target(TreeQuestion question, const Bound& bound) {
         question.target = target;
         const double error = bound(question);
         if (error <= share)
-            return {target, fmt::format("rounds by at most {:.2g} / 255, of which {:.2g} are its "
-                                        "share of max_error",
-                                        error, share)};
+            return {target,
+                    fmt::format("rounds by at most {:.2g} / 255, of which {:.2g} are its "
+                                "share of max_error",
+                                error, share),
+                    error};
     }
     return {Target::float32,
             fmt::format("smaller targets round by more than {:.2g} / 255, their share of max_error",
@@ -33,7 +35,7 @@ TargetChoice smallest_target(TreeQuestion question, const Bound& bound) {
 
 }  // namespace
 
-TargetChoice choose_target(const Scene& scene, const Facts& facts) {
+TargetChoice choose_target(const Scene& scene, double max_color, int slabs) {
     if (!scene.automatic_target) return {scene.target, {}};
     const auto& tree = scene.slice.tree;
     if (tree && !tree->automatic) {
@@ -42,12 +44,17 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts) {
         return {Target::float32, "no smaller target has a bound for a tree of given factors"};
     }
     TreeQuestion question;
-    const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(facts);
-    question.visible_slabs = scene.slice.samples.value_or(
-        std::max(chosen_slabs(facts).slabs, filtered ? filtered->slabs : 0));
-    question.largest_color = facts.max_color;
+    question.visible_slabs = slabs;
+    question.largest_color = max_color;
     question.max_error = scene.max_error;
     return smallest_target(question, one_level_error_bound);
+}
+
+TargetChoice choose_target(const Scene& scene, const Facts& facts) {
+    const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(facts);
+    const int slabs = scene.slice.samples.value_or(
+        std::max(chosen_slabs(facts).slabs, filtered ? filtered->slabs : 0));
+    return choose_target(scene, facts.max_color, slabs);
 }
 
 Scene with_target(Scene scene, Target target) {

@@ -15,11 +15,13 @@ inline constexpr double target_share = 0.15;
 struct TargetChoice {
     Target target = Target::float32;
     std::string reason;  // empty: as the scene asks
+    double error = 0;    // at most, in 1/255: 0 where no bound is known or needed
 };
 
 // "target": "auto", of slicing: the fewest bytes a pixel with which compositing keeps its share of
 // max_error.
 TargetChoice choose_target(const Scene& scene, const Facts& facts);
+TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
 // Of projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);
 

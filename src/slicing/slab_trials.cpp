@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,20 +36,26 @@ constexpr double most_growth = 4, still_left = 0.7;
 constexpr int finer = 3;
 constexpr double fine_enough = 2;
 
+// Errors of second order fall by such a power of the number of slabs.
+constexpr double least_order = 1.5, most_order = 3;
+
+// Of errors that do not, fewer slabs by chance make less than more do: these shares of what was
+// found are tried.
+constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
+
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts)
-        : scene_(trial_scene(scene)),
+        : asked_(scene),
+          scene_(trial_scene(scene)),
           volume_(volume),
           facts_(seen_by(scene_, facts)),
-          goal_(facts.slab_goal),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
                            max_slabs / finer)) {}
 
     std::vector<SlabTrial> run() {
         std::vector<SlabTrial> trials = run_from(slabs_per_voxel(facts_, 1), Filter::exact);
-        const double least = std::ranges::min(trials, {}, &SlabTrial::error).error;
-        if (least > goal_)
+        if (std::ranges::none_of(trials, &SlabTrial::keeps_goal))
             trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact));
         return trials;
     }
@@ -59,7 +66,7 @@ class SlabTrials {
     // Of the weights alone.
     SlabTrial try_filter(int slabs) {
         const Image exact = draw(slabs, Filter::exact, {});
-        return {slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf, rays()};
+        return trial_of(slabs, image_error(draw(slabs, Filter::hardware, {}), exact).all.linf);
     }
 
   private:
@@ -69,17 +76,35 @@ class SlabTrials {
         int too_few = 0, enough = most_ + 1;
         while (trials.size() < most_trials && too_few + 1 < enough) {
             slabs = std::clamp(slabs, too_few + 1, enough - 1);
-            const double error = trials.emplace_back(try_slabs(slabs, filter)).error;
-            const bool kept = error <= goal_;
-            if (!kept && slabs >= 2 * too_few && error > still_left * error_of_too_few) break;
+            const SlabTrial trial = trials.emplace_back(try_slabs(slabs, filter));
+            const bool kept = trial.keeps_goal();
+            if (!kept && slabs >= 2 * too_few && trial.error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
-            if (kept && error >= near_aim * goal_) break;
-            if (!kept) error_of_too_few = error;
+            if (kept && trial.error >= near_aim * trial.goal) break;
+            if (!kept) error_of_too_few = trial.error;
             // The error falls with the square of the number, but where there are steps.
-            const double next = std::ceil(slabs * std::sqrt(error / (aim * goal_)));
+            const double next = std::ceil(slabs * std::sqrt(trial.error / (aim * trial.goal)));
             slabs = static_cast<int>(std::min({next, double(most_), most_growth * slabs}));
         }
+        if (enough <= most_ && !of_second_order(trials)) try_fewer(enough, filter, trials);
         return trials;
+    }
+
+    static bool of_second_order(std::vector<SlabTrial> trials) {
+        std::ranges::sort(trials, {}, &SlabTrial::slabs);
+        const auto odd = [](const SlabTrial& a, const SlabTrial& b) {
+            const double order = std::log(a.error / b.error) / std::log(double(b.slabs) / a.slabs);
+            return !(order >= least_order && order <= most_order);
+        };
+        return std::ranges::adjacent_find(trials, odd) == trials.end();
+    }
+
+    void try_fewer(int enough, Filter filter, std::vector<SlabTrial>& trials) {
+        for (const double share : fewer) {
+            const int slabs = static_cast<int>(std::ceil(share * enough));
+            if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
+            if (trials.emplace_back(try_slabs(slabs, filter)).keeps_goal()) return;
+        }
     }
 
     static Facts seen_by(const Scene& scene, Facts facts) {
@@ -97,7 +122,11 @@ class SlabTrials {
         return scene;
     }
 
-    std::int64_t rays() const { return static_cast<std::int64_t>(scene_.width) * scene_.height; }
+    SlabTrial trial_of(int slabs, double error) const {
+        const bool all = scene_.width == asked_.width && scene_.height == asked_.height;
+        return {slabs, error, static_cast<std::int64_t>(scene_.width) * scene_.height,
+                slab_error_goal(asked_, facts_.max_color, slabs, all)};
+    }
 
     // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
     SlabTrial try_slabs(int slabs, Filter filter) {
@@ -109,7 +138,7 @@ class SlabTrials {
         }
         const double found = image_error(draw(slabs, filter, {}), *fine_).all.linf;
         const double share = static_cast<double>(slabs) / fine_slabs_;
-        return {slabs, found / (1 - share * share), rays()};
+        return trial_of(slabs, found / (1 - share * share));
     }
 
     Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
@@ -124,10 +153,10 @@ class SlabTrials {
         return renderer.read();
     }
 
+    const Scene& asked_;
     Scene scene_;
     const Volume& volume_;
     Facts facts_;
-    double goal_;
     int most_;
     int fine_slabs_ = 0;
     std::optional<Image> fine_;
@@ -145,13 +174,12 @@ bool tries_filter(const Scene& scene, const Facts& facts) {
 void run_trials(const Scene& scene, const Volume& volume, Facts& facts) {
     const bool slabs = !scene.slice.samples, filter = tries_filter(scene, facts);
     if (!slabs && !filter) return;
-    facts.slab_goal = slab_error_goal(scene);
     SlabTrials trials(scene, volume, facts);
     if (slabs) facts.slab_trials = trials.run();
     if (!filter) return;
     if (!slabs) {
         facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
-    } else if (const SlabTrial exact = chosen_slabs(facts); exact.error <= facts.slab_goal) {
+    } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {
         facts.filter_trials = trials.run_filter(exact.slabs);
     }
 }

@@ -63,11 +63,14 @@ void check_projection(const ProjectPlan& plan) {
 }
 
 // What slicing/slab_trials.h would find by drawing pictures: halved errors for twice the slabs.
-std::vector<SlabTrial> made_up_trials(const Facts& facts) {
+std::vector<SlabTrial> made_up_trials(const Scene& scene, const Facts& facts) {
     std::vector<SlabTrial> trials;
     double error = 64;
     for (const double slabs : {1, 2, 4, 8}) {
-        trials.push_back({slabs_per_voxel(facts, slabs), error, 1000});
+        const int number = slabs_per_voxel(facts, slabs);
+        const double goal = slab_error_goal(scene, facts.max_color, number, slabs > 2);
+        require_finite(goal, "what the slabs' error may be");
+        trials.push_back({number, error, 1000, goal});
         error /= 2;
     }
     return trials;
@@ -106,8 +109,7 @@ void check_slice_plans(const Scene& scene, const Volume& volume) {
     Facts facts = measure(scene, volume, measure_bricks(volume));
     check_facts(facts);
     if (scene.method == Method::slice && !scene.slice.samples) {
-        facts.slab_trials = made_up_trials(facts);
-        facts.slab_goal = slab_error_goal(scene);
+        facts.slab_trials = made_up_trials(scene, facts);
         if (scene.slice.filter == Filter::automatic) facts.filter_trials = facts.slab_trials;
     }
     for_all_contexts([&](const Capabilities& capabilities, const OmissionSwitch& omissions) {

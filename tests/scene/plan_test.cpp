@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "scene/slab_choice.h"
 #include "scene_fixture.h"
 #include "support/expect_error.h"
 
@@ -46,9 +45,8 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     Scene scene = read_scene(with("/render/slice/filter", "auto"), "s");
     const Volume volume = load_volume(scene);
     Facts facts = measure(scene, volume, measure_bricks(volume));
-    facts.slab_goal = slab_error_goal(scene);
-    facts.slab_trials = {{60, .8 * facts.slab_goal, 100}};
-    facts.filter_trials = {{60, 1.1 * facts.slab_goal, 100}, {80, .9 * facts.slab_goal, 100}};
+    facts.slab_trials = {{60, .8, 100, 1}};
+    facts.filter_trials = {{60, 1.1, 100, 1}, {80, .9, 100, 1}};
     Capabilities gpu = usual();
     const auto plan_for = [&](const OmissionSwitch& omissions = {}) {
         return make_plan(scene, facts, gpu, omissions);
@@ -59,18 +57,18 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     const Plan plan = plan_for();
     EXPECT_EQ(plan.slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan.slice.slabs, 80);
-    EXPECT_EQ(plan.slice.slab_trial->error, .9 * facts.slab_goal);
+    EXPECT_EQ(plan.slice.slab_trial->error, .9);
     const auto omission = std::ranges::find(plan.omitted, "exact_filter", &Omission::name);
     ASSERT_NE(omission, plan.omitted.end());
     EXPECT_DOUBLE_EQ(omission->saves.fetches, (8. * 60 / 80 - 1) * plan.work.fetches);
     EXPECT_EQ(plan_for({.none = false, .kept = {"exact_filter"}}).slice.slabs, 60);
 
-    facts.filter_trials.back().error = 1.01 * facts.slab_goal;
+    facts.filter_trials.back().error = 1.01;
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
     // Of a given number of slabs the trial is that of the filter alone; trees leave it its part.
     scene.slice.samples = 60;
     facts.slab_trials.clear();
-    facts.filter_trials = {{60, .5, 100}};
+    facts.filter_trials = {{60, .5, 100, 1}};
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan_for().slice.slabs, 60);
     EXPECT_EQ(plan_for().slice.filter_error, .5);

@@ -15,8 +15,9 @@ namespace {
 Facts facts_of(const Scene& scene, std::vector<SlabTrial> trials) {
     const Volume volume = load_volume(scene);
     Facts facts = measure(scene, volume, measure_bricks(volume));
+    for (SlabTrial& trial : trials)
+        trial.goal = slab_error_goal(scene, facts.max_color, trial.slabs, false);
     facts.slab_trials = std::move(trials);
-    facts.slab_goal = slab_error_goal(scene);
     return facts;
 }
 
@@ -48,15 +49,31 @@ TEST(SlabChoice, TheFewestSlabsThatKeepTheErrorElseTheLeastError) {
 
 TEST(SlabChoice, SlabsGetWhatCompositingLeavesOfTheError) {
     Scene scene = automatic_scene("fixed8", 1);
+    const auto goal = [&](bool all_rays = false) {
+        return slab_error_goal(scene, 1, 100, all_rays);
+    };
     // Compositing is as asked, whatever it costs; a little is for the rays between those tried.
-    EXPECT_LT(slab_error_goal(scene), 1);
-    EXPECT_GT(slab_error_goal(scene), .9);
+    EXPECT_LT(goal(), 1);
+    EXPECT_GT(goal(), .9);
+    EXPECT_GT(goal(true), goal());
+    EXPECT_LT(goal(true), 1);
     scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
     // The root of one level is rounded to a code once.
-    EXPECT_LT(slab_error_goal(scene), .5);
-    EXPECT_GT(slab_error_goal(scene), .45);
+    EXPECT_LT(goal(), .5);
+    EXPECT_GT(goal(), .45);
     scene.max_error = .5;  // not to be kept: the tree says so
-    EXPECT_GT(slab_error_goal(scene), 0);
+    EXPECT_GT(goal(), 0);
+}
+
+// Of 16 bits hardly anything, of 8 half a code: the target that so many slabs would get.
+TEST(SlabChoice, SlabsGetWhatTheChosenTargetLeaves) {
+    EXPECT_GT(slab_error_goal(automatic_scene("auto", 1), 1, 100, false), .9);
+    const Scene coarse = automatic_scene("auto", 4);
+    EXPECT_LT(slab_error_goal(coarse, 1, 100, false), .92 * 3.5);
+    EXPECT_GT(slab_error_goal(coarse, 1, 100, false), .92 * 3.4);
+    Scene of_factors = coarse;  // no bound is known
+    of_factors.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::fixed};
+    EXPECT_LE(slab_error_goal(of_factors, 1, 100, false), .92 * .85 * 4);
 }
 
 TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {

@@ -106,7 +106,7 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
         const Image traced = trace(volume, scene, 1e-7);
         const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
         const SlabTrial trial = slabs_of_hardware_filter(facts).value();
-        EXPECT_LE(trial.error, facts.slab_goal);
+        EXPECT_LE(trial.error, trial.goal);
         Scene given = scene;
         given.slice.samples = trial.slabs;
         given.slice.filter = Filter::hardware;
@@ -135,7 +135,7 @@ TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
         return std::pair(facts.filter_trials.at(0).error, slabs_of_hardware_filter(facts));
     };
     const double error = found(1).first;
-    const double goal_per_max = slab_error_goal(scene) / scene.max_error;
+    const double goal_per_max = slab_error_goal(scene, 1, 200, true) / scene.max_error;
     EXPECT_TRUE(found(1.01 * error / goal_per_max).second);
     EXPECT_FALSE(found(.99 * error / goal_per_max).second);
 }
