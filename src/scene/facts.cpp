@@ -107,7 +107,7 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
     OccupiedBricks& occupied = facts.occupied_bricks;
     const double margin = margin_of(facts), faint = faint_extinction(facts);
     const auto shown = [&](const ValueRange& range) {
-        if (range.empty()) return false;
+        if (range.empty() || facts.max_extinction == 0) return false;
         const double most = transfer_function.max_extinction(range.lo - margin, range.hi + margin);
         return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
     };

@@ -104,6 +104,10 @@ TEST(Facts, BricksThatEndWhereSomethingBeginsAreEmpty) {
     EXPECT_EQ(share(.5, 1.2), 1);
     EXPECT_EQ(share(.25, 1e-3), 1);
     EXPECT_EQ(share(.25, 1e-12), 1);
+    // Where it begins at the volume's largest value, nothing shows at all.
+    scene.transfer_function =
+        TransferFunction::linear({test::knot(1, {1, 1, 1}, 0), test::knot(1.1, {1, 1, 1}, 1e6)});
+    EXPECT_EQ(measure(scene, volume, measure_bricks(volume)).occupied_share, 0);
 }
 
 // In float32 codes of 16 bits, from 32768 on, are good to 2^-24 of them, .002 each rounding.
