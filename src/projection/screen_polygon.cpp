@@ -24,6 +24,10 @@ constexpr double same = 1e-9;  // pixels
 // ones are cut off square.
 constexpr double sharpest = -0.96;
 
+bool are_same(const glm::dvec2& a, const glm::dvec2& b) {
+    return glm::dot(a - b, a - b) < same * same;
+}
+
 struct Hull {
     std::size_t count = 0;
     std::array<glm::dvec2, most_points + 5> corners;
@@ -54,12 +58,10 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     for (std::size_t i = count - 1; i-- > 0;) add(sorted[i], floor);
     Hull hull;
     for (std::size_t i = 0; i + 1 < top; ++i) {
-        const bool repeated =
-            hull.count > 0 && glm::distance(chain[i], hull.corners[hull.count - 1]) < same;
+        const bool repeated = hull.count > 0 && are_same(chain[i], hull.corners[hull.count - 1]);
         if (!repeated) hull.corners[hull.count++] = chain[i];
     }
-    while (hull.count > 1 && glm::distance(hull.corners[0], hull.corners[hull.count - 1]) < same)
-        --hull.count;
+    while (hull.count > 1 && are_same(hull.corners[0], hull.corners[hull.count - 1])) --hull.count;
     if (hull.count == 0) hull.corners[hull.count++] = chain[0];
     return hull;
 }
@@ -114,7 +116,7 @@ ScreenPolygon enlarged(const Hull& hull, double margin) {
     const double step = margin / 2;
     Hull larger;
     const auto add = [&](const glm::dvec2& corner) {
-        larger.corners[larger.count++] = glm::round(corner / step) * step;
+        larger.corners[larger.count++] = glm::floor(corner / step + 0.5) * step;
     };
     glm::dvec2 in = glm::normalize(hull.corners[0] - hull.corners[hull.count - 1]);
     for (std::size_t i = 0; i < hull.count; ++i) {
