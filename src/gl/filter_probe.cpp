@@ -42,14 +42,16 @@ Values<Value> scattered_values(const Probe& probe) {
 }
 
 template <typename Value>
-double trilinear(const Values<Value>& values, const std::array<double, 3>& position) {
+double trilinear(const Values<Value>& values, const std::array<double, 3>& position,
+                 bool eight_bit_weights) {
     double sum = 0;
     for (int corner = 0; corner < 8; ++corner) {
         double weight = 1;
         int index = 0;
         for (int axis = 2; axis >= 0; --axis) {
             const double below = std::floor(position[axis]);
-            const double fraction = position[axis] - below;
+            const double share = position[axis] - below;
+            const double fraction = eight_bit_weights ? std::round(256 * share) / 256 : share;
             const int step = (corner >> axis) & 1;
             weight *= step ? fraction : 1 - fraction;
             index = index * texels + std::min(static_cast<int>(below) + step, texels - 1);
@@ -67,7 +69,7 @@ std::array<double, 3> probe_position(int index) {
 }
 
 template <typename Value>
-double measure(TextureFormat format, const Probe& probe) {
+FilterError measure(TextureFormat format, const Probe& probe) {
     const Values<Value> values = scattered_values<Value>(probe);
     Texture texture = Texture::make_3d(format, texels, texels, texels);
     texture.upload({.width = texels, .height = texels, .depth = texels},
@@ -83,17 +85,22 @@ double measure(TextureFormat format, const Probe& probe) {
 
     const std::vector<float> filtered = target.color().read_rgba();
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    double error = 0;
+    const double range = static_cast<double>(*most) - static_cast<double>(*least);
+    FilterError error;
     for (int i = 0; i < samples * samples; ++i) {
+        const std::array<double, 3> place = probe_position(i);
+        const double exact = trilinear(values, place, false);
         const double found = probe.scale * filtered[4 * static_cast<std::size_t>(i)];
-        error = std::max(error, std::abs(found - trilinear(values, probe_position(i))));
+        error.found = std::max(error.found, std::abs(found - exact) / range);
+        error.eight_bit =
+            std::max(error.eight_bit, std::abs(trilinear(values, place, true) - exact) / range);
     }
-    return error / (static_cast<double>(*most) - static_cast<double>(*least));
+    return error;
 }
 
 }  // namespace
 
-double measure_filter_error(TextureFormat format) {
+FilterError measure_filter_error(TextureFormat format) {
     switch (format) {
         case TextureFormat::r8:
             return measure<std::uint8_t>(format, {.scale = 255, .least = 96, .range = 8});

@@ -5,13 +5,17 @@
 
 namespace lamina::gl {
 
-// Largest deviation of the current context's linear filter from exact trilinear interpolation, for
-// a 3D texture of r8, r16 or r32f, as a fraction of the range of its values. llvmpipe: 1e-7, but
-// 8e-3 for r8, whose results it rounds to 8 bits; GPUs with 8-bit weights: 1e-3 (NUMERICS section
-// 2).
-double measure_filter_error(TextureFormat format);
+// How a filter deviates from exact trilinear interpolation, at most, as fractions of the range of
+// the values.
+struct FilterError {
+    double found = 0;
+    double eight_bit = 0;  // with weights rounded to 8 bits instead, at the same places
+    // Truncated weights, or those of 7 bits, are twice as bad.
+    bool as_good_as_eight_bits() const { return found <= 1.1 * eight_bit; }
+};
 
-// What weights rounded to 8 bits can cost: 1/512 of a step along each axis.
-constexpr double eight_bit_filter_error = 3. / 512;
+// Of the current context's linear filter of a 3D texture of r8, r16 or r32f. llvmpipe: 1e-7, but
+// .18 for r8, of values 7 codes apart: it rounds results to codes (NUMERICS section 2).
+FilterError measure_filter_error(TextureFormat format);
 
 }  // namespace lamina::gl

@@ -21,8 +21,9 @@ struct Capabilities {
         std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead
     bool exact_float_filter =
         false;  // measured: linear filtering of R32F is good to 1e-6 (llvmpipe; not GPUs)
-    bool eight_bit_filter = false;  // else, measured: that of R8, R16 and R32F is as good as
-                                    // weights rounded to 8 bits, the slab trials' model of it, are
+    // Where that is not: whether filters of R8, R16 and R32F were measured to be as good as weights
+    // rounded to 8 bits, which slab trials have.
+    bool eight_bit_filter = false;
 };
 
 }  // namespace lamina

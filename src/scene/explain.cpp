@@ -167,7 +167,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("classification", name_of(slice.classification));
         row("order", name_of(slice.order));
         row("rays", slice.precise_rays ? "double" : "float");
-        row("scalar", text_of(slice.sampling, capabilities));
+        row("scalar", with_reason(text_of(slice.sampling, capabilities), slice.filter_reason));
         if (!capabilities.tiles) {
             row("textures", fmt::format("{} of {}", slice.bricks.size(),
                                         slice.float_texture ? "float" : name_of(facts.type)));

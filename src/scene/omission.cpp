@@ -4,22 +4,11 @@
 namespace lamina {
 
 std::vector<std::string> omission_names() {
-    return {"blending",
-            "color",
-            "constant_regions",
-            "dither",
-            "double_precision",
-            "drawing",
-            "early_termination",
-            "empty_space",
-            "exact_filter",
-            "length_layers",
-            "order",
-            "perspective",
-            "scalars",
-            "table",
-            "transparent_tets",
-            "volume_texture"};
+    return {"blending",         "color",         "constant_regions",
+            "double_precision", "drawing",       "early_termination",
+            "empty_space",      "length_layers", "order",
+            "perspective",      "scalars",       "table",
+            "transparent_tets", "volume_texture"};
 }
 
 }  // namespace lamina

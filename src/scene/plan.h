@@ -38,6 +38,7 @@ struct TextureBrick {
 struct SlicePlan : CompositingPlan {
     int slabs = 1;
     std::optional<SlabTrial> slab_trial;  // of "samples": "auto"
+    std::string filter_reason;            // of "filter": "auto", where it takes the hardware's
     double filter_error = 0;    // of "filter": "auto" where samples are given, found, in 1/255
     std::string target_reason;  // of "target": "auto"
     std::optional<Dither> dither;

@@ -11,12 +11,18 @@
 namespace lamina {
 namespace {
 
-// The largest error on a quarter of a picture's rays was up to 4 % below that on all; as much is
-// for the error of the picture that trials are compared with.
-constexpr double tried_share = 0.92, all_tried_share = 0.96;
+// Of the goal what is used: the picture that trials are compared with has an error, too.
+constexpr double used_share = 0.96;
+
+// The largest error on a quarter of a picture's rays was up to 1.37 times below that on all
+// (docs/precision.md): a maximum that grows with a power of the number of rays.
+constexpr double rays_power = 0.25;
 
 // What more slabs gain less than is not worth their time.
 constexpr double near_least = 1.2;
+
+// Errors of second order fall by such a power of the number of slabs.
+constexpr double least_order = 1.5, most_order = 3;
 
 }  // namespace
 
@@ -25,8 +31,9 @@ int slabs_per_voxel(const Facts& facts, double slabs) {
         std::clamp(std::ceil(slabs * facts.voxels_along_view), 1.0, double{max_slabs}));
 }
 
-double slab_error_goal(const Scene& scene, double max_color, int slabs, bool all_rays) {
-    const double share = all_rays ? all_tried_share : tried_share;
+double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays) {
+    const double all_rays = static_cast<double>(scene.width) * scene.height;
+    const double share = used_share * std::pow(std::min(rays / all_rays, 1.0), rays_power);
     const auto& tree = scene.slice.tree;
     if (scene.automatic_target) {
         const double unknown = tree && !tree->automatic ? target_share * scene.max_error : 0;
@@ -56,6 +63,15 @@ SlabTrial chosen_slabs(const Facts& facts) {
     }
     if (chosen.rays > 0) return chosen;
     return std::ranges::min(facts.slab_trials, {}, &SlabTrial::error);
+}
+
+bool are_of_second_order(std::vector<SlabTrial> trials) {
+    std::ranges::sort(trials, {}, &SlabTrial::slabs);
+    const auto odd = [](const SlabTrial& a, const SlabTrial& b) {
+        const double order = std::log(a.error / b.error) / std::log(double(b.slabs) / a.slabs);
+        return !(order >= least_order && order <= most_order);
+    };
+    return std::ranges::adjacent_find(trials, odd) == trials.end();
 }
 
 std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts) {

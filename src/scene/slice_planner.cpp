@@ -107,13 +107,12 @@ class SlicePlanner {
         SlicePlan& slice = plan_.slice;
         if (scene_.slice.filter == Filter::hardware) slice.sampling = VolumeSampling::hardware;
         const std::optional<SlabTrial> trial = slabs_of_hardware_filter(facts_);
-        if (!trial || !capabilities_.eight_bit_filter) return;
-        const char* const whose = scene_.slice.samples ? "its own" : "with that of the slabs";
-        if (!leave_out(true, "exact_filter",
-                       fmt::format("one look-up of the texture unit instead of eight fetches: an "
-                                   "error of {:.2g} / 255, {}, was found, of {:.3g} wanted",
-                                   trial->error, whose, trial->goal)))
+        if (scene_.slice.filter != Filter::automatic || !trial || !capabilities_.eight_bit_filter)
             return;
+        slice.filter_reason = fmt::format(
+            "one look-up instead of eight: an error of {:.2g} / 255, {}, was found, of "
+            "{:.3g} wanted",
+            trial->error, scene_.slice.samples ? "its own" : "with that of the slabs", trial->goal);
         slice.sampling = VolumeSampling::hardware;
         if (scene_.slice.samples) {
             slice.filter_error = trial->error;

@@ -86,7 +86,7 @@ TreeChoice choose_tree(const TreeQuestion& question) {
     // One node that marches all slabs reads and writes each pixel once; blending does so once a
     // slab, and is measured to be slower for every number of slabs but one (docs/precision.md).
     const double one_level = one_level_error_bound(question);
-    if (question.slabs > 1 && one_level <= question.max_error) {
+    if ((question.slabs > 1 || straight > question.max_error) && one_level <= question.max_error) {
         return {TreePlan{.factors = {question.slabs}}, one_level,
                 fmt::format("one node of {} slabs, in float, takes less time than blending, whose "
                             "bound is {:.3g}",

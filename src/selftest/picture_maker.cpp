@@ -71,7 +71,8 @@ PreciseImage PictureMaker::draw(const Scene& asked, const Volume& volume) const 
     const View view(scene.camera, scene.width, scene.height);
     if (scene.method == Method::trace)
         return trace_volume(volume, scene.transfer_function, view, {scene.trace_tolerance}).image;
-    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    try_filter(scene, volume, capabilities_, facts);
     const Plan plan = make_plan(scene, facts, capabilities_, {});
     const auto renderer = make_slice_renderer(volume, scene.transfer_function, facts, plan.slice,
                                               capabilities_, scene.width, scene.height);

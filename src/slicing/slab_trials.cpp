@@ -36,9 +36,6 @@ constexpr double most_growth = 4, still_left = 0.7;
 constexpr int finer = 3;
 constexpr double fine_enough = 2;
 
-// Errors of second order fall by such a power of the number of slabs.
-constexpr double least_order = 1.5, most_order = 3;
-
 // Of errors that do not, fewer slabs by chance make less than more do: these shares of what was
 // found are tried.
 constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
@@ -55,8 +52,12 @@ class SlabTrials {
 
     std::vector<SlabTrial> run() {
         std::vector<SlabTrial> trials = run_from(slabs_per_voxel(facts_, 1), Filter::exact);
-        if (std::ranges::none_of(trials, &SlabTrial::keeps_goal))
+        const bool kept = std::ranges::any_of(trials, &SlabTrial::keeps_goal);
+        if (!kept) {
             trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact));
+        } else if (all_rays() && !are_of_second_order(trials)) {
+            try_fewer(trials);
+        }
         return trials;
     }
 
@@ -86,24 +87,18 @@ class SlabTrials {
             const double next = std::ceil(slabs * std::sqrt(trial.error / (aim * trial.goal)));
             slabs = static_cast<int>(std::min({next, double(most_), most_growth * slabs}));
         }
-        if (enough <= most_ && !of_second_order(trials)) try_fewer(enough, filter, trials);
         return trials;
     }
 
-    static bool of_second_order(std::vector<SlabTrial> trials) {
-        std::ranges::sort(trials, {}, &SlabTrial::slabs);
-        const auto odd = [](const SlabTrial& a, const SlabTrial& b) {
-            const double order = std::log(a.error / b.error) / std::log(double(b.slabs) / a.slabs);
-            return !(order >= least_order && order <= most_order);
-        };
-        return std::ranges::adjacent_find(trials, odd) == trials.end();
-    }
-
-    void try_fewer(int enough, Filter filter, std::vector<SlabTrial>& trials) {
+    // What is right by chance on some rays need not be so on others: for all of them alone.
+    void try_fewer(std::vector<SlabTrial>& trials) {
+        int enough = most_;
+        for (const SlabTrial& trial : trials)
+            if (trial.keeps_goal()) enough = std::min(enough, trial.slabs);
         for (const double share : fewer) {
             const int slabs = static_cast<int>(std::ceil(share * enough));
             if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
-            if (trials.emplace_back(try_slabs(slabs, filter)).keeps_goal()) return;
+            if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
         }
     }
 
@@ -122,10 +117,12 @@ class SlabTrials {
         return scene;
     }
 
+    bool all_rays() const { return scene_.width == asked_.width && scene_.height == asked_.height; }
+
     SlabTrial trial_of(int slabs, double error) const {
-        const bool all = scene_.width == asked_.width && scene_.height == asked_.height;
-        return {slabs, error, static_cast<std::int64_t>(scene_.width) * scene_.height,
-                slab_error_goal(asked_, facts_.max_color, slabs, all)};
+        const std::int64_t rays = static_cast<std::int64_t>(scene_.width) * scene_.height;
+        return {slabs, error, rays,
+                slab_error_goal(asked_, facts_.max_color, slabs, static_cast<double>(rays))};
     }
 
     // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
@@ -167,29 +164,30 @@ bool shows_something(const Facts& facts) {
 }
 
 // What texture units make of NaN is their own.
-bool tries_filter(const Scene& scene, const Facts& facts) {
-    return scene.slice.filter == Filter::automatic && facts.non_finite == 0 && !facts.constant;
-}
-
-void run_trials(const Scene& scene, const Volume& volume, Facts& facts) {
-    const bool slabs = !scene.slice.samples, filter = tries_filter(scene, facts);
-    if (!slabs && !filter) return;
-    SlabTrials trials(scene, volume, facts);
-    if (slabs) facts.slab_trials = trials.run();
-    if (!filter) return;
-    if (!slabs) {
-        facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
-    } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {
-        facts.filter_trials = trials.run_filter(exact.slabs);
-    }
+bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
+    return scene.method == Method::slice && scene.slice.filter == Filter::automatic &&
+           capabilities.eight_bit_filter && facts.non_finite == 0 && !facts.constant &&
+           shows_something(facts);
 }
 
 }  // namespace
 
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure(scene, volume, bricks);
-    if (scene.method == Method::slice && shows_something(facts)) run_trials(scene, volume, facts);
+    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
+        facts.slab_trials = SlabTrials(scene, volume, facts).run();
     return facts;
+}
+
+void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
+                Facts& facts) {
+    if (!may_filter(scene, facts, capabilities)) return;
+    SlabTrials trials(scene, volume, facts);
+    if (scene.slice.samples) {
+        facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
+    } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {
+        facts.filter_trials = trials.run_filter(exact.slabs);
+    }
 }
 
 }  // namespace lamina

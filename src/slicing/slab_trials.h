@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "scene/capabilities.h"
 #include "scene/facts.h"
 #include "volume/volume.h"
 
@@ -9,10 +10,15 @@ namespace lamina {
 // measure(), and, where the scene is sliced into an automatic number of slabs, what numbers of
 // slabs cost in accuracy: pictures of N and of more slabs are drawn with the native engine, in
 // float32, until the fewest that keep slab_error_goal() are known to some 10 %, or more of
-// them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too. Pictures are
-// smaller than the scene's where that has more than 2^17 pixels. Where the filter is automatic,
-// the weights of texture units are tried in the same way, or with the number of slabs that is
-// given.
+// them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too. Where errors are
+// not of second order, some fewer slabs are tried after that. Pictures are smaller than the scene's
+// where that has more than 2^17 pixels.
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+
+// For "filter": "auto" in a context whose texture units' weights are worth it, the same with such
+// weights (Facts::filter_trials), from the slabs on that exact scalars need; or with as many slabs
+// as the scene asks for.
+void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
+                Facts& facts);
 
 }  // namespace lamina

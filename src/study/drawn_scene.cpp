@@ -16,7 +16,8 @@ Facts DrawnVolume::measure_for(const Scene& scene) const {
 }
 
 Image DrawnVolume::draw(const Scene& scene, const Capabilities& capabilities) const {
-    const Facts facts = measure_for(scene);
+    Facts facts = measure_for(scene);
+    try_filter(scene, volume_, capabilities, facts);
     const Plan plan = make_plan(scene, facts, capabilities, {});
     const auto renderer = make_slice_renderer(volume_, scene.transfer_function, facts, plan.slice,
                                               capabilities, scene.width, scene.height);

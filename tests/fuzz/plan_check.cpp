@@ -68,7 +68,7 @@ std::vector<SlabTrial> made_up_trials(const Scene& scene, const Facts& facts) {
     double error = 64;
     for (const double slabs : {1, 2, 4, 8}) {
         const int number = slabs_per_voxel(facts, slabs);
-        const double goal = slab_error_goal(scene, facts.max_color, number, slabs > 2);
+        const double goal = slab_error_goal(scene, facts.max_color, number, 1000);
         require_finite(goal, "what the slabs' error may be");
         trials.push_back({number, error, 1000, goal});
         error /= 2;

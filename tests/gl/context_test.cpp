@@ -44,7 +44,7 @@ TEST_P(AnyContext, HasNoErrorToBeginWith) {
 }
 
 TEST_P(AnyContext, MeasuresTheFloatFilter) {
-    const double error = measure_filter_error(TextureFormat::r32f);
+    const double error = measure_filter_error(TextureFormat::r32f).found;
     EXPECT_EQ(capabilities().exact_float_filter, error <= 1e-6);
     // Weights and sums in float32: three nested interpolations of values below 1, each with at most
     // 3 roundings of 2^-24, gives 9 * 2^-24 = 5.4e-7. A GPU's 8-bit weights are off by up to 1/512
@@ -56,18 +56,25 @@ TEST_P(AnyContext, MeasuresTheFloatFilter) {
 }
 
 // Software rounds the results of bytes to codes, too, perhaps at each of three steps: by half of
-// one among 7, each.
+// one among 7, each. That is no filter that a picture's error could be told of beforehand.
 TEST_P(AnyContext, MeasuresTheFiltersOfCodes) {
-    const double bytes = measure_filter_error(TextureFormat::r8);
-    const double words = measure_filter_error(TextureFormat::r16);
-    EXPECT_LE(bytes, eight_bit_filter_error + (capabilities().software ? 1.5 / 7 : 0));
-    EXPECT_LE(words, eight_bit_filter_error);
-    EXPECT_GT(bytes, 0.0);
-    EXPECT_GT(words, 0.0);
-    // Which is no filter that a picture's error could be told of beforehand.
-    if (bytes > eight_bit_filter_error) {
+    const FilterError bytes = measure_filter_error(TextureFormat::r8);
+    const FilterError words = measure_filter_error(TextureFormat::r16);
+    for (const FilterError& error : {bytes, words}) {
+        EXPECT_GT(error.found, 0.0);
+        // Weights are off by up to 1/512 of a step along each axis: a third of that all in all, as
+        // the places are scattered.
+        EXPECT_LE(error.eight_bit, 3. / 512);
+        EXPECT_GE(error.eight_bit, 1. / 512 * .8);
+    }
+    EXPECT_LE(bytes.found, 3. / 512 + (capabilities().software ? 1.5 / 7 : 0));
+    EXPECT_LE(words.found, 3. / 512);
+    if (!bytes.as_good_as_eight_bits()) {
         EXPECT_FALSE(capabilities().eight_bit_filter);
     }
+    // A filter of truncated weights is off by twice as much, and not taken.
+    EXPECT_TRUE((FilterError{bytes.eight_bit, bytes.eight_bit}).as_good_as_eight_bits());
+    EXPECT_FALSE((FilterError{1.8 * bytes.eight_bit, bytes.eight_bit}).as_good_as_eight_bits());
 }
 
 TEST_P(AnyContext, TurnsErrorsIntoExceptions) {

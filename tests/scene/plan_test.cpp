@@ -48,20 +48,20 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     facts.slab_trials = {{60, .8, 100, 1}};
     facts.filter_trials = {{60, 1.1, 100, 1}, {80, .9, 100, 1}};
     Capabilities gpu = usual();
-    const auto plan_for = [&](const OmissionSwitch& omissions = {}) {
-        return make_plan(scene, facts, gpu, omissions);
-    };
+    const auto plan_for = [&] { return make_plan(scene, facts, gpu, {}); };
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
     EXPECT_EQ(plan_for().slice.slabs, 60);
+    const double fetches = plan_for().work.fetches;
     gpu.eight_bit_filter = true;
     const Plan plan = plan_for();
     EXPECT_EQ(plan.slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan.slice.slabs, 80);
     EXPECT_EQ(plan.slice.slab_trial->error, .9);
-    const auto omission = std::ranges::find(plan.omitted, "exact_filter", &Omission::name);
-    ASSERT_NE(omission, plan.omitted.end());
-    EXPECT_DOUBLE_EQ(omission->saves.fetches, (8. * 60 / 80 - 1) * plan.work.fetches);
-    EXPECT_EQ(plan_for({.none = false, .kept = {"exact_filter"}}).slice.slabs, 60);
+    EXPECT_DOUBLE_EQ(plan.work.fetches, fetches * 80 / (8 * 60));
+    EXPECT_NE(explain(plan, facts, gpu).find("one look-up"), std::string::npos);
+    scene.slice.filter = Filter::exact;
+    EXPECT_EQ(plan_for().slice.slabs, 60);
+    scene.slice.filter = Filter::automatic;
 
     facts.filter_trials.back().error = 1.01;
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
@@ -72,6 +72,26 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan_for().slice.slabs, 60);
     EXPECT_EQ(plan_for().slice.filter_error, .5);
+}
+
+// Of the length of rays: a hundredth in tiles, a fifth in OpenGL.
+TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
+    Scene scene = read_scene(minimal_scene(), "s");
+    const Volume volume = load_volume(scene);
+    Facts facts = measure(scene, volume, measure_bricks(volume));
+    facts.occupied_share = .5;
+    facts.ray_shares.box = .6;
+    Capabilities native = usual();
+    native.tiles = true;
+    const auto leaps = [&](double empty, const Capabilities& capabilities) {
+        facts.ray_shares.occupied = (1 - empty) * facts.ray_shares.box;
+        return make_plan(scene, facts, capabilities, {}).slice.occupied_only;
+    };
+    EXPECT_FALSE(leaps(.005, native));
+    EXPECT_TRUE(leaps(.015, native));
+    EXPECT_FALSE(leaps(.015, usual()));
+    EXPECT_FALSE(leaps(.19, usual()));
+    EXPECT_TRUE(leaps(.21, usual()));
 }
 
 TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {

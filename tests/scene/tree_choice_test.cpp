@@ -71,6 +71,15 @@ TEST(TreeChoice, OneSlabNeedsNoTree) {
     EXPECT_EQ(choice.error_bound, straight_error_bound(question_of(Target::fixed8, 1)));
 }
 
+// But where blending it rounds more than a node that is rounded once.
+TEST(TreeChoice, OneSlabHasANodeWhereBlendingMissesTheError) {
+    const TreeQuestion question = question_of(Target::fixed8, 1, 1);
+    ASSERT_GT(straight_error_bound(question), 1);
+    const TreeChoice choice = choose_tree(question);
+    EXPECT_EQ(choice.tree.value().factors, std::vector{1});
+    EXPECT_LE(choice.error_bound, 1);
+}
+
 TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayNotDo) {
     TreeQuestion question = question_of(Target::emulated, 100);
     question.emulation.bits = 16;

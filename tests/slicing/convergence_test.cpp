@@ -107,23 +107,25 @@ TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     Capabilities gpu = capabilities();
     gpu.exact_float_filter = false;
     gpu.eight_bit_filter = true;
-    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
     const Image traced = trace(volume, scene, 1e-7);
-    const auto draw = [&](const OmissionSwitch& omissions, VolumeSampling expected) {
-        const Plan plan = make_plan(scene, facts, gpu, omissions);
+    try_filter(scene, volume, gpu, facts);
+    const auto draw = [&](Filter filter, VolumeSampling expected) {
+        scene.slice.filter = filter;
+        const Plan plan = make_plan(scene, facts, gpu, {});
         EXPECT_EQ(plan.slice.sampling, expected);
         GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, gpu,
                                  scene.width, scene.height);
         renderer.draw(View(scene.camera, scene.width, scene.height));
         return renderer.read();
     };
-    const Image filtered = draw({}, VolumeSampling::hardware);
-    const Image fetched = draw(keep("exact_filter"), VolumeSampling::fetch);
+    const Image filtered = draw(Filter::automatic, VolumeSampling::hardware);
+    const Image fetched = draw(Filter::exact, VolumeSampling::fetch);
     EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
     EXPECT_LE(image_error(fetched, traced).all.linf, scene.max_error);
 
     gpu.eight_bit_filter = false;
-    draw({}, VolumeSampling::fetch);
+    draw(Filter::automatic, VolumeSampling::fetch);
 }
 
 }  // namespace

@@ -97,6 +97,19 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
     EXPECT_LE(chosen.slabs, 4 * 26);
 }
 
+Capabilities gpu() {
+    Capabilities capabilities = tile_capabilities();
+    capabilities.tiles = false;
+    capabilities.eight_bit_filter = true;
+    return capabilities;
+}
+
+Facts measure_filter(const Scene& scene, const Volume& volume) {
+    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    try_filter(scene, volume, gpu(), facts);
+    return facts;
+}
+
 // Scalars of weights of 8 bits, as the native engine has them on request, in as many slabs as the
 // trials of them choose: with automatic slabs all errors together, else that of the weights.
 TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
@@ -104,9 +117,9 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
         scene.slice.filter = Filter::automatic;
         const Image traced = trace(volume, scene, 1e-7);
-        const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+        const Facts facts = measure_filter(scene, volume);
         const SlabTrial trial = slabs_of_hardware_filter(facts).value();
-        EXPECT_LE(trial.error, trial.goal);
+        EXPECT_TRUE(trial.keeps_goal());
         Scene given = scene;
         given.slice.samples = trial.slabs;
         given.slice.filter = Filter::hardware;
@@ -114,7 +127,7 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
         EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
 
         given.slice.filter = Filter::automatic;
-        const Facts with_slabs = measure_slicing(given, volume, measure_bricks(volume));
+        const Facts with_slabs = measure_filter(given, volume);
         given.slice.filter = Filter::exact;
         EXPECT_DOUBLE_EQ(with_slabs.filter_trials.at(0).error,
                          image_error(filtered, draw(volume, given, facts)).all.linf);
@@ -122,34 +135,31 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
     }
 }
 
-// A step in opacity where the data rise slowly: weights of 8 bits move it by 1/512 of a voxel and
-// more, which no number of slabs mends.
 TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
     const Volume volume = mixing(24);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
     scene.slice.filter = Filter::automatic;
     scene.slice.samples = 200;
-    const auto found = [&](double max_error) {
+    const auto trial = [&](double max_error) {
         scene.max_error = max_error;
-        const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-        return std::pair(facts.filter_trials.at(0).error, slabs_of_hardware_filter(facts));
+        return measure_filter(scene, volume).filter_trials.at(0);
     };
-    const double error = found(1).first;
-    const double goal_per_max = slab_error_goal(scene, 1, 200, true) / scene.max_error;
-    EXPECT_TRUE(found(1.01 * error / goal_per_max).second);
-    EXPECT_FALSE(found(.99 * error / goal_per_max).second);
+    const double just_kept = trial(1).error / trial(1).goal;
+    EXPECT_TRUE(trial(1.01 * just_kept).keeps_goal());
+    EXPECT_FALSE(trial(.99 * just_kept).keeps_goal());
 }
 
-TEST(SlabTrials, NoFilterIsTriedThatNobodyAskedForOrThatMeetsNoScalarOrNan) {
+TEST(SlabTrials, NoFilterIsTriedWhereNobodyAsksOrItCannotBeTaken) {
     Volume volume = gaussians(8);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
     scene.slice.samples = 9;
-    const auto trials = [&] {
-        return measure_slicing(scene, volume, measure_bricks(volume)).filter_trials.size();
-    };
+    const auto trials = [&] { return measure_filter(scene, volume).filter_trials.size(); };
     EXPECT_EQ(trials(), 0u);
     scene.slice.filter = Filter::automatic;
     EXPECT_EQ(trials(), 1u);
+    Facts native = measure_slicing(scene, volume, measure_bricks(volume));
+    try_filter(scene, volume, tile_capabilities(), native);
+    EXPECT_TRUE(native.filter_trials.empty());
     scene.transfer_function = TransferFunction::linear({knot(0, {.2, .4, .8}, 2)});
     EXPECT_EQ(trials(), 0u);
     scene.transfer_function = smooth_transfer_function();

@@ -18,7 +18,7 @@ class FrameMethod {
     virtual const char* activity() const = 0;  // in front of the progress bar
     // Loads and measures what is drawn.
     virtual void load(RenderStats& stats) = 0;
-    virtual Plan plan(const Capabilities& capabilities) const = 0;
+    virtual Plan plan(const Capabilities& capabilities) = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
     // What is loaded outlives the renderer.
     virtual std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,

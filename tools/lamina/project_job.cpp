@@ -18,7 +18,7 @@ class ProjectMethod : public FrameMethod {
 
     void load(RenderStats& stats) override { mesh_.emplace(request_, stats); }
 
-    Plan plan(const Capabilities& capabilities) const override {
+    Plan plan(const Capabilities& capabilities) override {
         return make_plan(request_.scene, mesh_->facts, capabilities, request_.omissions);
     }
 

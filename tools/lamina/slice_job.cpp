@@ -5,6 +5,7 @@
 
 #include "frame_job.h"
 #include "loaded_volume.h"
+#include "slicing/slab_trials.h"
 #include "slicing/slice_renderer.h"
 
 namespace lamina {
@@ -18,7 +19,8 @@ class SliceMethod : public FrameMethod {
 
     void load(RenderStats& stats) override { data_.emplace(request_, stats); }
 
-    Plan plan(const Capabilities& capabilities) const override {
+    Plan plan(const Capabilities& capabilities) override {
+        try_filter(request_.scene, data_->volume, capabilities, data_->facts);
         Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
         const auto& trial = plan.slice.slab_trial;
         if (!trial) return plan;
