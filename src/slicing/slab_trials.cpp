@@ -19,13 +19,23 @@
 namespace lamina {
 namespace {
 
-constexpr double most_rays = 1 << 17;
 constexpr double most_slabs_per_voxel = 16;
 constexpr int fewest_most_slabs = 1024;  // volumes of few voxels along the view may have kinks, too
 constexpr int most_trials = 8;
 
-// Of the goal: what is aimed at, and what is near enough to it.
-constexpr double aim = 0.9, near_aim = 0.78;
+// Of the goal: what is aimed at.
+constexpr double aim = 0.9;
+
+// How numbers of slabs are looked for. `rays`: at most. `near_aim`: of the goal, what is near
+// enough to it. `goes_on`: on more rays, from what is found on few, so that the goal is that of all
+// rays.
+struct Search {
+    double rays, near_aim;
+    bool goes_on;
+};
+constexpr Search first_search{1 << 17, 0.78, true}, filter_search{1 << 17, 0.78, false};
+// Trials cost more here than some slabs gain.
+constexpr Search second_search{1 << 20, 0.6, false};
 
 // From one trial to the next at most so many times the slabs; where twice as many and more leave
 // more than this share of the error, more of them do not help.
@@ -42,24 +52,31 @@ constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
 class SlabTrials {
   public:
-    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts)
+    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, const Search& search)
         : asked_(scene),
-          scene_(trial_scene(scene)),
+          search_(search),
+          scene_(trial_scene(scene, search.rays)),
           volume_(volume),
           facts_(seen_by(scene_, facts)),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
                            max_slabs / finer)) {}
 
-    std::vector<SlabTrial> run() {
-        std::vector<SlabTrial> trials = run_from(slabs_per_voxel(facts_, 1), Filter::exact);
-        const bool kept = std::ranges::any_of(trials, &SlabTrial::keeps_goal);
-        if (!kept) {
+    std::vector<SlabTrial> run(int first) {
+        std::vector<SlabTrial> trials = run_from(first, Filter::exact);
+        if (std::ranges::none_of(trials, &SlabTrial::keeps_goal))
             trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact));
-        } else if (all_rays() && !are_of_second_order(trials)) {
-            try_fewer(trials);
-        }
         return trials;
     }
+
+    void try_fewer(int enough, std::vector<SlabTrial>& trials) {
+        for (const double share : fewer) {
+            const int slabs = static_cast<int>(std::ceil(share * enough));
+            if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
+            if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
+        }
+    }
+
+    bool all_rays() const { return scene_.width == asked_.width && scene_.height == asked_.height; }
 
     // From the slabs that the exact filter needs.
     std::vector<SlabTrial> run_filter(int first) { return run_from(first, Filter::hardware); }
@@ -81,7 +98,7 @@ class SlabTrials {
             const bool kept = trial.keeps_goal();
             if (!kept && slabs >= 2 * too_few && trial.error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
-            if (kept && trial.error >= near_aim * trial.goal) break;
+            if (kept && trial.error >= search_.near_aim * trial.goal) break;
             if (!kept) error_of_too_few = trial.error;
             // The error falls with the square of the number, but where there are steps.
             const double next = std::ceil(slabs * std::sqrt(trial.error / (aim * trial.goal)));
@@ -90,25 +107,13 @@ class SlabTrials {
         return trials;
     }
 
-    // What is right by chance on some rays need not be so on others: for all of them alone.
-    void try_fewer(std::vector<SlabTrial>& trials) {
-        int enough = most_;
-        for (const SlabTrial& trial : trials)
-            if (trial.keeps_goal()) enough = std::min(enough, trial.slabs);
-        for (const double share : fewer) {
-            const int slabs = static_cast<int>(std::ceil(share * enough));
-            if (std::ranges::find(trials, slabs, &SlabTrial::slabs) != trials.end()) continue;
-            if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
-        }
-    }
-
     static Facts seen_by(const Scene& scene, Facts facts) {
         measure_view(scene, facts);
         return facts;
     }
-    static Scene trial_scene(Scene scene) {
+    static Scene trial_scene(Scene scene, double rays) {
         const double pixels = static_cast<double>(scene.width) * scene.height;
-        const double scale = std::min(1.0, std::sqrt(most_rays / pixels));
+        const double scale = std::min(1.0, std::sqrt(rays / pixels));
         scene.width = std::max(1, static_cast<int>(std::lround(scale * scene.width)));
         scene.height = std::max(1, static_cast<int>(std::lround(scale * scene.height)));
         scene.target = Target::float32;
@@ -117,12 +122,11 @@ class SlabTrials {
         return scene;
     }
 
-    bool all_rays() const { return scene_.width == asked_.width && scene_.height == asked_.height; }
-
     SlabTrial trial_of(int slabs, double error) const {
-        const std::int64_t rays = static_cast<std::int64_t>(scene_.width) * scene_.height;
-        return {slabs, error, rays,
-                slab_error_goal(asked_, facts_.max_color, slabs, static_cast<double>(rays))};
+        const double rays = static_cast<double>(scene_.width) * scene_.height;
+        const double all = static_cast<double>(asked_.width) * asked_.height;
+        return {slabs, error, static_cast<std::int64_t>(rays),
+                slab_error_goal(asked_, facts_.max_color, slabs, search_.goes_on ? all : rays)};
     }
 
     // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
@@ -151,6 +155,7 @@ class SlabTrials {
     }
 
     const Scene& asked_;
+    const Search& search_;
     Scene scene_;
     const Volume& volume_;
     Facts facts_;
@@ -161,6 +166,20 @@ class SlabTrials {
 
 bool shows_something(const Facts& facts) {
     return !facts.occupied.empty() && facts.far_depth > facts.near_depth;
+}
+
+// What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
+// alone.
+void try_numbers(const Scene& scene, const Volume& volume, Facts& facts) {
+    SlabTrials first(scene, volume, facts, first_search);
+    facts.slab_trials = first.run(slabs_per_voxel(facts, 1));
+    const SlabTrial found = chosen_slabs(facts);
+    if (!found.keeps_goal()) return;
+    if (!first.all_rays()) {
+        facts.slab_trials = SlabTrials(scene, volume, facts, second_search).run(found.slabs);
+    } else if (!are_of_second_order(facts.slab_trials)) {
+        first.try_fewer(found.slabs, facts.slab_trials);
+    }
 }
 
 // What texture units make of NaN is their own.
@@ -175,14 +194,14 @@ bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capa
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure(scene, volume, bricks);
     if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
-        facts.slab_trials = SlabTrials(scene, volume, facts).run();
+        try_numbers(scene, volume, facts);
     return facts;
 }
 
 void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
                 Facts& facts) {
     if (!may_filter(scene, facts, capabilities)) return;
-    SlabTrials trials(scene, volume, facts);
+    SlabTrials trials(scene, volume, facts, filter_search);
     if (scene.slice.samples) {
         facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {
