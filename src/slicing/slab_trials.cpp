@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/progress.h"
 #include "base/stage.h"
@@ -52,12 +53,14 @@ constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
 class SlabTrials {
   public:
-    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, const Search& search)
+    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, const Search& search,
+               std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
           search_(search),
           scene_(trial_scene(scene, search.rays)),
           volume_(volume),
           facts_(seen_by(scene_, facts)),
+          ready_(std::move(ready)),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
                            max_slabs / finer)) {}
 
@@ -75,6 +78,8 @@ class SlabTrials {
             if (trials.emplace_back(try_slabs(slabs, Filter::exact)).keeps_goal()) return;
         }
     }
+
+    std::shared_ptr<const TileVolume> ready() const { return ready_; }
 
     bool all_rays() const { return scene_.width == asked_.width && scene_.height == asked_.height; }
 
@@ -147,7 +152,8 @@ class SlabTrials {
         scene_.slice.filter = filter;
         const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
-                                   scene_.width, scene_.height);
+                                   scene_.width, scene_.height, TileVolume::largest_copy, ready_);
+        ready_ = renderer.volume();
         const Stage trial("trial");
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());
         renderer.draw(View(scene_.camera, scene_.width, scene_.height), &progress);
@@ -159,6 +165,7 @@ class SlabTrials {
     Scene scene_;
     const Volume& volume_;
     Facts facts_;
+    std::shared_ptr<const TileVolume> ready_;  // of the pictures before
     int most_;
     int fine_slabs_ = 0;
     std::optional<Image> fine_;
@@ -176,7 +183,8 @@ void try_numbers(const Scene& scene, const Volume& volume, Facts& facts) {
     const SlabTrial found = chosen_slabs(facts);
     if (!found.keeps_goal()) return;
     if (!first.all_rays()) {
-        facts.slab_trials = SlabTrials(scene, volume, facts, second_search).run(found.slabs);
+        SlabTrials second(scene, volume, facts, second_search, first.ready());
+        facts.slab_trials = second.run(found.slabs);
     } else if (!are_of_second_order(facts.slab_trials)) {
         first.try_fewer(found.slabs, facts.slab_trials);
     }

@@ -27,8 +27,9 @@ double point_margin(const TextureBrick& part) {
 }  // namespace
 
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                               const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy)
-    : plan_(plan), grid_(facts.grid) {
+                               const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
+                               std::shared_ptr<const TileVolume> ready)
+    : plan_(plan), grid_(facts.grid), volume_(std::move(ready)) {
     const ValueRange range = drawn_range(transfer_function, facts.range);
     const glm::dvec3 single = first_color(transfer_function, range.lo, range.hi);
     const OpticalProperties constant = transfer_function.at(range.lo);
@@ -60,8 +61,9 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
                       sampled_step_advance);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
+    if (volume_) return;
     Stage upload("upload");
-    volume_.emplace(volume, range, plan_, largest_copy);
+    volume_ = std::make_shared<TileVolume>(volume, range, plan_, largest_copy);
     upload_ms_ = upload.end();
 }
 

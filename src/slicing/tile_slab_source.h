@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "slicing/tile_slabs.h"
@@ -11,14 +12,18 @@ namespace lamina {
 // rays of a view.
 class TileSlabSource {
   public:
-    // `plan` must outlive it. `largest_copy`: see TileVolume.
+    // `plan` must outlive it. `largest_copy`: see TileVolume. `ready`: volume() of a source of the
+    // same volume, range and bricks, which need not be copied again.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                   const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy);
+                   const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
+                   std::shared_ptr<const TileVolume> ready);
     TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
     TileSlabSource& operator=(const TileSlabSource&) = delete;
 
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
+
+    const std::shared_ptr<const TileVolume>& volume() const { return volume_; }
 
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
@@ -33,7 +38,7 @@ class TileSlabSource {
     OccupiedBricks occupied_;
     ConstantBricks constant_;
     std::optional<TileTransfer> transfer_;
-    std::optional<TileVolume> volume_;
+    std::shared_ptr<const TileVolume> volume_;
     TileSlabs slabs_;
     std::vector<std::size_t> order_;  // of the bricks
     double upload_ms_ = 0, table_ms_ = 0;

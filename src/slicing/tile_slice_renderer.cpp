@@ -29,10 +29,11 @@ class SlabLeaves : public TileLeaves {
 TileSliceRenderer::TileSliceRenderer(const Volume& volume,
                                      const TransferFunction& transfer_function, const Facts& facts,
                                      const SlicePlan& plan, int width, int height,
-                                     std::int64_t largest_copy)
+                                     std::int64_t largest_copy,
+                                     std::shared_ptr<const TileVolume> ready)
     : plan_(plan), grid_(facts.grid), target_(width, height), blend_(target_blend(plan)) {
     if (plan_.nothing_visible) return;
-    source_.emplace(volume, transfer_function, facts, plan_, largest_copy);
+    source_.emplace(volume, transfer_function, facts, plan_, largest_copy, std::move(ready));
     if (plan_.tree) shape_.emplace(plan_.tree->factors, plan_.slabs);
     if (plan_.has_tree(NodeArithmetic::fixed))
         fixed_tree_.emplace(plan_, *shape_, source_->slabs().single_color);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <optional>
 
 #include "base/progress.h"
@@ -18,10 +19,12 @@ namespace lamina {
 class TileSliceRenderer : public FrameRenderer {
   public:
     // Prepares the volume and the tables. Copies of the volume that only save time take at most
-    // `largest_copy` bytes.
+    // `largest_copy` bytes. `ready`: volume() of another renderer of the same volume with a plan of
+    // the same bricks and transfer function.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                       const Facts& facts, const SlicePlan& plan, int width, int height,
-                      std::int64_t largest_copy = TileVolume::largest_copy);
+                      std::int64_t largest_copy = TileVolume::largest_copy,
+                      std::shared_ptr<const TileVolume> ready = nullptr);
     TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
 
@@ -31,6 +34,10 @@ class TileSliceRenderer : public FrameRenderer {
     Image read() const override;
     std::map<std::string, double> stages_ms() const override;
     std::int64_t fragments() const override { return samples_; }
+
+    std::shared_ptr<const TileVolume> volume() const {
+        return source_ ? source_->volume() : nullptr;
+    }
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }
