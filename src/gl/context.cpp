@@ -5,7 +5,6 @@
 #include <glad/gl.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <functional>
 #include <string>
@@ -119,11 +118,13 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     check("setting up the context");
 
-    capabilities_.exact_float_filter = measure_filter_error(TextureFormat::r32f).found <= 1e-6;
+    const FilterError floats = measure_filter_error(TextureFormat::r32f);
+    capabilities_.exact_float_filter = floats.found <= 1e-6;
     if (capabilities_.exact_float_filter) return;
-    capabilities_.eight_bit_filter = std::ranges::all_of(
-        std::array{TextureFormat::r8, TextureFormat::r16, TextureFormat::r32f},
-        [](TextureFormat format) { return measure_filter_error(format).as_good_as_eight_bits(); });
+    capabilities_.eight_bit_filter =
+        floats.as_good_as_eight_bits() &&
+        measure_filter_error(TextureFormat::r16).as_good_as_eight_bits() &&
+        measure_filter_error(TextureFormat::r8).as_good_as_eight_bits();
 }
 
 }  // namespace lamina::gl

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "optics/linear_pieces.h"
@@ -50,10 +52,6 @@ void check(std::span<const TransferKnot> points) {
     }
 }
 
-bool same(const OpticalProperties& a, const OpticalProperties& b) {
-    return a.color == b.color && a.extinction == b.extinction;
-}
-
 // But for roundings: terms of interpolate() are >= 0, so it is good to a few of them.
 bool on_line(const TransferKnot& a, const TransferKnot& between, const TransferKnot& b) {
     constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
@@ -88,12 +86,14 @@ void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, co
 template <typename Key, typename Counts>
 bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
                      const Counts& counts) {
-    std::optional<decltype(key(OpticalProperties{}))> seen;
+    using Value = std::remove_cvref_t<std::invoke_result_t<Key, const OpticalProperties&>>;
+    std::optional<Value> seen;
     bool same = true;
     for_each_part(knots, lo, hi, [&](const OpticalProperties& a, const OpticalProperties& b) {
         if (!counts(a, b)) return;
-        if (!seen) seen = key(a);
-        same = same && key(a) == *seen && key(b) == *seen;
+        const Value &at_a = std::invoke(key, a), &at_b = std::invoke(key, b);
+        if (!seen) seen = at_a;
+        same = same && at_a == *seen && at_b == *seen;
     });
     return same;
 }
@@ -105,7 +105,7 @@ constexpr auto always = [](const OpticalProperties&, const OpticalProperties&) {
 TransferFunction::TransferFunction(std::span<const TransferKnot> knots) {
     for (const TransferKnot& knot : knots) {
         if (!knots_.empty() && knots_.back().value == knot.value &&
-            same(knots_.back().optics, knot.optics))
+            knots_.back().optics == knot.optics)
             continue;
         while (knots_.size() > 1 && on_line(knots_[knots_.size() - 2], knots_.back(), knot))
             knots_.pop_back();
@@ -156,28 +156,22 @@ double TransferFunction::max_extinction(double lo, double hi) const {
 }
 
 bool TransferFunction::constant(double lo, double hi) const {
-    const auto both = [](const OpticalProperties& optics) {
-        return std::pair(optics.color, optics.extinction);
-    };
-    return same_everywhere(knots_, lo, hi, both, always);
+    return same_everywhere(knots_, lo, hi, std::identity(), always);
 }
 
 bool TransferFunction::constant_extinction(double lo, double hi) const {
-    const auto extinction = [](const OpticalProperties& optics) { return optics.extinction; };
-    return same_everywhere(knots_, lo, hi, extinction, always);
+    return same_everywhere(knots_, lo, hi, &OpticalProperties::extinction, always);
 }
 
 bool TransferFunction::constant_color(double lo, double hi) const {
-    const auto color = [](const OpticalProperties& optics) { return optics.color; };
-    return same_everywhere(knots_, lo, hi, color, always);
+    return same_everywhere(knots_, lo, hi, &OpticalProperties::color, always);
 }
 
 bool TransferFunction::single_color(double lo, double hi) const {
-    const auto color = [](const OpticalProperties& optics) { return optics.color; };
     const auto seen = [](const OpticalProperties& a, const OpticalProperties& b) {
         return a.extinction > 0 || b.extinction > 0;
     };
-    return same_everywhere(knots_, lo, hi, color, seen);
+    return same_everywhere(knots_, lo, hi, &OpticalProperties::color, seen);
 }
 
 }  // namespace lamina

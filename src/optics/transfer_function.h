@@ -11,6 +11,7 @@ namespace lamina {
 struct OpticalProperties {
     glm::dvec3 color{0};    // linear light, not associated, >= 0
     double extinction = 0;  // per world unit, >= 0
+    bool operator==(const OpticalProperties&) const = default;
 };
 
 struct TransferKnot {

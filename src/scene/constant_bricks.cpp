@@ -57,7 +57,7 @@ class ConstantFinder {
     static bool has_plateaus(const TransferFunction& transfer_function) {
         const auto knots = transfer_function.knots();
         const auto flat = [](const TransferKnot& a, const TransferKnot& b) {
-            return a.value < b.value && key_of(a.optics) == key_of(b.optics);
+            return a.value < b.value && a.optics == b.optics;
         };
         return std::ranges::adjacent_find(knots, flat) != knots.end();
     }

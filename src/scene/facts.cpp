@@ -91,15 +91,10 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
 constexpr double faint_depth = 1e-4;
 
 double faint_extinction(const Facts& facts) {
-    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
-    double longest = 0;  // of the box's diagonals
-    for (const glm::dvec3& side :
-         {glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1, -1, 1), glm::dvec3(1, 1, -1)}) {
-        const glm::dvec3 extent = side * (hi - lo);
-        longest = std::max(
-            longest, glm::length(facts.grid.to_world(extent) - facts.grid.to_world(glm::dvec3(0))));
-    }
-    return faint_depth / (longest * std::max(facts.max_color, 1.0));
+    const Grid& grid = facts.grid;
+    const double diagonal =
+        glm::distance(grid.to_world(grid.index_min()), grid.to_world(grid.index_max()));
+    return faint_depth / (diagonal * std::max(facts.max_color, 1.0));
 }
 
 void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,

@@ -47,8 +47,8 @@ constexpr double most_growth = 4, still_left = 0.7;
 constexpr int finer = 3;
 constexpr double fine_enough = 2;
 
-// Of errors that do not, fewer slabs by chance make less than more do: these shares of what was
-// found are tried.
+// Where errors are not of second order fewer slabs may by chance make less than more: these shares
+// of what was found are tried.
 constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
 class SlabTrials {
@@ -161,7 +161,7 @@ class SlabTrials {
     }
 
     const Scene& asked_;
-    const Search& search_;
+    Search search_;
     Scene scene_;
     const Volume& volume_;
     Facts facts_;

@@ -77,7 +77,7 @@ class Crosschecker {
     int automatic_samples() {
         Scene sliced = scene_;
         sliced.method = Method::slice;
-        const Facts facts = data_.volume(sliced).data.measure_for(sliced);
+        const Facts facts = data_.volume(sliced).data.measure_for(sliced, capabilities_);
         return make_plan(sliced, facts, capabilities_, {}).slice.slabs;
     }
     std::vector<double> all_tolerances() {

@@ -11,13 +11,14 @@ namespace lamina {
 DrawnVolume::DrawnVolume(Volume volume)
     : volume_(std::move(volume)), bricks_(measure_bricks(volume_)) {}
 
-Facts DrawnVolume::measure_for(const Scene& scene) const {
-    return measure_slicing(scene, volume_, bricks_);
+Facts DrawnVolume::measure_for(const Scene& scene, const Capabilities& capabilities) const {
+    Facts facts = measure_slicing(scene, volume_, bricks_);
+    try_filter(scene, volume_, capabilities, facts);
+    return facts;
 }
 
 Image DrawnVolume::draw(const Scene& scene, const Capabilities& capabilities) const {
-    Facts facts = measure_for(scene);
-    try_filter(scene, volume_, capabilities, facts);
+    const Facts facts = measure_for(scene, capabilities);
     const Plan plan = make_plan(scene, facts, capabilities, {});
     const auto renderer = make_slice_renderer(volume_, scene.transfer_function, facts, plan.slice,
                                               capabilities, scene.width, scene.height);

@@ -18,7 +18,7 @@ class DrawnVolume {
   public:
     explicit DrawnVolume(Volume volume);
 
-    Facts measure_for(const Scene& scene) const;
+    Facts measure_for(const Scene& scene, const Capabilities& capabilities) const;
     // As `lamina render` draws the scene.
     Image draw(const Scene& scene, const Capabilities& capabilities) const;
     const Volume& volume() const { return volume_; }

@@ -83,7 +83,7 @@ Scene scene_of(const Technique& technique) {
 
 TimedFrame frame_of(const std::string& name, const DrawnVolume& volume, const Scene& scene,
                     const Capabilities& capabilities, const OmissionSwitch& omissions) {
-    const Facts facts = volume.measure_for(scene);
+    const Facts facts = volume.measure_for(scene, capabilities);
     const Plan plan = make_plan(scene, facts, capabilities, omissions);
     const auto renderer =
         std::make_shared<GlSliceRenderer>(volume.volume(), scene.transfer_function, facts,

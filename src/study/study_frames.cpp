@@ -6,7 +6,6 @@
 #include "base/stopwatch.h"
 #include "gl/memory.h"
 #include "projection/project_renderer.h"
-#include "slicing/slab_trials.h"
 #include "slicing/slice_renderer.h"
 
 namespace lamina {
@@ -31,8 +30,7 @@ std::unique_ptr<FrameRenderer> StudyFrames::make(DataStore& data,
         return renderer;
     }
     const DrawnVolume& volume = data.volume(*scene_).data;
-    Facts facts = volume.measure_for(*scene_);
-    try_filter(*scene_, volume.volume(), capabilities, facts);
+    const Facts facts = volume.measure_for(*scene_, capabilities);
     const Plan plan = make_plan(*scene_, facts, capabilities, {});
     const Stopwatch watch;
     auto renderer = make_slice_renderer(volume.volume(), scene_->transfer_function, facts,
