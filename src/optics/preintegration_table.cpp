@@ -35,6 +35,7 @@ struct Node {
     OpticalProperties optics;
     int next_anchor;      // the nearest anchor's node above this one (the last node: itself)
     int previous_anchor;  // below
+    bool anchor;
 };
 
 class NodeBuilder {
@@ -50,7 +51,7 @@ class NodeBuilder {
         const TransferKnot a{piece.from, piece.at_from}, b{piece.to, piece.at_to};
         for (int i = 1; i < cells; ++i) {
             const double value = piece.from + (piece.to - piece.from) * i / cells;
-            nodes_.push_back({value, interpolate(a, b, value), 0, 0});
+            nodes_.push_back({value, interpolate(a, b, value), 0, 0, false});
         }
         add_anchor(piece.to, piece.at_to);
     }
@@ -62,7 +63,7 @@ class NodeBuilder {
             return;  // the function is continuous here: one node for both sides
         }
         table_.anchors.push_back({value, static_cast<int>(nodes_.size())});
-        nodes_.push_back({value, optics, 0, 0});
+        nodes_.push_back({value, optics, 0, 0, true});
     }
 
     std::vector<Node> finish() {
@@ -175,10 +176,18 @@ class TableBuilder {
             const double length = table_.lengths[layer];
             const double alpha = opacity_from_depth(extinction * length);
             // A table of length 0 only (max_length = 0), or of a depth that underflows: the limit.
-            const bool at_limit = front == back || !(alpha > std::numeric_limits<double>::min());
+            const bool at_limit = front == back || !is_looked_up(front, back) ||
+                                  !(alpha > std::numeric_limits<double>::min());
             store_emission(layer, entry,
                            at_limit ? limit : color(front, back, length) * (extinction / alpha));
         }
+    }
+
+    // Segments are cut at the first and at the last anchor between their ends: look-ups meet other
+    // entries by roundings alone, with next to no weight.
+    bool is_looked_up(int front, int back) const {
+        const int lower = std::min(front, back), upper = std::max(front, back);
+        return upper <= nodes_[lower].next_anchor || (nodes_[lower].anchor && nodes_[upper].anchor);
     }
 
     void store_emission(std::size_t layer, std::size_t entry, const glm::dvec3& emission) {

@@ -46,7 +46,9 @@ struct PreintegrationTable {
     std::vector<float>
         mean_extinction;          // S * S, index back * S + front: tbar = optical depth / length
     std::vector<float> emission;  // L * S * S * 3, index ((layer * S + back) * S + front) * 3 +
-                                  // channel: E = tbar * C / alpha; empty where colored is false
+                                  // channel: E = tbar * C / alpha; empty where colored is false.
+                                  // Look-ups meet pairs of nodes within one linear piece and pairs
+                                  // of anchors; of all others every layer holds the limit
 
     // Node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a step: its
     // right node.

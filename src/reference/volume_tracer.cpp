@@ -32,52 +32,59 @@ void add_cell(const CellSamples<Sample>& samples, const TransferIntervals& trans
     integrator.add(scalar, lo, hi, (to - from) * chord.world_per_z);
 }
 
-struct RowTotals {
+struct TracedRay {
+    glm::dvec4 rgba{0};
     double error_estimate = 0;
     std::int64_t segments = 0;
 };
 
 template <typename Sample>
-RowTotals trace_row(const Grid& grid, const CellSamples<Sample>& samples,
-                    const TransferIntervals& transfer, const View& view, double tolerance, int row,
-                    PreciseImage& image) {
-    RowTotals totals;
-    for (int column = 0; column < view.width; ++column) {
-        const Chord chord = clip_to_box(grid, view.ray(column, row));
-        if (!(chord.length_z > 0)) continue;
-        RayIntegrator integrator(transfer, tolerance, chord.world_length());
-        CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
-            add_cell(samples, transfer, chord, cell, from, to, integrator);
-            return !integrator.opaque();
-        });
-        const glm::dvec3 color = integrator.color();
-        double* const pixel = image.pixel(column, row);
-        for (int channel = 0; channel < 3; ++channel) pixel[channel] = color[channel];
-        pixel[3] = integrator.alpha();
-        totals.error_estimate = std::max(totals.error_estimate, integrator.error_estimate());
-        totals.segments += integrator.pieces();
+TracedRay trace_ray(const Grid& grid, const CellSamples<Sample>& samples,
+                    const TransferIntervals& transfer, const View::Ray& ray, double tolerance) {
+    const Chord chord = clip_to_box(grid, ray);
+    if (!(chord.length_z > 0)) return {};
+    RayIntegrator integrator(transfer, tolerance, chord.world_length());
+    CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
+        add_cell(samples, transfer, chord, cell, from, to, integrator);
+        return !integrator.opaque();
+    });
+    return {glm::dvec4(integrator.color(), integrator.alpha()), integrator.error_estimate(),
+            integrator.pieces()};
+}
+
+void check(const TraceOptions& options) {
+    if (!(options.tolerance >= TraceOptions::smallest_tolerance && options.tolerance <= 1)) {
+        fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
+             TraceOptions::smallest_tolerance);
     }
-    return totals;
 }
 
 }  // namespace
 
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options) {
-    if (!(options.tolerance >= TraceOptions::smallest_tolerance && options.tolerance <= 1)) {
-        fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
-             TraceOptions::smallest_tolerance);
-    }
+    check(options);
     TraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals transfer(transfer_function);
+    struct RowTotals {
+        double error_estimate = 0;
+        std::int64_t segments = 0;
+    };
     std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
     Progress progress("tracing", view.height);
     volume.visit([&](const auto* first_sample) {
         const CellSamples samples(volume.grid(), first_sample);
-        parallel_for(view.height, 1, [&](std::int64_t row) {
-            rows[static_cast<std::size_t>(row)] =
-                trace_row(volume.grid(), samples, transfer, view, options.tolerance,
-                          static_cast<int>(row), result.image);
+        parallel_for(view.height, 1, [&](std::int64_t number) {
+            const int row = static_cast<int>(number);
+            RowTotals& totals = rows[static_cast<std::size_t>(number)];
+            for (int column = 0; column < view.width; ++column) {
+                const TracedRay ray = trace_ray(volume.grid(), samples, transfer,
+                                                view.ray(column, row), options.tolerance);
+                double* const pixel = result.image.pixel(column, row);
+                for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
+                totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
+                totals.segments += ray.segments;
+            }
             progress.advance();
         });
     });
@@ -86,6 +93,30 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
         result.segments += row.segments;
     }
     return result;
+}
+
+TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer_function,
+                          const View& view, std::span<const glm::ivec2> pixels,
+                          const TraceOptions& options) {
+    check(options);
+    const TransferIntervals transfer(transfer_function);
+    std::vector<TracedRay> rays(pixels.size());
+    Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
+    volume.visit([&](const auto* first_sample) {
+        const CellSamples samples(volume.grid(), first_sample);
+        parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
+            const auto i = static_cast<std::size_t>(number);
+            rays[i] = trace_ray(volume.grid(), samples, transfer,
+                                view.ray(pixels[i].x, pixels[i].y), options.tolerance);
+            progress.advance();
+        });
+    });
+    TracedPixels traced;
+    for (const TracedRay& ray : rays) {
+        traced.rgba.push_back(ray.rgba);
+        traced.error_estimate = std::max(traced.error_estimate, ray.error_estimate);
+    }
+    return traced;
 }
 
 }  // namespace lamina

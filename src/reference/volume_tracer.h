@@ -4,6 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
 
 #include "image/image.h"
 #include "optics/transfer_function.h"
@@ -30,5 +34,14 @@ struct TraceResult {
 // depend on their number. Throws Error for a tolerance out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options);
+
+// The same for single pixels of the view, (column, row) each.
+struct TracedPixels {
+    std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
+    double error_estimate = 0;     // as in TraceResult
+};
+TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer_function,
+                          const View& view, std::span<const glm::ivec2> pixels,
+                          const TraceOptions& options);
 
 }  // namespace lamina

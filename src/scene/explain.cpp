@@ -160,8 +160,9 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
             fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
                         facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
         if (slice.slab_trial) {
-            row("slab error", fmt::format("{:.2g} / 255 found on {} rays", slice.slab_trial->error,
-                                          slice.slab_trial->rays));
+            row("slab error", fmt::format("{:.2g} / 255 found on {} rays, {} of them traced",
+                                          slice.slab_trial->error, slice.slab_trial->rays,
+                                          slice.slab_trial->traced));
         }
         row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification", name_of(slice.classification));
@@ -177,6 +178,8 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
             row("table",
                 fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
+            row("table error", fmt::format("{:.2g} / 255 at most on {} rays of this view",
+                                           slice.table.error, facts.scalar_rays.rays.size()));
         }
     }
     return text + work_and_left_out(plan);

@@ -219,6 +219,9 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
                                                      facts.occupied_bricks, margin_of(facts));
     measure_view(scene, facts);
     facts.ray_shares = measure_ray_shares(scene, volume, facts);
+    if (scene.slice.classification == Classification::preintegrated && facts.pieces > 1 &&
+        !facts.single_color)
+        facts.scalar_rays = sample_rays(scene, volume, facts);
     return facts;
 }
 

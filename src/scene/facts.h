@@ -11,6 +11,7 @@
 #include "scene/constant_bricks.h"
 #include "scene/occupied_bricks.h"
 #include "scene/ray_shares.h"
+#include "scene/scalar_rays.h"
 #include "scene/scene.h"
 #include "scene/slab_trial.h"
 #include "volume/min_max_bricks.h"
@@ -70,6 +71,7 @@ struct Facts {
         1;  // longest |direction| of a pixel's ray (1 for orthographic views)
 
     RayShares ray_shares;
+    ScalarRays scalar_rays;  // where segments are pre-integrated and a table may be needed
 
     // For "samples": "auto" (slicing/slab_trials.h); else none.
     std::vector<SlabTrial> slab_trials;
@@ -82,7 +84,8 @@ struct Facts {
 // what to do with them, or has none but such.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// Of facts of the same volume and transfer function, those of the view anew, but for ray_shares.
+// Of facts of the same volume and transfer function, those of the view anew, but for
+// ray_shares and scalar_rays.
 void measure_view(const Scene& scene, Facts& facts);
 
 }  // namespace lamina

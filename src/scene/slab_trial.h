@@ -8,9 +8,13 @@ namespace lamina {
 // What slicing into so many slabs was found to cost in accuracy, on rays all over the picture.
 struct SlabTrial {
     int slabs = 1;
-    double error = 0;       // Linf of colour and opacity, in 1/255
-    std::int64_t rays = 0;  // that were tried
-    double goal = 0;        // what the error may be: slab_error_goal(), in 1/255
+    double error = 0;         // Linf of colour and opacity, in 1/255
+    std::int64_t rays = 0;    // that were tried
+    double goal = 0;          // what the error may be: slab_error_goal(), in 1/255
+    std::int64_t traced = 0;  // of the rays, held against the reference tracer
+    // The tracer found more than pictures of other numbers of slabs show, and did not see all rays:
+    // the others may be off by more, too.
+    bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 };
 

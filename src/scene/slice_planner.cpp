@@ -15,6 +15,7 @@
 #include "scene/picture_limits.h"
 #include "scene/ray_shares.h"
 #include "scene/slab_choice.h"
+#include "scene/table_choice.h"
 #include "scene/target_choice.h"
 #include "scene/tree_check.h"
 
@@ -29,16 +30,6 @@ constexpr int software_batches = 64;
 // segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
 // segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
 constexpr double short_depth = 0.02;
-// Above: layers so close that linear interpolation between them is good to .0025 (steps of depth 1
-// or less), as far as that is affordable; deeper segments are nearly opaque and change little with
-// length.
-constexpr int max_length_layers = 9;
-
-// A table's colours cost about nodes^2 * layers * knots segment integrals: at most this many, some
-// seconds on two cores. Palettes of hundreds of points get fewer layers, down to the limit alone,
-// which has a fast way.
-constexpr double max_table_work = 5e7;
-
 // Rays in float32 lose the digits of this ratio of a box's sides. In software, doubles cost some 12
 // % of a frame.
 constexpr double thin_box_ratio = 20;
@@ -258,17 +249,12 @@ class SlicePlanner {
             return;
         }
         if (!table.colored) return;
-        const double knots = static_cast<double>(facts_.knots);
-        const double nodes = 1.5 * table.scalar_nodes + 3 * (knots + 1);  // at most
-        const double affordable = std::floor(max_table_work / (nodes * nodes * (knots + 1)));
-        table.length_layers = static_cast<int>(
-            std::clamp(std::min(std::ceil(depth) + 1, affordable), 1.0, double{max_length_layers}));
-        if (leave_out(depth < short_depth, "length_layers",
+        const bool limit_alone =
+            leave_out(depth < short_depth, "length_layers",
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
                                   "not depend on its length",
-                                  depth))) {
-            table.length_layers = 1;
-        }
+                                  depth));
+        refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table);
     }
 
     void choose_bricks() {
@@ -352,7 +338,8 @@ class SlicePlanner {
         }
         question.largest_color = facts_.max_color;
         question.max_error = scene_.max_error;
-        const double found = slice.slab_trial ? slice.slab_trial->error : slice.filter_error;
+        const double found = slice.slab_trial ? slice.slab_trial->error
+                                              : slice.filter_error + slice.table.error;
         question.max_error = std::max(scene_.max_error - found, scene_.max_error * target_share);
         return question;
     }

@@ -10,6 +10,7 @@ struct TablePlan {
     int length_layers = 1;
     double max_length = 0;  // world units
     bool colored = true;
+    double error = 0;  // that it was found to add to the picture's, in 1/255
 };
 
 }  // namespace lamina

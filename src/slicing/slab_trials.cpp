@@ -15,6 +15,7 @@
 #include "scene/slab_choice.h"
 #include "scene/slice_planner.h"
 #include "slicing/tile_slice_renderer.h"
+#include "slicing/trial_truth.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
@@ -27,16 +28,19 @@ constexpr int most_trials = 8;
 // Of the goal: what is aimed at.
 constexpr double aim = 0.9;
 
-// How numbers of slabs are looked for. `rays`: at most. `near_aim`: of the goal, what is near
-// enough to it. `goes_on`: on more rays, from what is found on few, so that the goal is that of all
-// rays.
-struct Search {
-    double rays, near_aim;
-    bool goes_on;
-};
-constexpr Search first_search{1 << 17, 0.78, true}, filter_search{1 << 17, 0.78, false};
-// Trials cost more here than some slabs gain.
-constexpr Search second_search{1 << 20, 0.6, false};
+// Pictures of at most so many rays are held against the tracer on each of them; of larger ones so
+// many are traced.
+constexpr std::size_t traced_rays = std::size_t{1} << 15;
+// Larger pictures are first looked at in one of so many rays.
+constexpr double first_rays = 1 << 13;
+constexpr double most_rays = 1 << 20, filter_rays = 1 << 17;
+
+// Of the goal, what is near enough to it: where pictures are small, and where trials cost more than
+// some slabs gain.
+constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
+
+// Of the wanted error, what the tracer's own may be; and its tolerances that are worth their time.
+constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
 // From one trial to the next at most so many times the slabs; where twice as many and more leave
 // more than this share of the error, more of them do not help.
@@ -51,18 +55,34 @@ constexpr double fine_enough = 2;
 // of what was found are tried.
 constexpr std::array fewer{0.71, 0.76, 0.81, 0.87, 0.93};
 
+// What the tracer finds may be so many times what pictures show: their errors are not those of
+// second order alone.
+constexpr double most_doubt = 1.1;
+
+// Errors below this share of the goal are no measure of the next number of slabs.
+constexpr double unbelievable = 1e-3;
+
+double rays_of(const Scene& scene) {
+    return static_cast<double>(scene.width) * scene.height;
+}
+
+// Pictures of numbers of slabs, in at most `rays` rays. `last`: no search with more rays follows.
 class SlabTrials {
   public:
-    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, const Search& search,
+    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, double rays, bool last,
                std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
-          search_(search),
-          scene_(trial_scene(scene, search.rays)),
+          last_(last),
+          scene_(trial_scene(scene, rays)),
           volume_(volume),
           facts_(seen_by(scene_, facts)),
           ready_(std::move(ready)),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
-                           max_slabs / finer)) {}
+                           max_slabs / finer)),
+          all_traced_(rays_of(scene_) <= traced_rays),
+          truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
+                 std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
+                            coarsest_tolerance)) {}
 
     std::vector<SlabTrial> run(int first) {
         std::vector<SlabTrial> trials = run_from(first, Filter::exact);
@@ -81,8 +101,6 @@ class SlabTrials {
 
     std::shared_ptr<const TileVolume> ready() const { return ready_; }
 
-    bool all_rays() const { return scene_.width == asked_.width && scene_.height == asked_.height; }
-
     // From the slabs that the exact filter needs.
     std::vector<SlabTrial> run_filter(int first) { return run_from(first, Filter::hardware); }
 
@@ -94,6 +112,7 @@ class SlabTrials {
 
   private:
     std::vector<SlabTrial> run_from(int slabs, Filter filter) {
+        const double near_aim = all_traced_ ? near_aim_of_small : near_aim_of_large;
         std::vector<SlabTrial> trials;
         double error_of_too_few = std::numeric_limits<double>::infinity();
         int too_few = 0, enough = most_ + 1;
@@ -103,7 +122,7 @@ class SlabTrials {
             const bool kept = trial.keeps_goal();
             if (!kept && slabs >= 2 * too_few && trial.error > still_left * error_of_too_few) break;
             (kept ? enough : too_few) = slabs;
-            if (kept && trial.error >= search_.near_aim * trial.goal) break;
+            if (kept && (trial.error >= near_aim * trial.goal || shows_too_little(trial))) break;
             if (!kept) error_of_too_few = trial.error;
             // The error falls with the square of the number, but where there are steps.
             const double next = std::ceil(slabs * std::sqrt(trial.error / (aim * trial.goal)));
@@ -112,13 +131,18 @@ class SlabTrials {
         return trials;
     }
 
+    // Where rays may cross a point of the transfer function, an error of nothing says that they met
+    // none, not that fewer slabs meet as much.
+    bool shows_too_little(const SlabTrial& trial) const {
+        return facts_.knots > 0 && trial.error < unbelievable * trial.goal;
+    }
+
     static Facts seen_by(const Scene& scene, Facts facts) {
         measure_view(scene, facts);
         return facts;
     }
     static Scene trial_scene(Scene scene, double rays) {
-        const double pixels = static_cast<double>(scene.width) * scene.height;
-        const double scale = std::min(1.0, std::sqrt(rays / pixels));
+        const double scale = std::min(1.0, std::sqrt(rays / rays_of(scene)));
         scene.width = std::max(1, static_cast<int>(std::lround(scale * scene.width)));
         scene.height = std::max(1, static_cast<int>(std::lround(scale * scene.height)));
         scene.target = Target::float32;
@@ -128,23 +152,35 @@ class SlabTrials {
     }
 
     SlabTrial trial_of(int slabs, double error) const {
-        const double rays = static_cast<double>(scene_.width) * scene_.height;
-        const double all = static_cast<double>(asked_.width) * asked_.height;
+        const double rays = rays_of(scene_);
         return {slabs, error, static_cast<std::int64_t>(rays),
-                slab_error_goal(asked_, facts_.max_color, slabs, search_.goes_on ? all : rays)};
+                slab_error_goal(asked_, facts_.max_color, slabs, last_ ? rays : rays_of(asked_)),
+                truth_.rays()};
     }
 
-    // Against a picture of more slabs, M, of which (N / M)^2 of the error are left.
     SlabTrial try_slabs(int slabs, Filter filter) {
-        if (fine_slabs_ < fine_enough * slabs) {
-            fine_slabs_ = finer * slabs;
-            OmissionSwitch exact;  // the error of early termination is one of the trial's
-            exact.kept = {"early_termination"};
-            fine_ = draw(fine_slabs_, Filter::exact, exact);
+        if (all_traced_) {
+            if (truth_.empty()) truth_.trace_all();
+            return trial_of(slabs, truth_.error_of(draw(slabs, filter, {})));
         }
-        const double found = image_error(draw(slabs, filter, {}), *fine_).all.linf;
+        draw_fine(slabs);
+        if (truth_.empty()) truth_.trace_some(traced_rays, *fine_);
+        const Image picture = draw(slabs, filter, {});
+        // Of the error, (slabs / fine_slabs_)^2 is that of the finer picture, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
-        return trial_of(slabs, found / (1 - share * share));
+        const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
+        const double traced = truth_.error_of(picture);
+        SlabTrial trial = trial_of(slabs, std::max(shown, traced));
+        trial.doubtful = traced > most_doubt * shown;
+        return trial;
+    }
+
+    void draw_fine(int slabs) {
+        if (fine_slabs_ >= fine_enough * slabs) return;
+        fine_slabs_ = finer * slabs;
+        OmissionSwitch exact;  // the error of early termination is one of the trial's
+        exact.kept = {"early_termination"};
+        fine_ = draw(fine_slabs_, Filter::exact, exact);
     }
 
     Image draw(int slabs, Filter filter, const OmissionSwitch& omissions) {
@@ -161,12 +197,14 @@ class SlabTrials {
     }
 
     const Scene& asked_;
-    Search search_;
+    bool last_;
     Scene scene_;
     const Volume& volume_;
     Facts facts_;
     std::shared_ptr<const TileVolume> ready_;  // of the pictures before
     int most_;
+    bool all_traced_;
+    TrialTruth truth_;
     int fine_slabs_ = 0;
     std::optional<Image> fine_;
 };
@@ -178,12 +216,13 @@ bool shows_something(const Facts& facts) {
 // What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
 // alone.
 void try_numbers(const Scene& scene, const Volume& volume, Facts& facts) {
-    SlabTrials first(scene, volume, facts, first_search);
+    const bool small = rays_of(scene) <= traced_rays;
+    SlabTrials first(scene, volume, facts, small ? double{traced_rays} : first_rays, small);
     facts.slab_trials = first.run(slabs_per_voxel(facts, 1));
     const SlabTrial found = chosen_slabs(facts);
     if (!found.keeps_goal()) return;
-    if (!first.all_rays()) {
-        SlabTrials second(scene, volume, facts, second_search, first.ready());
+    if (!small) {
+        SlabTrials second(scene, volume, facts, most_rays, true, first.ready());
         facts.slab_trials = second.run(found.slabs);
     } else if (!are_of_second_order(facts.slab_trials)) {
         first.try_fewer(found.slabs, facts.slab_trials);
@@ -209,7 +248,7 @@ Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBric
 void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
                 Facts& facts) {
     if (!may_filter(scene, facts, capabilities)) return;
-    SlabTrials trials(scene, volume, facts, filter_search);
+    SlabTrials trials(scene, volume, facts, filter_rays, true);
     if (scene.slice.samples) {
         facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {

@@ -110,6 +110,75 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
     EXPECT_LE(chosen.slabs, 4 * 26);
 }
 
+// What is claimed is the error of the picture itself: on every ray of a small picture.
+void expect_claim_kept(const Volume& volume, const Scene& scene, const char* name) {
+    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    const SlabTrial chosen = chosen_slabs(facts);
+    const double found =
+        image_error(draw(volume, scene, facts), trace(volume, scene, 1e-7)).all.linf;
+    EXPECT_EQ(chosen.traced, scene.width * scene.height) << name;
+    // The pictures are the same but for early termination and the tracer's tolerance of 4e-5: .01
+    // / 255 each at most, and the rounding to float.
+    EXPECT_NEAR(found, chosen.error, .03) << name << ", " << chosen.slabs << " slabs";
+}
+
+// The peak lies between values that N and 3 N slabs meet, whatever N.
+TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
+    const Volume ramp = generate({"ramp", std::array<std::int64_t, 3>{256, 4, 1}, SampleType::uint8});
+    Scene scene;
+    scene.width = 64;
+    scene.height = 48;
+    scene.transfer_function = TransferFunction::linear(
+        {knot(100, {1, 1, 1}, 0), knot(100.1, {1, 1, 1}, 0), knot(100.2, {1, 1, 1}, 1e4),
+         knot(100.3, {1, 1, 1}, 0)});
+    scene.camera.projection = Projection::orthographic;
+    scene.camera.eye = {-10, 1.5, 0};
+    scene.camera.center = {128, 1.5, 0};
+    scene.camera.height = 4;
+    for (const Classification classification :
+         {Classification::post, Classification::preintegrated}) {
+        scene.slice.classification = classification;
+        expect_claim_kept(ramp, scene, "ramp");
+    }
+}
+
+// Sixty bright voxels among zeros: most rays meet none, and slabs step over the shells of the peak.
+TEST(SlabTrials, SmallThingsAreNotMissedByAllPictures) {
+    reference_test::Random random(7);
+    const Grid grid = reference_test::make_grid({64, 64, 64}, Centering::node, glm::dvec3(1. / 63));
+    std::vector<float> samples(64 * 64 * 64, 0.F);
+    for (int i = 0; i < 60; ++i)
+        samples[static_cast<std::size_t>(random.below(64 * 64 * 64))] =
+            static_cast<float>(random.uniform(.5, 1));
+    const Volume volume = reference_test::make_volume(grid, samples);
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(.4, {1, 1, 1}, 0), knot(.41, {1, .8, .2}, 2000),
+                                  knot(.42, {1, 1, 1}, 0)}),
+        Projection::perspective, 160, 120);
+    expect_claim_kept(volume, scene, "sparse");
+}
+
+TEST(SlabTrials, ThinSilhouettesOfLabelsAreNotMissedByAllPictures) {
+    const Volume volume = mixing(16);
+    Scene scene = unit_box_scene(
+        TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(.4, {1, 1, 1}, 0),
+                                  knot(.4, {1, 0, 0}, 1e5), knot(.6, {1, 0, 0}, 1e5),
+                                  knot(.6, {0, 0, 1}, 1e5), knot(1, {0, 0, 1}, 1e5)}),
+        Projection::perspective, 160, 120);
+    expect_claim_kept(volume, scene, "labels");
+}
+
+// Of a larger picture not all rays are traced: the edges are, and some all over it.
+TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
+    const Volume volume = mixing(16);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 320, 240);
+    const SlabTrial chosen =
+        chosen_slabs(measure_slicing(scene, volume, measure_bricks(volume)));
+    EXPECT_EQ(chosen.rays, 320 * 240);
+    EXPECT_LE(chosen.traced, 1 << 15);
+    EXPECT_GE(chosen.traced, 1 << 14);
+}
+
 Capabilities gpu() {
     Capabilities capabilities = tile_capabilities();
     capabilities.tiles = false;

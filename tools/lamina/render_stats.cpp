@@ -100,7 +100,8 @@ Json slice_to_json(const SlicePlan& slice) {
     if (slice.uses_table()) {
         json["table"] = {{"scalars", slice.table.scalar_nodes},
                          {"lengths", slice.table.length_layers},
-                         {"colored", slice.table.colored}};
+                         {"colored", slice.table.colored},
+                         {"error", slice.table.error}};
     }
     return json;
 }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/table_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "optics/preintegration_table.h"
+
+namespace lamina {
+namespace {
+
+// Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
+constexpr int most_tried = 64;
+
+// A table's colours cost this many segment integrals at most: some seconds on two cores.
+constexpr double max_table_work = 5e7;
+// As textures and as floats of four bytes.
+constexpr double most_nodes = 2048, most_table_bytes = 256 << 20;
+
+// Layers so close that linear interpolation between them is good to .0025 (steps of depth 1 or
+// less), as far as that is affordable; deeper segments are nearly opaque and change little with
+// length.
+constexpr double usual_length_layers = 9, most_length_layers = 33;
+
+// Another table is tried with so many times the nodes.
+constexpr int finer_nodes = 4;
+
+class RayCutter {
+  public:
+    RayCutter(const ScalarRays& rays, int slabs)
+        : slabs_(slabs), length_((rays.far - rays.near) / slabs) {}
+
+    struct Segment {
+        double front, back, length;
+        double transmittance;  // of what lies in front
+    };
+    // Of slab i.
+    Segment segment(const ScalarRays::Ray& ray, int i) const {
+        return {at(ray.scalars, i), at(ray.scalars, i + 1), length_ * ray.length_per_depth,
+                std::exp(-at(ray.optical_depths, i))};
+    }
+
+  private:
+    double at(const std::vector<float>& values, int boundary) const {
+        const auto last = static_cast<double>(values.size() - 1);
+        const double place = last * boundary / slabs_;
+        const auto first = std::min(static_cast<std::size_t>(place), values.size() - 2);
+        const double weight = place - static_cast<double>(first);
+        return (1 - weight) * values[first] + weight * values[first + 1];
+    }
+
+    int slabs_;
+    double length_;
+};
+
+double most_nodes_of(const TablePlan& table, double knots) {
+    return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // optics/preintegration_table.h
+}
+
+// Fewer layers where more would take too long or too much memory.
+int affordable_layers(const TablePlan& table, double knots, double wanted) {
+    const double nodes = most_nodes_of(table, knots);
+    const double work = nodes * nodes + knots * knots * knots / 3;
+    const double bytes = nodes * nodes * 3 * sizeof(float);
+    return static_cast<int>(std::max(
+        1.0, std::floor(std::min({wanted, max_table_work / work, most_table_bytes / bytes}))));
+}
+
+}  // namespace
+
+double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
+    const auto table = preintegration_table(scene.transfer_function,
+                                            {facts.range.lo, facts.range.hi, plan.max_length,
+                                             plan.scalar_nodes, plan.length_layers, plan.colored});
+    const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
+    const RayCutter cutter(facts.scalar_rays, slabs);
+    const int stride = (slabs + most_tried - 1) / most_tried;
+    std::vector<double> errors(rays.size());
+    parallel_for(static_cast<std::int64_t>(rays.size()), 8, [&](std::int64_t number) {
+        const auto ray = static_cast<std::size_t>(number);
+        glm::dvec3 error(0);
+        for (int i = stride / 2; i < slabs; i += stride) {
+            const auto segment = cutter.segment(rays[ray], i);
+            if (!std::isfinite(segment.front + segment.back)) continue;
+            const glm::dvec3 found =
+                table->lookup(segment.front, segment.back, segment.length).color;
+            const glm::dvec3 exact = integrate_segment(scene.transfer_function, segment.front,
+                                                       segment.back, segment.length)
+                                         .color;
+            error += stride * segment.transmittance * (found - exact);
+        }
+        errors[ray] = std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
+    });
+    return errors.empty() ? 0 : 255 * std::ranges::max(errors);
+}
+
+void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,
+                  TablePlan& table) {
+    const auto knots = static_cast<double>(facts.knots);
+    const double steps = std::ceil(depth);  // of depth 1 or less
+    TablePlan tried = table;
+    double wanted = std::min(steps + 1, usual_length_layers);
+    const auto try_it = [&] {
+        tried.length_layers = affordable_layers(tried, knots, wanted);
+        tried.error = table_error(scene, facts, slabs, tried);
+    };
+    const auto keep_better = [&] {
+        try_it();
+        if (tried.error < table.error) table = tried;
+    };
+    try_it();
+    table = tried;
+    const double goal = table_share * scene.max_error;
+    if (table.error > goal) {
+        const auto room = static_cast<int>((most_nodes - 3 * (knots + 1)) / 1.5);
+        tried.scalar_nodes =
+            std::max(tried.scalar_nodes, std::min(finer_nodes * tried.scalar_nodes, room));
+        keep_better();
+    }
+    if (table.error > goal && steps > 0) {
+        wanted = std::min(4 * steps + 1, most_length_layers);
+        keep_better();
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How fine a slicing plan's pre-integration table is.
+#pragma once
+
+#include "scene/facts.h"
+#include "scene/scene.h"
+#include "scene/table_plan.h"
+
+namespace lamina {
+
+// What a table may add to the picture's error, as a share of max_error.
+inline constexpr double table_share = 0.1;
+
+// In 1/255: the largest error of a ray's colour that the table makes on Facts::scalar_rays, cut
+// into `slabs` segments. Opacity is exact.
+double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
+
+// Chooses the scalar nodes and the lengths of a coloured table whose max_length is set: the
+// coarsest of a few with which it keeps table_share of max_error, else those of the least error
+// that was found. `depth`: the largest optical depth of a segment; 0: the limit of short segments
+// serves all.
+void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,
+                  TablePlan& table);
+
+}  // namespace lamina

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/trial_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/stage.h"
+#include "compositing/random_bits.h"
+
+namespace lamina {
+namespace {
+
+double difference_of(const float* a, const float* b) {
+    double largest = 0;
+    for (int channel = 0; channel < 4; ++channel)
+        largest = std::max(largest, std::abs(double{a[channel]} - double{b[channel]}));
+    return largest;
+}
+
+// Of each pixel, the largest difference of a channel from one of its four neighbours.
+std::vector<float> contrasts_of(const Image& picture) {
+    std::vector<float> contrasts(static_cast<std::size_t>(picture.width) *
+                                 static_cast<std::size_t>(picture.height));
+    const auto compare = [&](int column, int row, int right, int down) {
+        const auto place = [&](int x, int y) {
+            return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                   static_cast<std::size_t>(x);
+        };
+        const auto contrast = static_cast<float>(
+            difference_of(picture.pixel(column, row), picture.pixel(column + right, row + down)));
+        for (float* const pixel :
+             {&contrasts[place(column, row)], &contrasts[place(column + right, row + down)]})
+            *pixel = std::max(*pixel, contrast);
+    };
+    for (int row = 0; row < picture.height; ++row) {
+        for (int column = 0; column < picture.width; ++column) {
+            if (column + 1 < picture.width) compare(column, row, 1, 0);
+            if (row + 1 < picture.height) compare(column, row, 0, 1);
+        }
+    }
+    return contrasts;
+}
+
+// One pixel of each cell of `edge` x `edge` pixels.
+std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
+    std::vector<glm::ivec2> pixels;
+    for (int row = 0; row < height; row += edge) {
+        for (int column = 0; column < width; column += edge) {
+            const std::uint32_t bits = random_bits(static_cast<std::uint32_t>(column),
+                                                   static_cast<std::uint32_t>(row), 0, 0);
+            const auto across = static_cast<std::uint32_t>(std::min(edge, width - column));
+            const auto down = static_cast<std::uint32_t>(std::min(edge, height - row));
+            pixels.emplace_back(column + static_cast<int>((bits & 0xffff) % across),
+                                row + static_cast<int>((bits >> 16) % down));
+        }
+    }
+    return pixels;
+}
+
+void append_edges(std::size_t count, const Image& picture, std::vector<glm::ivec2>& pixels) {
+    const std::vector<float> contrasts = contrasts_of(picture);
+    std::vector<std::size_t> order(contrasts.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto sharper = [&](std::size_t a, std::size_t b) {
+        return contrasts[a] != contrasts[b] ? contrasts[a] > contrasts[b] : a < b;
+    };
+    count = std::min(count, order.size());
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                     sharper);
+    const auto width = static_cast<std::size_t>(picture.width);
+    for (std::size_t i = 0; i < count; ++i)
+        pixels.emplace_back(static_cast<int>(order[i] % width), static_cast<int>(order[i] / width));
+}
+
+}  // namespace
+
+TrialTruth::TrialTruth(const Volume& volume, const TransferFunction& transfer_function,
+                       const View& view, double tolerance)
+    : volume_(volume), transfer_function_(transfer_function), view_(view), options_{tolerance} {}
+
+void TrialTruth::trace_all() {
+    pixels_ = pixels_all_over(view_.width, view_.height, 1);
+    trace();
+}
+
+void TrialTruth::trace_some(std::size_t count, const Image& picture) {
+    const double pixels = static_cast<double>(view_.width) * view_.height;
+    const double edge = std::ceil(std::sqrt(pixels / (static_cast<double>(count) / 2)));
+    pixels_ = pixels_all_over(view_.width, view_.height, static_cast<int>(edge));
+    append_edges(count / 2, picture, pixels_);
+    trace();
+}
+
+void TrialTruth::trace() {
+    const Stage tracing("trace trial rays");
+    traced_ = trace_pixels(volume_, transfer_function_, view_, pixels_, options_);
+}
+
+double TrialTruth::error_of(const Image& picture) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const float* const drawn = picture.pixel(pixels_[i].x, pixels_[i].y);
+        for (int channel = 0; channel < 4; ++channel)
+            largest = std::max(largest, std::abs(drawn[channel] - traced_.rgba[i][channel]));
+    }
+    return 255 * (largest + traced_.error_estimate);
+}
+
+}  // namespace lamina

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the reference tracer says of pixels that trial pictures are held against.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "image/image.h"
+#include "optics/transfer_function.h"
+#include "reference/volume_tracer.h"
+#include "scene/camera.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+class TrialTruth {
+  public:
+    // `tolerance`: of the tracer, of full scale.
+    TrialTruth(const Volume& volume, const TransferFunction& transfer_function, const View& view,
+               double tolerance);
+
+    void trace_all();
+    // Traces at most `count` pixels of a picture that is too large for trace_all(). Half of them
+    // lie all over the picture, one at a place of its own in each of equal cells. The others are
+    // those that differ most from a neighbour in `picture`: a ray that grazes what its neighbours
+    // hit is at such an edge, and that is where segments miss most.
+    void trace_some(std::size_t count, const Image& picture);
+
+    bool empty() const { return pixels_.empty(); }
+    std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
+    // Largest error of a channel on the traced pixels, the tracer's own estimate included, in
+    // 1/255.
+    double error_of(const Image& picture) const;
+
+  private:
+    void trace();
+
+    const Volume& volume_;
+    const TransferFunction& transfer_function_;
+    View view_;
+    TraceOptions options_;
+    std::vector<glm::ivec2> pixels_;
+    TracedPixels traced_;
+};
+
+}  // namespace lamina

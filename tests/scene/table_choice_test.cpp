@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/table_choice.h"
+
+#include <gtest/gtest.h>
+
+#include "optics/segment_integral.h"
+#include "scene/plan.h"
+#include "support/transfer_functions.h"
+#include "volume/generate.h"
+
+namespace lamina {
+namespace {
+
+using test::knot;
+
+// Colours and extinctions that go up and down from point to point.
+TransferFunction zigzag(int points) {
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i < points; ++i) {
+        const bool odd = i % 2 == 1;
+        knots.push_back(knot(i / (points - 1.), odd ? glm::dvec3(1, .2, 0) : glm::dvec3(0, .9, 1),
+                             odd ? 6 : .5));
+    }
+    return TransferFunction::linear(knots);
+}
+
+Scene scene_of(const TransferFunction& transfer_function) {
+    Scene scene;
+    scene.transfer_function = transfer_function;
+    scene.slice.classification = Classification::preintegrated;
+    scene.camera.eye = {1.7, -.9, 1.3};
+    scene.camera.center = {.5, .5, .5};
+    scene.width = scene.height = 64;
+    scene.slice.samples = 200;
+    return scene;
+}
+
+Volume blobs() {
+    return generate({"gaussians", std::array<std::int64_t, 3>{32, 32, 32}, SampleType::float32});
+}
+
+TEST(TableChoice, ManyPointsGetMoreNodesUntilTheErrorIsKept) {
+    const Volume volume = blobs();
+    Scene scene = scene_of(zigzag(59));
+    scene.max_error = 4;
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    ASSERT_FALSE(facts.scalar_rays.rays.empty());
+    TablePlan coarse;
+    coarse.max_length = (facts.far_depth - facts.near_depth) / 200 * facts.max_length_per_depth;
+    coarse.length_layers = 3;
+    const double error = table_error(scene, facts, 200, coarse);
+    TablePlan chosen = coarse;
+    const double depth = facts.max_extinction * coarse.max_length;
+    refine_table(scene, facts, 200, depth, chosen);
+    EXPECT_GT(chosen.scalar_nodes, coarse.scalar_nodes);
+    EXPECT_LE(chosen.error, table_share * scene.max_error);
+    // Two cells a piece became 17: the error of linear interpolation falls with the square.
+    EXPECT_LE(chosen.error, error / 16);
+}
+
+TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
+    const Volume volume = blobs();
+    const Scene scene = scene_of(zigzag(4));
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    TablePlan chosen;
+    chosen.max_length = .01;
+    refine_table(scene, facts, 200, .06, chosen);
+    EXPECT_EQ(chosen.scalar_nodes, TablePlan().scalar_nodes);
+    EXPECT_GT(chosen.error, 0);
+    EXPECT_LE(chosen.error, table_share * scene.max_error);
+}
+
+}  // namespace
+}  // namespace lamina
