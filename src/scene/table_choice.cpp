@@ -13,10 +13,10 @@ namespace {
 // Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
 constexpr int most_tried = 64;
 
-// A table's colours cost this many segment integrals at most: some seconds on two cores.
-constexpr double max_table_work = 5e7;
-// As textures and as floats of four bytes.
-constexpr double most_nodes = 2048, most_table_bytes = 256 << 20;
+// A table's colours cost this many pieces of segment integrals at most, some .2 s on two cores, and
+// these bytes: choosing the number of slabs takes several tables.
+constexpr double most_table_work = 4e6, most_table_bytes = 128 << 20;
+constexpr double most_nodes = 2048;  // of a texture
 
 // Layers so close that linear interpolation between them is good to .0025 (steps of depth 1 or
 // less), as far as that is affordable; deeper segments are nearly opaque and change little with
@@ -61,10 +61,11 @@ double most_nodes_of(const TablePlan& table, double knots) {
 // Fewer layers where more would take too long or too much memory.
 int affordable_layers(const TablePlan& table, double knots, double wanted) {
     const double nodes = most_nodes_of(table, knots);
-    const double work = nodes * nodes + knots * knots * knots / 3;
+    // Pairs within each of the pieces, and from point to point through all pieces between.
+    const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
     const double bytes = nodes * nodes * 3 * sizeof(float);
     return static_cast<int>(std::max(
-        1.0, std::floor(std::min({wanted, max_table_work / work, most_table_bytes / bytes}))));
+        1.0, std::floor(std::min({wanted, most_table_work / work, most_table_bytes / bytes}))));
 }
 
 }  // namespace

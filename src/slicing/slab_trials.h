@@ -8,12 +8,14 @@
 namespace lamina {
 
 // measure(), and, where the scene is sliced into an automatic number of slabs, what numbers of
-// slabs cost in accuracy: pictures of N and of more slabs are drawn with the native engine, in
-// float32, until the fewest that keep slab_error_goal() are known to some 10 %, or more of
-// them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too. Where errors are
-// not of second order, some fewer slabs are tried after that. First in a picture of at most 2^17
-// pixels, and where that is smaller than the scene's, from what was found on in one of at most
-// 2^20.
+// slabs cost in accuracy: pictures of them are drawn with the native engine, in float32, and held
+// against the reference tracer until the fewest that keep slab_error_goal() are known to some
+// 10 %, or more of them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too.
+// Where errors are not of second order, some fewer slabs are tried after that.
+//
+// Pictures of at most 2^15 pixels are traced on each of them. Larger ones are searched in 2^13
+// pixels first, and from what was found on in a picture of at most 2^20: there trials are compared
+// with pictures of more slabs, and with the tracer on 2^15 pixels.
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
 // For "filter": "auto" in a context whose texture units' weights are worth it, the same with such

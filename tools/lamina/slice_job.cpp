@@ -22,16 +22,7 @@ class SliceMethod : public FrameMethod {
     Plan plan(const Capabilities& capabilities) override {
         try_filter(request_.scene, data_->volume, capabilities, data_->facts);
         Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
-        const auto& trial = plan.slice.slab_trial;
-        if (!trial) return plan;
-        const double error = trial->error + plan.slice.error_bound.value_or(0);
-        if (error > request_.scene.max_error) {
-            request_.message(fmt::format(
-                "render.max_error: found {:.4g}, not kept: of the numbers of slabs that were "
-                "tried, "
-                "{} are taken, with an error of {:.2g} (render.slice.samples sets another)",
-                request_.scene.max_error, trial->slabs, error));
-        }
+        say_what_is_not_kept(plan.slice);
         return plan;
     }
 
@@ -50,6 +41,32 @@ class SliceMethod : public FrameMethod {
     void report(RenderStats& stats) const override { stats.samples = slabs_; }
 
   private:
+    void say_what_is_not_kept(const SlicePlan& plan) const {
+        const double wanted = request_.scene.max_error;
+        if (!plan.slab_trial) {
+            if (plan.table.error > wanted) {
+                request_.message(fmt::format(
+                    "render.max_error: found {:.4g}, not kept: the pre-integration table is off by "
+                    "{:.2g} (render.slice.classification \"post\" does without)",
+                    wanted, plan.table.error));
+            }
+            return;
+        }
+        const SlabTrial& trial = *plan.slab_trial;
+        const double error = trial.error + plan.error_bound.value_or(0);
+        if (error > wanted) {
+            request_.message(fmt::format(
+                "render.max_error: found {:.4g}, not kept: of the numbers of slabs that were "
+                "tried, {} are taken, with an error of {:.2g} (render.slice.samples sets another)",
+                wanted, trial.slabs, error));
+        } else if (trial.doubtful) {
+            request_.message(fmt::format(
+                "render.max_error: found {:.4g}, not sure to be kept: {} slabs are off by {:.2g} "
+                "on {} traced rays of {}, and others may be off by more",
+                wanted, trial.slabs, error, trial.traced, trial.rays));
+        }
+    }
+
     const RenderRequest request_;
     std::optional<LoadedVolume> data_;
     int slabs_ = 0;
