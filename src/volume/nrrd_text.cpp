@@ -3,12 +3,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/warning.h"
 
 namespace lamina {
 namespace {
@@ -58,7 +60,10 @@ bool parse(const std::string& word, T& sample) {
     const char* const end = word.data() + word.size();
     if constexpr (std::is_floating_point_v<T>) {
         const auto [stop, error] = std::from_chars(first, end, sample);
-        return error == std::errc{} && stop == end;
+        if (stop != end || error == std::errc::invalid_argument) return false;
+        // Also said of numbers that are too small: these become the nearest, which may be 0.
+        if (error == std::errc::result_out_of_range) sample = std::strtof(first, nullptr);
+        return error == std::errc{} || std::isfinite(sample);
     } else {
         double number = 0;
         const auto [stop, error] = std::from_chars(first, end, number);
@@ -78,9 +83,18 @@ void read_numbers(std::FILE* stream, const std::string& file, SampleType type, s
         const std::string& word = reader.next();
         if (word.empty()) fail("{}: found {} samples, expected {}", file, i, count);
         if (!parse(word, samples[i])) {
-            fail("{}: sample {} of {}: found '{}', expected a number of type {}", file, i + 1,
-                 count, one_line(word), name_of(type));
+            fail("{}: sample {} of {}: found '{}', expected a {} of type {}, from {} to {}", file,
+                 i + 1, count, word, std::is_floating_point_v<T> ? "number" : "whole number",
+                 name_of(type), std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max());
         }
+    }
+    std::int64_t surplus = 0;
+    while (!reader.next().empty()) ++surplus;
+    if (surplus > 0) {
+        warn(
+            fmt::format("{}: found {} numbers or other words more than the {} of the header: they "
+                        "are not used",
+                        file, surplus, count));
     }
 }
 
