@@ -22,16 +22,19 @@ class SliceMethod : public FrameMethod {
     Plan plan(const Capabilities& capabilities) override {
         try_filter(request_.scene, data_->volume, capabilities, data_->facts);
         Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
-        const auto& trial = plan.slice.slab_trial;
-        if (!trial) return plan;
-        const double error = trial->error + plan.slice.error_bound.value_or(0);
-        if (error > request_.scene.max_error) {
-            request_.message(fmt::format(
-                "render.max_error: found {:.4g}, not kept: of the numbers of slabs that were "
-                "tried, "
-                "{} are taken, with an error of {:.2g} (render.slice.samples sets another)",
-                request_.scene.max_error, trial->slabs, error));
-        }
+        const SlicePlan& slice = plan.slice;
+        const double found = slice.slab_trial ? slice.slab_trial->error : slice.filter_error;
+        const double error = found + slice.error_bound.value_or(0);
+        if (error <= request_.scene.max_error) return plan;
+        const std::string why =
+            slice.slab_trial ? fmt::format(
+                                   "of the numbers of slabs that were tried, {} are taken, with an "
+                                   "error of {:.2g} (render.slice.samples sets another)",
+                                   slice.slabs, error)
+                             : fmt::format("{} slabs composited in {} are off by up to {:.2g}",
+                                           slice.slabs, name_of(slice.target), error);
+        request_.message(
+            fmt::format("render.max_error: {:.4g} is not kept: {}", request_.scene.max_error, why));
         return plan;
     }
 
