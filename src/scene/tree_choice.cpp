@@ -89,7 +89,8 @@ bool more_bits_keep(TreeQuestion question) {
 }
 
 [[noreturn]] void fail_for(const TreeQuestion& question) {
-    std::vector<std::string> remedies{"a larger max_error"};
+    std::vector<std::string> remedies;
+    if (best_error_bound(question) <= full_scale) remedies.emplace_back("a larger max_error");
     TreeQuestion clamped = question;
     clamped.largest_color = std::min(question.largest_color, 1.0);
     const bool clamps = is_fixed_point(question.target) && question.largest_color > 1;
@@ -97,8 +98,12 @@ bool more_bits_keep(TreeQuestion question) {
         remedies.emplace_back("colours up to 1");
     if (question.target == Target::emulated && more_bits_keep(question))
         remedies.emplace_back("more bits");
+    TreeQuestion one_slab = question;
+    one_slab.visible_slabs = 1;
+    if (best_error_bound(one_slab) <= question.max_error) remedies.emplace_back("fewer slabs");
     if (const std::string targets = targets_that_keep(question); !targets.empty())
         remedies.push_back(targets);
+    if (remedies.empty()) remedies.emplace_back("colours up to 1 and a larger max_error");
     const std::string bits = question.target == Target::emulated
                                  ? fmt::format(" of {} bits", question.emulation.bits)
                                  : "";

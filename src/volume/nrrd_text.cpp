@@ -3,8 +3,8 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -54,6 +54,16 @@ class WordReader {
     std::string word_;
 };
 
+// std::from_chars calls numbers out of range that are nearer to 0 than any float, too.
+bool parse_small(const char* first, const char* end, float& sample) {
+    long double wide = 0;  // has exponents to spare
+    const bool fits = std::from_chars(first, end, wide).ec == std::errc{};
+    if (!fits && std::string_view(first, end).find('-', 1) == std::string_view::npos) return false;
+    if (std::abs(wide) > 1) return false;
+    sample = static_cast<float>(wide);
+    return true;
+}
+
 template <typename T>
 bool parse(const std::string& word, T& sample) {
     const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
@@ -61,9 +71,7 @@ bool parse(const std::string& word, T& sample) {
     if constexpr (std::is_floating_point_v<T>) {
         const auto [stop, error] = std::from_chars(first, end, sample);
         if (stop != end || error == std::errc::invalid_argument) return false;
-        // Also said of numbers that are too small: these become the nearest, which may be 0.
-        if (error == std::errc::result_out_of_range) sample = std::strtof(first, nullptr);
-        return error == std::errc{} || std::isfinite(sample);
+        return error == std::errc{} || parse_small(first, end, sample);
     } else {
         double number = 0;
         const auto [stop, error] = std::from_chars(first, end, number);
