@@ -148,31 +148,21 @@ TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
 
 // Where a mesh is made there is no file of it.
 TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
-    write_bytes_to(folder / "v.nrrd",
-                   "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\nspacings: 1e30 1e30 1e30\n"
-                   "encoding: raw\n\n01234567");
     json scene = gaussians_scene(4, 8, 6, 4);
     scene["volume"] = "v.nrrd";
     scene["mesh"] = {{"kuhn", true}};
     write_bytes_to(folder / "scene.json", scene.dump());
-    const ProgramResult result = lamina_run(
-        {"render", folder / "scene.json", "-o", folder / "a.exr", "--method", "project"});
-    EXPECT_EQ(result.exit_code, 1);
-    expect_line(result.err, {"scene.json: mesh: the diagonal of the mesh is "});
-}
-
-TEST_F(Messages, AMeshThatCannotBeMadeNamesTheScene) {
-    write_bytes_to(folder / "v.nrrd",
-                   "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n"
-                   "1 2 3 4 5 6 7 nan\n");
-    json scene = gaussians_scene(4, 8, 6, 4);
-    scene["volume"] = "v.nrrd";
-    scene["mesh"] = {{"kuhn", true}};
-    write_bytes_to(folder / "scene.json", scene.dump());
-    const ProgramResult result = lamina_run(
-        {"render", folder / "scene.json", "-o", folder / "a.exr", "--method", "project"});
-    EXPECT_EQ(result.exit_code, 1);
-    expect_line(result.err, {"scene.json: mesh: 1 of 8 samples are NaN or infinite"});
+    const auto expect_of = [&](const std::string& volume, const std::string& message) {
+        write_bytes_to(folder / "v.nrrd", "NRRD0004\ndimension: 3\nsizes: 2 2 2\n" + volume);
+        const ProgramResult result = lamina_run(
+            {"render", folder / "scene.json", "-o", folder / "a.exr", "--method", "project"});
+        EXPECT_EQ(result.exit_code, 1);
+        expect_line(result.err, {"scene.json: mesh: " + message});
+    };
+    expect_of("type: uint8\nspacings: 1e30 1e30 1e30\nencoding: raw\n\n01234567",
+              "the diagonal of the mesh is ");
+    expect_of("type: float\nencoding: ascii\n\n1 2 3 4 5 6 7 nan\n",
+              "1 of 8 samples are NaN or infinite");
 }
 
 }  // namespace
