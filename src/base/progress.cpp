@@ -23,11 +23,15 @@ Progress::Progress(std::string label, std::int64_t total)
 
 Progress::~Progress() {
     if (visible_) one_is_shown = false;
-    if (drawn_) write_message("\r\033[K");
+    if (drawn_) replace_line("");
 }
 
 void Progress::set_quiet(bool quiet) {
     quiet_process = quiet;
+}
+
+bool Progress::is_quiet() {
+    return quiet_process;
 }
 
 void Progress::advance(std::int64_t steps) {
@@ -43,7 +47,7 @@ void Progress::draw(std::int64_t done) {
     drawn_ = true;
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
     const double left = share > 0 ? last_drawn_ * (1 - share) / share : 0;
-    print_message("\r\033[K{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left);
+    replace_line(fmt::format("{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left));
 }
 
 }  // namespace lamina

@@ -23,6 +23,7 @@ class Progress {
     void advance(std::int64_t steps = 1);  // safe from any thread
 
     static void set_quiet(bool quiet);  // for the whole process (--quiet)
+    static bool is_quiet();
 
   private:
     void draw(std::int64_t done);

@@ -10,8 +10,17 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/printable.h"
 
 namespace lamina {
+namespace {
+
+void write_to_stderr(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+}  // namespace
 
 void make_streams_safe() {
     std::signal(SIGPIPE, SIG_IGN);
@@ -35,9 +44,13 @@ void flush_results() {
     if (broken) fail("cannot write to stdout: not all of it could be written");
 }
 
-void write_message(const std::string& text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
+void write_message(const std::string& line) {
+    const std::size_t end = line.ends_with('\n') ? line.size() - 1 : line.size();
+    write_to_stderr(printable(line.substr(0, end)) + line.substr(end));
+}
+
+void replace_line(const std::string& line) {
+    write_to_stderr("\r\033[K" + printable(line));
 }
 
 }  // namespace lamina

@@ -18,8 +18,11 @@ void make_streams_safe();
 void write_result(const std::string& text);
 void flush_results();  // of what still waits in memory; throws Error
 
-// For people, to stderr. What does not arrive is lost: no reason to fail.
-void write_message(const std::string& text);
+// For people, to stderr: one line with its end, which alone is not shown as printable() does. What
+// does not arrive is lost: no reason to fail.
+void write_message(const std::string& line);
+// The same, in place of the line in which a terminal's cursor is and without ending it.
+void replace_line(const std::string& line);
 
 template <typename... Args>
 void print_result(fmt::format_string<Args...> format, Args&&... args) {

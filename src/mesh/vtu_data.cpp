@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/warning.h"
 #include "mesh/encoded_bytes.h"
 #include "mesh/text_reader.h"
 
@@ -85,18 +86,26 @@ std::string read_zlib(EncodedBytes& bytes, const VtuEncoding& encoding, std::uin
     const std::vector<Block> blocks = read_blocks(bytes, encoding, expected, what);
     std::string values(expected, '\0'), packed;
     std::size_t done = 0;
+    std::uint64_t surplus = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         check_interrupt();
         packed.resize(blocks[i].stored);
         bytes.read(packed.data(), packed.size());
-        uLongf size = blocks[i].size;
-        const int result = uncompress(reinterpret_cast<Bytef*>(values.data() + done), &size,
-                                      reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+        uLongf size = blocks[i].size, used = packed.size();
+        const int result = uncompress2(reinterpret_cast<Bytef*>(values.data() + done), &size,
+                                       reinterpret_cast<const Bytef*>(packed.data()), &used);
         if (result == Z_MEM_ERROR) throw std::bad_alloc();
         if (result != Z_OK || size != blocks[i].size) {
             fail("{}: damaged zlib data in block {} of {}", what, i + 1, blocks.size());
         }
         done += blocks[i].size;
+        surplus += packed.size() - used;
+    }
+    if (surplus > 0) {
+        warn(
+            fmt::format("{}: found {} bytes behind the zlib data of its {} blocks, expected none: "
+                        "they are not used",
+                        what, surplus, blocks.size()));
     }
     return values;
 }

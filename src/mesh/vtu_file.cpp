@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "base/warning.h"
 #include "mesh/file_bytes.h"
 #include "mesh/text_reader.h"
 
@@ -39,10 +41,24 @@ std::string said(const char* value) {
     return *value == '\0' ? "''" : next_word(TextReader(value));
 }
 
+// Counts what is no blank.
+void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
+    const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
+    if (surplus == 0) return;
+    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
+                     surplus, behind));
+}
+
 }  // namespace
 
 VtuFile::VtuFile(const std::filesystem::path& path)
     : name_(path.string()), bytes_(read_file_bytes(path)), file_bytes_(bytes_.size()) {
+    constexpr std::string_view last_tag = "</VTKFile>";
+    const std::size_t end = bytes_.rfind(last_tag);
+    if (end != std::string::npos) {
+        warn_of_surplus(name_, std::string_view(bytes_).substr(end + last_tag.size()),
+                        "</VTKFile>");
+    }
     cut_off_appended_data();
     parse();
 }
@@ -201,7 +217,9 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
     if (!joined.empty()) text = joined;
     if (format == "binary") {
         VtuSource source{text, true};
-        return read_vtu_data<To>(source, encoding_, type, count, what);
+        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        warn_of_surplus(what, source.text, "its base64 data");
+        return values;
     }
     if (format != "ascii") {
         fail("{}: format: found {}, expected 'ascii', 'binary' or 'appended'", what,

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "optics/color_space.h"
+#include "optics/json_text.h"
 #include "optics/opacity.h"
 
 namespace lamina {
@@ -69,7 +70,7 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
         return space == ColorSpace::hsv && wrapped ? ColorSpace::hsv_wrapped : space;
     }
     fail(R"({}: ColorSpace is {}, expected "RGB", "HSV", "Lab", "Diverging" or "Step")", name,
-         found->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+         json_text(*found));
 }
 
 // Rows of four numbers; the first of each is the scalar, in order, at most two rows at one scalar.

@@ -10,6 +10,7 @@ namespace lamina {
 // the native engine.
 struct Capabilities {
     std::string renderer;  // GL_RENDERER, with how the context was made: "OSMesa: llvmpipe (...)"
+    int threads = 0;       // that the native engine takes: they change no picture
     bool software = true;  // no GPU behind it
     bool tiles = false;    // the native engine: no OpenGL
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
@@ -25,5 +26,12 @@ struct Capabilities {
     // rounded to 8 bits, which slab trials have.
     bool eight_bit_filter = false;
 };
+
+// For reports of times: the renderer, and its threads where they are known.
+inline std::string renderer_and_threads(const Capabilities& capabilities) {
+    if (capabilities.threads == 0) return capabilities.renderer;
+    return capabilities.renderer + ", " + std::to_string(capabilities.threads) +
+           (capabilities.threads == 1 ? " thread" : " threads");
+}
 
 }  // namespace lamina

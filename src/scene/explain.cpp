@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "compositing/tree_shape.h"
 #include "scene/plan.h"
 
@@ -25,7 +26,7 @@ const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
 }
 
 std::string line(const char* what, const std::string& value) {
-    return fmt::format("  {:<14} {}\n", what, value);
+    return fmt::format("  {:<14} {}\n", what, printable(value));
 }
 
 std::string with_reason(const char* name, const std::string& reason) {

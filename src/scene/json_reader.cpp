@@ -7,6 +7,8 @@
 #include <fstream>
 #include <numeric>
 
+#include "optics/json_text.h"
+
 namespace lamina {
 namespace {
 
@@ -42,7 +44,7 @@ std::string suggestion(const std::set<std::string>& words, const std::string& wo
 
 // The value as it stands in the file, cut where it is long.
 std::string shown(const nlohmann::json& value) {
-    const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::string text = json_text(value);
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 

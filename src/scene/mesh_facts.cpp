@@ -59,7 +59,7 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     const ScalarRange found = measure_range(mesh.scalar.values);
     facts.range = found.range;
     facts.non_finite = found.non_finite;
-    const std::string file = scene.mesh_file.string();
+    const std::string file = name_of_mesh(scene);
     if (facts.range.empty())
         fail("{}: all {} values of \"{}\" are NaN or infinite", file, facts.points, facts.scalar);
     if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {

@@ -64,6 +64,10 @@ struct SlicePlan : CompositingPlan {
     double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
 
+    // In 1/255, of slabs, filter and table as far as it was measured.
+    double found_error() const {
+        return slab_trial ? slab_trial->error : filter_error + table.error;
+    }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
     // Segments by the scalars at both ends and in the middle, not in the middle alone.

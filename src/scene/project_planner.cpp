@@ -84,7 +84,7 @@ class ProjectPlanner {
         constexpr double least = 1e-20, most = 1e20;
         if (facts_.diagonal == 0 || (facts_.diagonal >= least && facts_.diagonal <= most)) return;
         fail("{}: the diagonal of the mesh is {}, expected {} to {} for method project",
-             scene_.mesh_file.string(), facts_.diagonal, least, most);
+             name_of_mesh(scene_), facts_.diagonal, least, most);
     }
 
     void choose_geometry() {

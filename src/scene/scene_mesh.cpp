@@ -43,7 +43,7 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
             "the file: {}",
             file, list_names(data));
     } else {
-        fail("{}: scalar \"{}\" not found, expected one of: {}", file, scene.scalar,
+        fail("{}: scalar: found \"{}\", expected one that the file has: {}", file, scene.scalar,
              list_names(data));
     }
     data.point_scalars.clear();
@@ -56,10 +56,18 @@ MeshData mesh_of_volume(const Scene& scene, MeshReport& report) {
     const Volume volume = load_volume(scene);
     loading.end();
     const Stage making("make mesh");
-    return make_volume_mesh(volume, *scene.mesh_request, &scene.transfer_function, report);
+    try {
+        return make_volume_mesh(volume, *scene.mesh_request, &scene.transfer_function, report);
+    } catch (const Error& error) {
+        fail("{}: {}", name_of_mesh(scene), error.what());
+    }
 }
 
 }  // namespace
+
+std::string name_of_mesh(const Scene& scene) {
+    return scene.mesh_file.empty() ? scene.file.string() + ": mesh" : scene.mesh_file.string();
+}
 
 SceneMesh load_mesh(const Scene& scene) {
     if (!scene.mesh_file.empty()) {
@@ -69,15 +77,14 @@ SceneMesh load_mesh(const Scene& scene) {
         bool averaged = false;
         MeshScalar scalar = take_scalar(data, scene, averaged);
         const Stage matching("neighbours");
-        return {
-            TetMesh(std::move(data), scene.mesh_file.string()), std::move(scalar), averaged, {}};
+        return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}};
     }
     MeshReport report;
     MeshData data = mesh_of_volume(scene, report);
     MeshScalar scalar = std::move(data.point_scalars.front());
     data.point_scalars.clear();
     const Stage matching("neighbours");
-    return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, report};
+    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), false, report};
 }
 
 }  // namespace lamina

@@ -17,6 +17,9 @@ struct SceneMesh {
     std::optional<MeshReport> report;  // of a mesh made from the scene's volume
 };
 
+// For messages: its file, or where the scene says how to make it.
+std::string name_of_mesh(const Scene& scene);
+
 // Reads the mesh that the scene names, or makes it from its volume. Throws Error, also when the
 // file has no such scalar.
 SceneMesh load_mesh(const Scene& scene);

@@ -338,9 +338,7 @@ class SlicePlanner {
         }
         question.largest_color = facts_.max_color;
         question.max_error = scene_.max_error;
-        const double found = slice.slab_trial ? slice.slab_trial->error
-                                              : slice.filter_error + slice.table.error;
-        question.max_error = std::max(scene_.max_error - found, scene_.max_error * target_share);
+        question.slab_error = slice.found_error();
         return question;
     }
 

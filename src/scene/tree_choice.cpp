@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/tree_choice.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "scene/target_choice.h"
 
 namespace lamina {
 namespace {
@@ -55,8 +61,60 @@ constexpr double leaf_roundings = 3 * 0x1p-24;
 // Fixed-point targets hold colours up to 1; the others round in proportion to what they hold.
 double scaled_for_color(const TreeQuestion& question, double bound) {
     const double largest = std::max(question.largest_color, 1.0);
-    const bool clamps = question.target != Target::float32 && question.target != Target::float16;
-    return full_scale * std::min(clamps ? bound + (largest - 1) : bound * largest, largest);
+    const double scaled = is_fixed_point(question.target) ? bound + (largest - 1) : bound * largest;
+    return full_scale * std::min(scaled, largest);
+}
+
+// By a node, which emulated buffers do not have, or by blending.
+double best_error_bound(const TreeQuestion& question) {
+    const double straight = straight_error_bound(question);
+    if (question.target == Target::emulated) return straight;
+    return std::min(straight, one_level_error_bound(question));
+}
+
+// The others that would keep max_error, "" where none does.
+std::string targets_that_keep(TreeQuestion question) {
+    std::vector<const char*> names;
+    for (const Target target :
+         {Target::fixed8, Target::fixed16, Target::float16, Target::float32}) {
+        question.target = target;
+        if (best_error_bound(question) <= question.max_error) names.push_back(name_of(target));
+    }
+    return names.empty() ? "" : fmt::format("target {}", fmt::join(names, " or "));
+}
+
+bool more_bits_keep(TreeQuestion question) {
+    question.emulation.bits = max_code_bits;
+    return straight_error_bound(question) <= question.max_error;
+}
+
+[[noreturn]] void fail_for(const TreeQuestion& question) {
+    std::vector<std::string> remedies;
+    if (best_error_bound(question) <= full_scale) remedies.emplace_back("a larger max_error");
+    TreeQuestion clamped = question;
+    clamped.largest_color = std::min(question.largest_color, 1.0);
+    const bool clamps = is_fixed_point(question.target) && question.largest_color > 1;
+    if (clamps && best_error_bound(clamped) <= question.max_error)
+        remedies.emplace_back("colours up to 1");
+    if (question.target == Target::emulated && more_bits_keep(question))
+        remedies.emplace_back("more bits");
+    TreeQuestion one_slab = question;
+    one_slab.visible_slabs = 1;
+    if (best_error_bound(one_slab) <= question.max_error) remedies.emplace_back("fewer slabs");
+    if (const std::string targets = targets_that_keep(question); !targets.empty())
+        remedies.push_back(targets);
+    if (remedies.empty()) remedies.emplace_back("colours up to 1 and a larger max_error");
+    const std::string bits = question.target == Target::emulated
+                                 ? fmt::format(" of {} bits", question.emulation.bits)
+                                 : "";
+    const std::string clamping =
+        clamps ? fmt::format(" and clamps colours (up to {:.4g}) to 1", question.largest_color)
+               : "";
+    fail(
+        "render.max_error: {:.4g} cannot be kept: the target {}{} rounds {} visible slabs by up "
+        "to {:.4g} / 255 at best{}: take {}",
+        question.max_error, name_of(question.target), bits, question.visible_slabs,
+        best_error_bound(question), clamping, fmt::join(remedies, ", or "));
 }
 
 }  // namespace
@@ -74,39 +132,23 @@ double one_level_error_bound(const TreeQuestion& question) {
 
 TreeChoice choose_tree(const TreeQuestion& question) {
     const double straight = straight_error_bound(question);
-    if (question.target == Target::emulated) {
-        if (straight <= question.max_error) {
-            return {{}, straight, "an emulated buffer has no nodes computed in a shader"};
-        }
-        fail(
-            "render.max_error: found {:.4g}, the emulated target of {} bits keeps {:.4g} over {} "
-            "slabs: take more bits, fewer samples, or another target",
-            question.max_error, question.emulation.bits, straight, question.visible_slabs);
-    }
+    const double best = best_error_bound(question);
+    // Nothing has more bits than float32: it is taken even so, as it is without a tree.
+    if (best > question.max_error && question.target != Target::float32) fail_for(question);
+    if (question.target == Target::emulated)
+        return {{}, straight, "an emulated buffer has no nodes computed in a shader"};
+    const double left =
+        std::max(question.max_error - question.slab_error, question.max_error * target_share);
     // One node that marches all slabs reads and writes each pixel once; blending does so once a
     // slab, and is measured to be slower for every number of slabs but one (docs/precision.md).
     const double one_level = one_level_error_bound(question);
-    if ((question.slabs > 1 || straight > question.max_error) && one_level <= question.max_error) {
+    if ((question.slabs > 1 && one_level <= left) || straight > left) {
         return {TreePlan{.factors = {question.slabs}}, one_level,
                 fmt::format("one node of {} slabs, in float, takes less time than blending, whose "
                             "bound is {:.3g}",
                             question.slabs, straight)};
     }
-    if (straight <= question.max_error) {
-        return {{}, straight, fmt::format("{} visible slabs round little", question.visible_slabs)};
-    }
-    if (question.largest_color > 1 &&
-        one_level - full_scale * (question.largest_color - 1) <= question.max_error) {
-        fail(
-            "render.max_error: found {:.4g}, not to be kept with colours up to {:.4g}, which the "
-            "target {} clamps to 1: take float16 or float32, or colours up to 1",
-            question.max_error, question.largest_color, name_of(question.target));
-    }
-    fail(
-        "render.max_error: found {:.4g}, the best that the target {} can keep is {:.4g} over {} "
-        "visible slabs: take a larger max_error, or a target of more bits",
-        question.max_error, name_of(question.target), std::min(one_level, straight),
-        question.visible_slabs);
+    return {{}, straight, fmt::format("{} visible slabs round little", question.visible_slabs)};
 }
 
 }  // namespace lamina

@@ -28,7 +28,8 @@ struct TreeQuestion {
     Order order = Order::back_to_front;
     std::optional<Dither> dither;  // of codes
     double largest_color = 1;      // component of what is composited
-    double max_error = 1;          // in 1/255
+    double max_error = 1;          // in 1/255, as the scene has it
+    double slab_error = 0;         // of it, what the slabs were found to take
 };
 
 struct TreeChoice {
@@ -41,7 +42,8 @@ struct TreeChoice {
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 
-// The cheaper of what keeps max_error. Throws Error where nothing does.
+// The cheaper of what keeps to what the slabs leave of max_error, else the better. Throws Error
+// where compositing alone misses max_error and another target than float32 was asked for.
 TreeChoice choose_tree(const TreeQuestion& question);
 
 }  // namespace lamina

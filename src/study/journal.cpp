@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "optics/json_text.h"
 
 namespace lamina {
 namespace {
@@ -61,8 +62,7 @@ Journal::~Journal() {
 }
 
 void Journal::append(const nlohmann::ordered_json& record) {
-    const std::string line =
-        record.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    const std::string line = json_text(record) + "\n";
     std::size_t written = 0;
     while (written < line.size()) {
         const ssize_t count = write(descriptor_, line.data() + written, line.size() - written);

@@ -184,7 +184,7 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
         findings.result({{"files", {"table1.csv"}},
                          {"mesh", subject.name},
                          {"pixels", {stage.sizes().timed_width, stage.sizes().timed_height}},
-                         {"renderer", stage.capabilities().renderer},
+                         {"renderer", renderer_and_threads(stage.capabilities())},
                          {"rounds", stage.sizes().rounds},
                          {"rows", rows}},
                         printed,
@@ -236,7 +236,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
     return with_data_note(
         findings.result({{"files", {"table2.csv"}},
                          {"pixels", {stage.sizes().timed_width, stage.sizes().timed_height}},
-                         {"renderer", stage.capabilities().renderer},
+                         {"renderer", renderer_and_threads(stage.capabilities())},
                          {"rounds", stage.sizes().rounds},
                          {"rows", rows}},
                         printed_table2(),

@@ -148,7 +148,7 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     const DrawnVolume volume(
         generate({"mixing", std::array<std::int64_t, 3>{128, 128, 128}, SampleType::uint8}));
     Json values{{"files", {"times.csv", "times_barriers.csv", "times_palettes.csv"}},
-                {"renderer", stage.capabilities().renderer},
+                {"renderer", renderer_and_threads(stage.capabilities())},
                 {"pixels", pixels},
                 {"covered_share", volume_in_picture * volume_in_picture},
                 {"samples", slices},

@@ -7,6 +7,7 @@
 #include "base/content_hash.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
+#include "optics/json_text.h"
 #include "reference/volume_tracer.h"
 #include "scene/json_reader.h"
 #include "study/picture_key.h"
@@ -75,7 +76,7 @@ void ReferenceStore::keep(const Reference& reference) const {
     const nlohmann::ordered_json facts{{"of", reference.of == TraceOf::volume ? "volume" : "mesh"},
                                        {"error_estimate", reference.error_estimate},
                                        {"ms", reference.ms}};
-    write_text(folder_ / (reference.id + ".json"), facts.dump() + "\n");
+    write_text(folder_ / (reference.id + ".json"), json_text(facts) + "\n");
 }
 
 const Reference& ReferenceStore::get(const Scene& scene, TraceOf of, DataStore& data) {

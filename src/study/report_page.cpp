@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string_view>
 
+#include "optics/json_text.h"
 #include "study/report_files.h"
 
 namespace lamina {
@@ -11,14 +12,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string dumped(const Json& value) {
-    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 // As text between tags.
 std::string html_of(const std::string& text) {
     // Through JSON and back, so that it is UTF-8.
-    const std::string valid = Json::parse(dumped(Json(text))).get<std::string>();
+    const std::string valid = Json::parse(json_text(Json(text))).get<std::string>();
     std::string html;
     for (const char c : valid) {
         if (c == '&')
@@ -45,7 +42,7 @@ std::string findings_of(const Json& report) {
 // comment.
 std::string document_of(const Json& report) {
     std::string json;
-    for (const char c : dumped(report)) {
+    for (const char c : json_text(report)) {
         if (c == '<')
             json += "\\u003c";
         else

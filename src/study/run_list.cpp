@@ -9,6 +9,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "optics/json_text.h"
 
 namespace lamina {
 namespace {
@@ -40,7 +41,7 @@ std::string run_id(const StudyRun& run, const StudyFile& file) {
     ContentHash hash;
     hash.add(file.scenes[run.scene].name);
     hash.add(context_of(run, file));
-    hash.add(document_of(run, file).dump());
+    hash.add(json_text(document_of(run, file)));
     if (file.reference) hash.add(*file.reference == TraceOf::volume ? "volume" : "mesh");
     return hash.hex();
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "optics/json_text.h"
 #include "scene/scene_reader.h"
 
 namespace lamina {
@@ -111,7 +112,7 @@ void apply_settings(const Settings& settings, nlohmann::json& document) {
             if (value.is_null())
                 remove_key(document, key);
             else
-                set_key(document, key, value.dump());
+                set_key(document, key, json_text(value));
         } catch (const UsageError&) {
             fail("{}: not a key of a scene: it leads through a value that is no object", key);
         }

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "optics/json_text.h"
 #include "study/report_page.h"
 #include "study/study_report.h"
 #include "study/text_file.h"
@@ -46,8 +47,7 @@ class FolderLock {
 }  // namespace
 
 void write_run_list(const StudyFolder& folder, const RunList& list) {
-    write_text(folder.run_list(),
-               to_json(list).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(folder.run_list(), json_text(to_json(list), 1) + "\n");
 }
 
 StudySummary write_study_output(const StudyFolder& folder) {
@@ -55,8 +55,7 @@ StudySummary write_study_output(const StudyFolder& folder) {
     const StudyResults results = read_results(folder);
     write_text(folder.path / "results.csv", csv_of(results));
     Json report = report_of(results);
-    write_text(folder.path / "results.json",
-               report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(folder.path / "results.json", json_text(report, 1) + "\n");
     StudySummary summary{results.runs.size(), results.list.runs.size(), report["findings"], {}};
     add_pictures(folder, report);
     write_text(folder.path / "report.html", report_page(report));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "optics/json_text.h"
 #include "scene/json_reader.h"
 #include "study/journal.h"
 #include "study/pareto.h"
@@ -129,7 +130,7 @@ Json environment_of(const std::vector<Records>& journals, const std::vector<RunR
         for (const nlohmann::json& record : records) {
             if (!record.contains("begin")) continue;
             for (const auto& [key, value] : record["begin"].items())
-                words[key].insert(value.is_string() ? value.get<std::string>() : value.dump());
+                words[key].insert(value.is_string() ? value.get<std::string>() : json_text(value));
         }
     }
     for (const RunResult& run : runs) {

@@ -197,7 +197,7 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     const ImageError error = image_error(image, reference.image);
     Json drawn = to_json(error);
     drawn["reference"] = reference.id;
-    drawn["renderer"] = contexts_.use(context_of(list_.runs[run], file_)).renderer;
+    drawn["renderer"] = renderer_and_threads(contexts_.use(context_of(list_.runs[run], file_)));
     drawn["bytes_gpu"] = frames.bytes_gpu();
     drawn["bytes_host"] = frames.bytes_host();
     drawn["stages"] = frames.renderer().stages_ms();

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "optics/json_text.h"
+
 namespace lamina {
 namespace {
 
@@ -64,7 +66,7 @@ SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::js
         study.fail_at(at,
                       fmt::format("found {}, expected an object with a key of the scene and its "
                                   "values, as {{\"render.slice.samples\": [256, 512]}}",
-                                  object.dump()));
+                                  json_text(object)));
     if (object.size() > most_keys)
         study.fail_at(at,
                       fmt::format("found {} keys, expected at most {}", object.size(), most_keys));
@@ -134,7 +136,7 @@ std::string setting_text(const nlohmann::json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (is_list_of_whole_numbers(value))
         return fmt::format("{}", fmt::join(value.get<std::vector<std::int64_t>>(), "x"));
-    return value.is_null() ? "" : value.dump();
+    return value.is_null() ? "" : json_text(value);
 }
 
 }  // namespace lamina

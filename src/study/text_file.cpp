@@ -5,8 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <cassert>
+#include <charconv>
+#include <string_view>
 
 #include "base/atomic_file.h"
+#include "optics/json_text.h"
 
 namespace lamina {
 
@@ -18,8 +21,23 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 namespace {
 
+bool is_number(const std::string& cell) {
+    double number = 0;
+    const char* const end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, number);
+    return stop == end && error != std::errc::invalid_argument;
+}
+
+// Spreadsheets compute what begins so, and may start programs by that. With an apostrophe before
+// it, it is text to them.
+bool is_formula(const std::string& cell) {
+    return !cell.empty() && std::string_view("=+-@\t\r").find(cell[0]) != std::string::npos &&
+           !is_number(cell);
+}
+
 // RFC 4180: in quotes where it holds a comma, a quote or the end of a line.
 std::string quoted(const std::string& cell) {
+    if (is_formula(cell)) return quoted("'" + cell);
     if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
     std::string text = "\"";
     for (const char c : cell) {
@@ -49,7 +67,7 @@ namespace {
 std::string cell_of(const nlohmann::ordered_json& value) {
     if (value.is_null()) return {};
     if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-    if (!value.is_string()) return value.dump();
+    if (!value.is_string()) return json_text(value);
     return value.get<std::string>();
 }
 

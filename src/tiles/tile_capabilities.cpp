@@ -14,9 +14,8 @@ namespace lamina {
 Capabilities tile_capabilities() {
     constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
-    const int threads = tbb::this_task_arena::max_concurrency();
-    capabilities.renderer =
-        fmt::format("cpu: {}, {} thread{}", instruction_set(), threads, threads == 1 ? "" : "s");
+    capabilities.renderer = fmt::format("cpu: {}", instruction_set());
+    capabilities.threads = tbb::this_task_arena::max_concurrency();
     capabilities.tiles = true;
     capabilities.max_texture_size = largest_edge;
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();

@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// Of the native engine on this machine; the renderer is "cpu: AVX3, 2 threads".
+// Of the native engine on this machine; the renderer is "cpu: AVX3".
 Capabilities tile_capabilities();
 
 }  // namespace lamina

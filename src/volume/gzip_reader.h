@@ -3,32 +3,19 @@
 
 #include <zlib.h>
 
-#include <cstddef>
-#include <cstdio>
-#include <string>
-#include <vector>
+#include "volume/packed_reader.h"
 
 namespace lamina {
 
-// Decompresses a gzip stream (of one or more members) from where `stream` stands. (teem 1.12 does
-// not notice a damaged or missing checksum.) Throws Error; `file` is for messages.
-class GzipReader {
+// Of gzip or zlib streams. (teem 1.12 does not notice a damaged or missing checksum.)
+class GzipReader : public PackedReader {
   public:
     GzipReader(std::FILE* stream, std::string file);
-    ~GzipReader();
-    GzipReader(const GzipReader&) = delete;
-    GzipReader& operator=(const GzipReader&) = delete;
-
-    void read(void* bytes, std::size_t count);
-    void skip(std::size_t count);
-    void check_end();  // once all is read: that the checksum of what was read is there and right
+    ~GzipReader() override;
 
   private:
-    bool inflate_some();  // false at the end of the compressed data
+    bool unpack(Input& from, Output& to) override;
 
-    std::FILE* stream_;
-    std::string file_;
-    std::vector<unsigned char> input_;
     z_stream state_{};
 };
 

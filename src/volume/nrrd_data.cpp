@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/nrrd_data.h"
 
-#include <teem/nrrd.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +11,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/warning.h"
+#include "volume/bzip2_reader.h"
+#include "volume/file_length.h"
 #include "volume/gzip_reader.h"
 #include "volume/nrrd_text.h"
 
@@ -60,15 +63,6 @@ File open_data(const NrrdHeader& header) {
     return file;
 }
 
-// Bytes from where the file stands to its end.
-std::uint64_t bytes_left(std::FILE* file) {
-    const off_t here = ftello(file);
-    fseeko(file, 0, SEEK_END);
-    const off_t end = ftello(file);
-    fseeko(file, here, SEEK_SET);
-    return end > here ? static_cast<std::uint64_t>(end - here) : 0;
-}
-
 // The most bytes of samples that `stored` bytes can give.
 std::uint64_t capacity(const NrrdHeader& header, std::uint64_t stored) {
     switch (header.encoding) {
@@ -114,6 +108,11 @@ void check_capacity(const NrrdHeader& header, std::uint64_t stored, std::uint64_
         name_of(header.encoding), most);
 }
 
+void warn_of_surplus(const NrrdHeader& header, const std::string& surplus) {
+    warn(fmt::format("{}: found {} than the {} of the header: they are not used",
+                     header.data_path.string(), surplus, named_size(header)));
+}
+
 void read_raw(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
               std::uint64_t count) {
     constexpr std::uint64_t step = std::uint64_t{1} << 26;
@@ -125,30 +124,26 @@ void read_raw(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
         if (got == wanted) continue;
         fail("{}: found {} bytes of data, expected {}", header.data_path.string(), done, count);
     }
+    // Counted from the end, data have as many bytes behind them as the header says.
+    const std::uint64_t surplus = header.byte_skip < 0 ? 0 : bytes_left(file);
+    if (surplus > 0) warn_of_surplus(header, fmt::format("{} bytes more", surplus));
 }
 
-void read_gzip(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
-               std::uint64_t count) {
-    GzipReader reader(file, header.data_path.string());
+void read_packed(const NrrdHeader& header, PackedReader& reader, unsigned char* samples,
+                 std::uint64_t count) {
     reader.skip(static_cast<std::size_t>(header.byte_skip));
     reader.read(samples, count);
-    reader.check_end();
-}
-
-void read_bzip2(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
-                std::uint64_t count) {
-    const std::unique_ptr<Nrrd, decltype(&nrrdNix)> nrrd(nrrdNew(), &nrrdNix);
-    const std::unique_ptr<NrrdIoState, decltype(&nrrdIoStateNix)> state(nrrdIoStateNew(),
-                                                                        &nrrdIoStateNix);
-    if (!nrrd || !state) throw std::bad_alloc();
-    if (nrrdEncodingBzip2->available() == 0) {
-        fail("{}: encoding: found bzip2, which this teem was built without", header.path.string());
+    const PackedReader::Surplus surplus = reader.finish();
+    if (surplus.unpacked > 0) {
+        const char* const at_least =
+            surplus.unpacked >= PackedReader::most_unpacked ? "at least " : "";
+        warn_of_surplus(header, fmt::format("{}{} bytes of {} data more", at_least,
+                                            surplus.unpacked, name_of(header.encoding)));
     }
-    nrrd->type = nrrdTypeUChar;
-    state->byteSkip = header.byte_skip;
-    if (nrrdEncodingBzip2->read(file, samples, count, nrrd.get(), state.get()) == 0) return;
-    const std::unique_ptr<char, decltype(&std::free)> ignored(biffGetDone(NRRD), &std::free);
-    fail("{}: truncated or damaged bzip2 data", header.data_path.string());
+    if (surplus.behind > 0) {
+        warn_of_surplus(header, fmt::format("{} bytes behind its {} data, more", surplus.behind,
+                                            name_of(header.encoding)));
+    }
 }
 
 // Moves from the start of the data to the first sample, for encodings whose byte skip counts bytes
@@ -209,12 +204,16 @@ std::shared_ptr<const void> read_nrrd_samples(const NrrdHeader& header) {
         case NrrdEncoding::raw:
             read_raw(header, file.get(), bytes, count);
             break;
-        case NrrdEncoding::gzip:
-            read_gzip(header, file.get(), bytes, count);
+        case NrrdEncoding::gzip: {
+            GzipReader reader(file.get(), header.data_path.string());
+            read_packed(header, reader, bytes, count);
             break;
-        case NrrdEncoding::bzip2:
-            read_bzip2(header, file.get(), bytes, count);
+        }
+        case NrrdEncoding::bzip2: {
+            Bzip2Reader reader(file.get(), header.data_path.string());
+            read_packed(header, reader, bytes, count);
             break;
+        }
         case NrrdEncoding::ascii:
             read_text_samples(file.get(), header.data_path.string(), header.type,
                               header.grid.sample_count(), bytes);

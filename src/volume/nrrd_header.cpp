@@ -6,9 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <system_error>
 #include <vector>
 
@@ -26,6 +30,7 @@ constexpr std::size_t line_limit = 512;
 struct HeaderText {
     std::string text;                      // magic and fields, without `data file` and remarks
     std::optional<std::string> data_file;  // what `data file` says
+    std::set<std::string> fields;          // names of all, lower case
     std::int64_t length = 0;               // bytes up to and including the empty line
     bool ended = false;                    // by an empty line, not by the end of the file
 };
@@ -85,16 +90,48 @@ std::optional<Field> field_of(const std::string& line) {
     return Field{name, trimmed(line.substr(colon + 1))};
 }
 
+[[noreturn]] void fail_at(const std::string& path, int line, const Field& field,
+                          const std::string& expected) {
+    fail("{}: line {}: {}: found '{}', expected {}", path, line, field.name,
+         field.value.substr(0, 80), expected);
+}
+
 // teem reads "8.9" as 8, and -8 or 2^64 as a missing field.
-void check_sizes(const std::string& path, int line, const std::string& value) {
-    std::istringstream words(value);
+void check_sizes(const std::string& path, int line, const Field& field) {
+    std::istringstream words(field.value);
+    std::uint64_t samples = 1;
+    bool overflow = false;
     for (std::string word; words >> word;) {
         const bool digits = word.find_first_not_of("0123456789") == std::string::npos;
-        if (!digits || word.size() > 18 || std::stoll(word) == 0) {
-            fail("{}: line {}: sizes: found '{}', expected whole numbers from 1 to 10^18", path,
-                 line, value.substr(0, 80));
-        }
+        if (!digits || word.size() > 18 || std::stoull(word) == 0)
+            fail_at(path, line, field, "whole numbers from 1 to 10^18");
+        overflow |= __builtin_mul_overflow(samples, std::stoull(word), &samples);
     }
+    if (overflow || samples > (std::uint64_t{1} << 62))
+        fail_at(path, line, field, "at most 2^62 samples in all");
+}
+
+// Of the header's fields those that are one number each. teem takes them modulo 2^32, drops what
+// stands behind them, and calls what it does not understand missing.
+void check_number(const std::string& path, int line, const Field& field) {
+    struct Limits {
+        std::set<std::string> names;
+        std::int64_t least, most;
+        const char* expected;
+    };
+    constexpr std::int64_t most = std::int64_t{1} << 62;
+    static const std::array limits{
+        Limits{{"dimension"}, 1, NRRD_DIM_MAX, "3"},
+        Limits{{"line skip", "lineskip"}, 0, INT32_MAX, "a whole number from 0 to 2147483647"},
+        Limits{{"byte skip", "byteskip"}, -most, most, "a whole number from -2^62 to 2^62"}};
+    const auto limit = std::ranges::find_if(
+        limits, [&](const Limits& one) { return one.names.contains(field.name); });
+    if (limit == limits.end()) return;
+    std::int64_t number = 0;
+    const char* const end = field.value.data() + field.value.size();
+    const auto [stop, error] = std::from_chars(field.value.data(), end, number);
+    if (error != std::errc{} || stop != end || number < limit->least || number > limit->most)
+        fail_at(path, line, field, limit->expected);
 }
 
 // teem takes patterns (handed to sprintf unchecked), lists and "-" (standard input) here; volumes
@@ -127,7 +164,11 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
                                         [](unsigned char c) { return c < ' ' && c != '\t'; });
         if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
         const auto field = field_of(line);
-        if (field && field->name == "sizes") check_sizes(path, number, field->value);
+        if (field) {
+            header.fields.insert(field->name);
+            if (field->name == "sizes") check_sizes(path, number, *field);
+            check_number(path, number, *field);
+        }
         if (field && (field->name == "data file" || field->name == "datafile")) {
             check_data_file(path, field->value);
             if (header.data_file) fail("{}: line {}: second 'data file' field", path, number);
@@ -195,12 +236,10 @@ NrrdEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding
     fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
 }
 
-void check_required_fields(const std::string& path, const NrrdIoState& state) {
-    for (const int field :
-         {nrrdField_type, nrrdField_dimension, nrrdField_sizes, nrrdField_encoding}) {
-        if (state.seen[field] == 0) {
-            fail("{}: the NRRD header has no '{}' field", path, airEnumStr(nrrdField, field));
-        }
+void check_required_fields(const std::string& path, const HeaderText& header) {
+    for (const char* const field : {"type", "dimension", "sizes", "encoding"}) {
+        if (!header.fields.contains(field))
+            fail("{}: the NRRD header has no '{}' field", path, field);
     }
 }
 
@@ -219,9 +258,9 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path) {
     nrrdIoStateSet(state.get(), nrrdIoStateSkipData, 1);
     const bool bad = nrrdStringRead(nrrd.get(), text.text.c_str(), state.get()) != 0;
     const std::string reason = bad ? teem_message() : "";
-    if (bad && !reason.starts_with("trouble parsing")) check_required_fields(name, *state);
+    if (bad && reason.starts_with("trouble parsing")) fail("{}: bad NRRD header: {}", name, reason);
+    check_required_fields(name, text);
     if (bad) fail("{}: bad NRRD header: {}", name, reason);
-    check_required_fields(name, *state);
 
     NrrdHeader header;
     header.path = path;

@@ -4,11 +4,13 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/warning.h"
 
 namespace lamina {
 namespace {
@@ -52,13 +54,24 @@ class WordReader {
     std::string word_;
 };
 
+// std::from_chars calls numbers out of range that are nearer to 0 than any float, too.
+bool parse_small(const char* first, const char* end, float& sample) {
+    long double wide = 0;  // has exponents to spare
+    const bool fits = std::from_chars(first, end, wide).ec == std::errc{};
+    if (!fits && std::string_view(first, end).find('-', 1) == std::string_view::npos) return false;
+    if (std::abs(wide) > 1) return false;
+    sample = static_cast<float>(wide);
+    return true;
+}
+
 template <typename T>
 bool parse(const std::string& word, T& sample) {
     const char* const first = word.data() + (word[0] == '+' ? 1 : 0);
     const char* const end = word.data() + word.size();
     if constexpr (std::is_floating_point_v<T>) {
         const auto [stop, error] = std::from_chars(first, end, sample);
-        return error == std::errc{} && stop == end;
+        if (stop != end || error == std::errc::invalid_argument) return false;
+        return error == std::errc{} || parse_small(first, end, sample);
     } else {
         double number = 0;
         const auto [stop, error] = std::from_chars(first, end, number);
@@ -78,9 +91,18 @@ void read_numbers(std::FILE* stream, const std::string& file, SampleType type, s
         const std::string& word = reader.next();
         if (word.empty()) fail("{}: found {} samples, expected {}", file, i, count);
         if (!parse(word, samples[i])) {
-            fail("{}: sample {} of {}: found '{}', expected a number of type {}", file, i + 1,
-                 count, one_line(word), name_of(type));
+            fail("{}: sample {} of {}: found '{}', expected a {} of type {}, from {} to {}", file,
+                 i + 1, count, word, std::is_floating_point_v<T> ? "number" : "whole number",
+                 name_of(type), std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max());
         }
+    }
+    std::int64_t surplus = 0;
+    while (!reader.next().empty()) ++surplus;
+    if (surplus > 0) {
+        warn(
+            fmt::format("{}: found {} numbers or other words more than the {} of the header: they "
+                        "are not used",
+                        file, surplus, count));
     }
 }
 

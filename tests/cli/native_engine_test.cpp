@@ -114,6 +114,22 @@ TEST_F(NativeEngine, DrawsTheSameInOneThread) {
     EXPECT_TRUE(has(result.err, ", 1 thread,")) << result.err;
 }
 
+// Attributes and all: also what the plan chooses, and says.
+TEST_F(NativeEngine, WritesTheSameBytesInOneThread) {
+    if (run_program({"taskset", "-c", "0", "true"}).exit_code != 0) GTEST_SKIP() << "no taskset";
+    const auto bytes_of = [&](const char* method, const std::vector<std::string>& before) {
+        const ProgramResult result =
+            render("cpu",
+                   {"--method", method, "-o", folder / "a.exr", "--set",
+                    "render.slice.samples=auto", "--set", "render.target=auto"},
+                   before);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read_bytes_of(folder / "a.exr");
+    };
+    for (const char* method : {"slice", "project", "trace"})
+        EXPECT_EQ(bytes_of(method, {"taskset", "-c", "0"}), bytes_of(method, {})) << method;
+}
+
 TEST_F(NativeEngine, RefusesInstructionsThatTheMachineHasNot) {
     const ProgramResult result =
         render("cpu", {"-o", folder / "a.exr"}, {"env", "LAMINA_INSTRUCTIONS=abacus"});

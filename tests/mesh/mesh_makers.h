@@ -85,6 +85,7 @@ inline std::string zlib(const std::string& bytes) {
 struct VtuStyle {
     std::string format = "ascii";  // ascii, binary, raw, base64
     bool compressed = false, header64 = false, big_endian = false;
+    std::string junk = "";  // behind each compressed block
 
     std::string name() const {
         return format + (compressed ? "_zlib" : "") + (header64 ? "_64" : "_32") +
@@ -169,7 +170,7 @@ class VtuMaker {
                                   static_cast<double>(bytes.size() % block)};
         std::string packed;
         for (std::size_t at = 0; at < bytes.size(); at += block) {
-            const std::string one = zlib(bytes.substr(at, block));
+            const std::string one = zlib(bytes.substr(at, block)) + style_.junk;
             words.push_back(static_cast<double>(one.size()));
             packed += one;
         }

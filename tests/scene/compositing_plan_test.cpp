@@ -147,10 +147,19 @@ TEST(CompositingPlan, AutomaticTreesKeepToMaxError) {
     EXPECT_EQ(slice.tree->factors, (std::vector<int>{40}));
     EXPECT_LE(slice.error_bound.value(), 1);
     document["render"]["max_error"] = 0.1;  // one rounding to 8 bits is up to 0.5
-    expect_error([&] { planned(document); },
-                 {"scene.json: render.max_error: found 0.1", "fixed8", "0.5", "max_error"});
+    expect_error([&] { planned(document); }, {"scene.json: render.max_error: 0.1 cannot be kept",
+                                              "fixed8", "0.5", "max_error"});
     document["render"]["target"] = "fixed16";
     EXPECT_LE(slice_of(document).error_bound.value(), 0.1);
+}
+
+// On a driver that ends long loops: no factors are named where the scene has none.
+TEST(CompositingPlan, AutomaticTreesSayThatTheirNodeIsTooLong) {
+    nlohmann::json document = rendered("fixed16", {{"tree", "auto"}});
+    document["render"]["slice"]["samples"] = 65536;
+    document["render"]["max_error"] = 4;
+    expect_error([&] { planned(document); },
+                 {"scene.json: render.slice.tree: found \"auto\"", "65536 slabs", "at most"});
 }
 
 // What cannot be seen is not composited; what several textures hold is composited in parts.

@@ -44,25 +44,81 @@ double best_bound(const TreeQuestion& question) {
     return std::min(one_level_error_bound(question), straight_error_bound(question));
 }
 
+void expect_one_node(const TreeQuestion& question, const TreeChoice& choice) {
+    ASSERT_TRUE(choice.tree.has_value());
+    EXPECT_EQ(choice.tree->factors, (std::vector<int>{question.slabs}));
+    EXPECT_EQ(choice.error_bound, one_level_error_bound(question));
+    EXPECT_FALSE(choice.reason.empty());
+}
+
 TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
     for (const Target target :
          {Target::float32, Target::float16, Target::fixed16, Target::fixed8}) {
         for (const double max_error : {1., 2., 4., 8.}) {
             const TreeQuestion question = question_of(target, 1024, max_error);
-            const TreeChoice choice = choose_tree(question);
-            ASSERT_TRUE(choice.tree.has_value());
-            EXPECT_EQ(choice.tree->factors, (std::vector<int>{1024}));
-            EXPECT_LE(choice.error_bound, max_error);
-            EXPECT_EQ(choice.error_bound, one_level_error_bound(question));
-            EXPECT_FALSE(choice.reason.empty());
+            expect_one_node(question, choose_tree(question));
+            EXPECT_LE(choose_tree(question).error_bound, max_error);
         }
         // A thousandth of what one rounding to the target costs.
         const double too_little = one_level_error_bound(question_of(target, 1)) / 1000;
-        expect_error(
-            [&] { choose_tree(question_of(target, 1024, too_little)); },
-            {"render.max_error: found " + fmt::format("{:.4g}", too_little),
-             fmt::format("{:.4g}", best_bound(question_of(target, 1024))), name_of(target)});
+        const TreeQuestion question = question_of(target, 1024, too_little);
+        if (target == Target::float32) {  // the best there is
+            expect_one_node(question, choose_tree(question));
+            continue;
+        }
+        expect_error([&] { choose_tree(question); },
+                     {fmt::format("render.max_error: {:.4g} cannot be kept", too_little),
+                      fmt::format("{:.4g}", best_bound(question)), name_of(target)});
     }
+}
+
+// What slabs were found to miss is no reason to refuse a target that could keep max_error.
+TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
+    for (const double slab_error : {.9, 1., 7.}) {
+        for (const Target target : {Target::float32, Target::float16, Target::fixed8}) {
+            TreeQuestion question = question_of(target, 1024);
+            question.slab_error = slab_error;
+            expect_one_node(question, choose_tree(question));
+        }
+        TreeQuestion coarse = question_of(Target::fixed8, 1024, .4);
+        coarse.slab_error = slab_error;
+        expect_error([&] { choose_tree(coarse); }, {"render.max_error: 0.4 cannot be kept"});
+    }
+}
+
+// Each remedy that a message names keeps max_error, and one that does not is not named.
+TEST(TreeChoice, RemediesHelp) {
+    const auto message = [](const TreeQuestion& question) -> std::string {
+        try {
+            choose_tree(question);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    TreeQuestion bright = question_of(Target::fixed8, 100);
+    bright.largest_color = 3;
+    EXPECT_TRUE(message(bright).ends_with(
+        "and clamps colours (up to 3) to 1: take colours up to 1, or target float16 or float32"))
+        << message(bright);
+    bright.max_error = .3;  // half precision: 3 * 255 * 2^-11 = .37; eight bits: .5
+    EXPECT_TRUE(message(bright).ends_with(": take target float32")) << message(bright);
+    bright.target = Target::float16;
+    EXPECT_EQ(message(bright).find("clamp"), std::string::npos) << message(bright);
+    EXPECT_TRUE(message(bright).ends_with("take a larger max_error, or target float32"));
+    bright.target = Target::emulated;
+    bright.emulation.bits = 12;
+    // Of 16 bits 4 roundings of half a code a slab are .78 / 255 (100 * 2 / 65535 * 255), but
+    // colours stay clamped.
+    EXPECT_TRUE(message(bright).ends_with(": take target float32")) << message(bright);
+    bright.max_error = 1;
+    bright.emulation.bits = 16;
+    EXPECT_TRUE(message(bright).ends_with(": take colours up to 1, or target float16 or float32"))
+        << message(bright);
+    bright.largest_color = 1;
+    bright.emulation.bits = 12;
+    EXPECT_NE(message(bright).find(", or more bits, or fewer slabs, or target "), std::string::npos)
+        << message(bright);
 }
 
 TEST(TreeChoice, OneSlabNeedsNoTree) {
@@ -87,8 +143,8 @@ TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayNotDo) {
     EXPECT_LE(choose_tree(question).error_bound, 1);
     question.emulation.bits = 8;
     expect_error([&] { choose_tree(question); },
-                 {"render.max_error: found 1", "8 bits",
-                  fmt::format("{:.4g}", straight_error_bound(question)), "100 slabs"});
+                 {"render.max_error: 1 cannot be kept", "8 bits",
+                  fmt::format("{:.4g}", straight_error_bound(question)), "100 visible slabs"});
 }
 
 TEST(TreeChoice, ColoursAboveOneAreCutOffByFixedPoint) {

@@ -2,6 +2,7 @@
 // NRRD files written by hand, byte by byte, for the reader's tests.
 #pragma once
 
+#include <bzlib.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -55,6 +56,15 @@ inline std::string gzip(const std::string& bytes) {
     deflate(&stream, Z_FINISH);
     packed.resize(stream.total_out);
     deflateEnd(&stream);
+    return packed;
+}
+
+inline std::string bzip2(const std::string& bytes) {
+    std::string packed(bytes.size() + bytes.size() / 100 + 600, '\0');  // libbz2's manual, 3.5.1
+    auto size = static_cast<unsigned>(packed.size());
+    BZ2_bzBuffToBuffCompress(packed.data(), &size, const_cast<char*>(bytes.data()),
+                             static_cast<unsigned>(bytes.size()), 9, 0, 0);
+    packed.resize(size);
     return packed;
 }
 

@@ -14,6 +14,7 @@
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
+#include "optics/json_text.h"
 #include "study/error_json.h"
 #include "verbs.h"
 
@@ -68,7 +69,7 @@ int compare(const CompareOptions& options) {
             "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
             options.diff, error.all.linf, error.all.linf);
     }
-    write_result(options.json ? to_json(error).dump(2) + "\n" : table_text(error));
+    write_result(options.json ? json_text(to_json(error), 2) + "\n" : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
         print_message("lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
                       *options.max_linf);

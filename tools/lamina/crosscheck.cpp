@@ -10,11 +10,13 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder.h"
+#include "base/printable.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "image/exr.h"
+#include "optics/json_text.h"
 #include "scene_options.h"
 #include "study/context_choice.h"
 #include "study/crosscheck.h"
@@ -61,10 +63,10 @@ void write_all(const std::filesystem::path& folder, const Crosscheck& made,
     write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
     write_picture(folder / "sliced.exr", made.pictures.sliced);
     write_picture(folder / "projected.exr", made.pictures.projected);
-    write_text(folder / "budget.json", budget_json(made, budget, subject).dump(1) + "\n");
+    write_text(folder / "budget.json", json_text(budget_json(made, budget, subject), 1) + "\n");
     write_text(folder / "report.html", report_page(crosscheck_report(made, budget, subject)));
     for (const std::string& finding : crosscheck_findings(made, budget, subject))
-        print_result("{}\n", finding);
+        print_result("{}\n", printable(finding));
 }
 
 void run(const CrosscheckOptions& options) {
@@ -78,7 +80,7 @@ void run(const CrosscheckOptions& options) {
     const DrawContext context(choice);
     CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
                               scene.max_error, describe_machine()};
-    subject.environment["drivers"] = context.capabilities().renderer;
+    subject.environment["drivers"] = renderer_and_threads(context.capabilities());
     subject.environment["version"] = LAMINA_VERSION;
     subject.environment["commit"] = git_commit;
     subject.environment["command"] = command_line();

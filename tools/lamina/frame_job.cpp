@@ -17,7 +17,8 @@ Plan FrameJob::plan(RenderStats& stats) {
     Stage opening("context");
     context_.emplace(request_.context);
     stats.stages_ms["context"] = opening.end();
-    stats.context = context_->capabilities().renderer;
+    stats.renderer = context_->capabilities().renderer;
+    stats.context = renderer_and_threads(context_->capabilities());
     stats.on_tiles = context_->capabilities().tiles;
     Stage planning("plan");
     Plan plan = method_->plan(context_->capabilities());

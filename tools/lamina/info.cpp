@@ -9,9 +9,11 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/standard_streams.h"
 #include "file_report.h"
 #include "mesh/mesh_file.h"
+#include "optics/json_text.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -24,16 +26,12 @@ struct InfoOptions {
     bool json = false;
 };
 
-// Names in mesh files may be of any encoding.
-std::string json_text(const Json& value, int indent) {
-    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string table_text(const Json& info) {
     std::string text;
     for (const auto& [key, value] : info.items()) {
-        text += fmt::format("{:<17} {}\n", key,
-                            value.is_string() ? value.get<std::string>() : json_text(value, -1));
+        text +=
+            fmt::format("{:<17} {}\n", key,
+                        printable(value.is_string() ? value.get<std::string>() : json_text(value)));
     }
     return text;
 }

@@ -4,19 +4,29 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "base/standard_streams.h"
+#include "base/warning.h"
 #include "command_line.h"
 #include "verbs.h"
 
 namespace {
 
 int report(const std::string& message, int exit_code) {
-    lamina::print_message("lamina: {}\n", lamina::one_line(message));
+    lamina::print_message("lamina: {}\n", message);
     return exit_code;
+}
+
+// Each once: a file may be read for many pictures.
+void print_warning(const std::string& text) {
+    static std::set<std::string> printed;
+    if (lamina::Progress::is_quiet() || !printed.insert(text).second) return;
+    lamina::print_message("lamina: warning: {}\n", text);
 }
 
 constexpr const char* version = "lamina " LAMINA_VERSION;
@@ -49,7 +59,7 @@ int run(int argc, char** argv) {
         exit_code = app.exit(success, text, text);
         lamina::write_result(text.str());
     } catch (const CLI::ParseError& error) {
-        return report(std::string(error.what()) + " (lamina --help shows the usage)", 2);
+        return report(lamina::one_line(error.what()) + " (lamina --help shows the usage)", 2);
     }
     lamina::flush_results();
     return exit_code;
@@ -60,6 +70,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     lamina::make_streams_safe();
     lamina::catch_interrupts();
+    lamina::take_warnings(print_warning);
     lamina::set_command_line(argc, argv);
     try {
         return run(argc, argv);

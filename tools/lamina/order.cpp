@@ -23,6 +23,7 @@
 #include "mesh/mesh_shape.h"
 #include "mesh/order_check.h"
 #include "mesh/visibility_order.h"
+#include "optics/json_text.h"
 #include "reference/order_pixels.h"
 #include "scene/json_reader.h"
 #include "scene/scene_mesh.h"
@@ -191,7 +192,7 @@ void print_json(const Input& input, const std::vector<Outcome>& outcomes, int ey
                     {"convex", convex(input.mesh)},
                     {"eyes", eyes},
                     {"orders", orders}};
-    print_result("{}\n", root.dump(2));
+    print_result("{}\n", json_text(root, 2));
 }
 
 void print_table(const Input& input, const std::vector<Outcome>& outcomes, int eyes) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "optics/json_text.h"
+
 namespace lamina {
 namespace {
 
@@ -21,11 +23,6 @@ std::string name_of_row(int row) {
     if (row == Profile::opengl_row) return "OpenGL";
     if (row == Profile::first_row) return "main thread";
     return fmt::format("worker {}", row - Profile::first_row);
-}
-
-// Paths need not be UTF-8.
-std::string text_of(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 double microseconds(std::int64_t nanoseconds) {
@@ -55,11 +52,11 @@ Json event(const Profile::Span& span, std::int64_t start_ns) {
 std::int64_t ProfileFile::write(const std::string& title, const std::string& context) {
     Json other{{"context", context}};
     if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
-    file_.write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + text_of(other) +
+    file_.write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
                 ",\"traceEvents\":[\n");
     // One after the other: a document of them all would take twenty times what the spans take.
-    file_.write(text_of(metadata("process_name", Profile::first_row, "name", title)));
-    const auto write_event = [&](const Json& event) { file_.write(",\n" + text_of(event)); };
+    file_.write(json_text(metadata("process_name", Profile::first_row, "name", title)));
+    const auto write_event = [&](const Json& event) { file_.write(",\n" + json_text(event)); };
     const auto has_spans = [&](int row) {
         return std::ranges::any_of(profile_.spans(),
                                    [&](const Profile::Span& span) { return span.row == row; });

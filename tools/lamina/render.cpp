@@ -12,6 +12,7 @@
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
+#include "optics/json_text.h"
 #include "profile_file.h"
 #include "render_job.h"
 #include "scene_files.h"
@@ -125,13 +126,13 @@ void run(const RenderOptions& options) {
     Stage writing("write");
     const std::size_t clamped = job->write(*picture, {{"scene", scene_text},
                                                       {"plan", explanation},
-                                                      {"renderer", stats.context},
+                                                      {"renderer", stats.renderer},
                                                       {"software", "lamina " LAMINA_VERSION}});
     stats.stages_ms["write"] = writing.end();
     stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
     if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {
-        stats_file->write(to_json(stats, plan).dump(2) + "\n");
+        stats_file->write(json_text(to_json(stats, plan), 2) + "\n");
         stats_file->commit();
     }
     if (profile) write_profile(*profile, options, stats);

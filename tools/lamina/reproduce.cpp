@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "gl/context.h"
+#include "optics/json_text.h"
 #include "study/context_choice.h"
 #include "study/kraus.h"
 #include "study/kraus_stage.h"
@@ -89,7 +90,7 @@ void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions&
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
         report[item.name] = result;
     }
-    file.write(report.dump(1) + "\n");
+    file.write(json_text(report, 1) + "\n");
     file.commit();
 }
 

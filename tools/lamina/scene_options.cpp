@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "optics/json_text.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
 
@@ -27,8 +28,7 @@ Scene load_scene(const SceneOptions& options, std::string& document_text) {
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }
     if (!options.method.empty()) apply("render.method", options.method);
-    // Words of the command line may be of any encoding.
-    document_text = document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    document_text = json_text(document, 2);
     try {
         return read_scene(document, options.file);
     } catch (const KeyError& error) {

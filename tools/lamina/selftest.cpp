@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "git_commit.h"
+#include "optics/json_text.h"
 #include "selftest/selftest.h"
 #include "study/context_choice.h"
 #include "study/draw_context.h"
@@ -52,11 +53,11 @@ int run(const SelftestOptions& options) {
 
     nlohmann::ordered_json document{{"version", LAMINA_VERSION},
                                     {"commit", git_commit},
-                                    {"context", context.capabilities().renderer},
+                                    {"context", renderer_and_threads(context.capabilities())},
                                     {"mistake", mistake},
                                     {"machine", describe_machine()}};
     document.update(selftest_json(results));
-    report.write(document.dump(1) + "\n");
+    report.write(json_text(document, 1) + "\n");
     report.commit();
     const std::string table = selftest_table(results);
     table_file.write(table);
@@ -64,7 +65,7 @@ int run(const SelftestOptions& options) {
 
     if (!options.quiet) write_result(table + "\n");
     print_result("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
-                 context.capabilities().renderer, count_of(results, Verdict::passed),
+                 renderer_and_threads(context.capabilities()), count_of(results, Verdict::passed),
                  results.size());
     return count_of(results, Verdict::passed) == results.size() ? 0 : bound_exceeded;
 }

@@ -43,27 +43,27 @@ class SliceMethod : public FrameMethod {
   private:
     void say_what_is_not_kept(const SlicePlan& plan) const {
         const double wanted = request_.scene.max_error;
-        if (!plan.slab_trial) {
-            if (plan.table.error > wanted) {
-                request_.message(fmt::format(
-                    "render.max_error: found {:.4g}, not kept: the pre-integration table is off by "
-                    "{:.2g} (render.slice.classification \"post\" does without)",
-                    wanted, plan.table.error));
-            }
-            return;
-        }
-        const SlabTrial& trial = *plan.slab_trial;
-        const double error = trial.error + plan.error_bound.value_or(0);
+        const double error = plan.found_error() + plan.error_bound.value_or(0);
+        const auto& trial = plan.slab_trial;
         if (error > wanted) {
+            const std::string why =
+                trial ? fmt::format(
+                            "of the numbers of slabs that were tried, {} are taken, with an error "
+                            "of {:.2g} (render.slice.samples sets another)",
+                            plan.slabs, error)
+                : plan.table.error > wanted
+                    ? fmt::format(
+                          "the pre-integration table is off by {:.2g} "
+                          "(render.slice.classification \"post\" does without)",
+                          plan.table.error)
+                    : fmt::format("{} slabs composited in {} are off by up to {:.2g}", plan.slabs,
+                                  name_of(plan.target), error);
+            request_.message(fmt::format("render.max_error: {:.4g} is not kept: {}", wanted, why));
+        } else if (trial && trial->doubtful) {
             request_.message(fmt::format(
-                "render.max_error: found {:.4g}, not kept: of the numbers of slabs that were "
-                "tried, {} are taken, with an error of {:.2g} (render.slice.samples sets another)",
-                wanted, trial.slabs, error));
-        } else if (trial.doubtful) {
-            request_.message(fmt::format(
-                "render.max_error: found {:.4g}, not sure to be kept: {} slabs are off by {:.2g} "
-                "on {} traced rays of {}, and others may be off by more",
-                wanted, trial.slabs, error, trial.traced, trial.rays));
+                "render.max_error: {:.4g} is not sure to be kept: {} slabs are off by {:.2g} on "
+                "{} traced rays of {}, and others may be off by more",
+                wanted, plan.slabs, error, trial->traced, trial->rays));
         }
     }
 

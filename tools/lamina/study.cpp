@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/printable.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "command_line.h"
@@ -77,7 +78,7 @@ void say_what_is_left_out(const RunList& list, const StudyOptions& options) {
 
 void write_results(const StudyFolder& folder, const StudyOptions& options) {
     const StudySummary summary = write_study_output(folder);
-    for (const std::string& finding : summary.findings) print_result("{}\n", finding);
+    for (const std::string& finding : summary.findings) print_result("{}\n", printable(finding));
     for (const std::string& failure : summary.failures) say(options, failure);
     say(options,
         fmt::format("wrote results.csv, results.json and report.html into {} ({} of {} "

@@ -16,7 +16,7 @@ namespace {
 void record(double milliseconds, double error_estimate, RenderStats& stats) {
     stats.frames_ms = {milliseconds};
     stats.stages_ms["trace"] = milliseconds;
-    stats.context = "reference tracer";
+    stats.renderer = stats.context = "reference tracer";
     stats.error_estimate = error_estimate;
 }
 

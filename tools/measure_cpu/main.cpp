@@ -151,7 +151,7 @@ class Machine {
 
 void run(const std::string& json_file) {
     const int threads = tbb::this_task_arena::max_concurrency();
-    const std::string renderer = tile_capabilities().renderer;
+    const std::string renderer = renderer_and_threads(tile_capabilities());
     const std::vector<Measurement> measurements = Machine(threads).measure();
     nlohmann::ordered_json json{{"engine", renderer}, {"threads", threads}};
     fmt::print("{}\n{:44} {:>10} {:>10}\n", renderer, "", "one core",

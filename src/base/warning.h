@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lamina {
+
+// Something in a user's data that is no error and that no result shows: the text names the file,
+// what was found and what was expected. Goes to who takes warnings; nobody does at first. Safe from
+// any thread.
+void warn(const std::string& text);
+
+// Whoever started the work and can tell people. Replaces the one before; an empty one: nobody.
+using WarningTaker = std::function<void(const std::string&)>;
+void take_warnings(WarningTaker taker);
+
+}  // namespace lamina

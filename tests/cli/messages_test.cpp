@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program says: to people, on a terminal, about files whose names and contents may be
+// anything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/blobs_scene.h"
+#include "cli/lamina_run.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+// Red letters, two lines, and a byte that is not UTF-8; as it stands in messages.
+const std::string hostile = "a\x1b[31m\nb\xff";
+const std::string escaped = "a\\x1b[31m\\nb\\xff";
+
+class Messages : public testing::Test {
+  protected:
+    // One line of printable ASCII, with these parts.
+    void expect_line(const std::string& err, std::initializer_list<std::string> parts) {
+        EXPECT_EQ(std::ranges::count(err, '\n'), 1) << err;
+        EXPECT_TRUE(std::ranges::all_of(err, [](char c) {
+            return c == '\n' || (c >= ' ' && c <= '~');
+        })) << err;
+        for (const std::string& part : parts)
+            EXPECT_NE(err.find(part), std::string::npos) << part << " is not in " << err;
+    }
+
+    // A scene of a volume of 4^3 samples of uint8 0 with `surplus` behind them.
+    std::string scene_with(const std::string& surplus) {
+        write_bytes_to(folder / "v.nrrd",
+                       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nspacings: 1 1 1\n"
+                       "encoding: raw\n\n" +
+                           std::string(64, '\1') + surplus);
+        json scene = gaussians_scene(4, 8, 6, 4);
+        scene["volume"] = "v.nrrd";
+        write_bytes_to(folder / "scene.json", scene.dump());
+        return folder / "scene.json";
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Messages, NamesAreEscaped) {
+    for (const std::string verb : {"render", "study", "mesh", "order", "crosscheck"}) {
+        const ProgramResult result =
+            lamina_run({verb, folder / (hostile + ".json"), "-o", folder / (verb + ".out")});
+        EXPECT_NE(result.exit_code, 0);
+        expect_line(result.err, {verb == "order" ? "" : escaped});
+    }
+    const ProgramResult missing = lamina_run({"info", folder / (hostile + ".nrrd")});
+    EXPECT_EQ(missing.exit_code, 1);
+    expect_line(missing.err, {escaped + ".nrrd: no such file"});
+    expect_line(lamina_run({"info", "--" + hostile}).err, {"lamina: "});
+    expect_line(lamina_run({hostile}).err, {escaped + ": unknown verb"});
+}
+
+TEST_F(Messages, NamesOfWhatIsWrittenAreEscaped) {
+    const std::filesystem::path home = folder / hostile;
+    std::filesystem::create_directory(home);
+    write_bytes_to(home / "scene.json", blobs_scene(8, 6, 4).dump());
+    const ProgramResult result =
+        lamina_run({"render", home / "scene.json", "-o", home / "a.exr", "--stats", home / "s.json",
+                    "--profile", home / "p.json", "--explain"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    expect_line(result.err, {"wrote ", escaped + "/a.exr"});
+    for (const char* const file : {"s.json", "p.json"})
+        EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / file))) << file;
+}
+
+TEST_F(Messages, StudiesAndCrosschecksOfAnyName) {
+    const std::filesystem::path home = folder / hostile;
+    std::filesystem::create_directory(home);
+    write_bytes_to(home / "scene.json", blobs_scene(8, 6, 4).dump());
+    write_bytes_to(home / "study.json",
+                   R"({"version": 1, "scenes": ["scene.json"], "rounds": 1,
+                       "sweep": [{"render.slice.samples": [2, 4]}]})");
+    const ProgramResult study =
+        lamina_run({"study", home / "study.json", "-o", home / "out", "--yes", "--quiet"});
+    EXPECT_EQ(study.exit_code, 0) << study.err;
+    EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / "out" / "results.json")));
+    const ProgramResult check = lamina_run(
+        {"crosscheck", home / "scene.json", "-o", home / "check", "--quiet", "--context", "cpu"});
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / "check" / "budget.json")));
+}
+
+// A mesh's arrays have names, too.
+TEST_F(Messages, NamesInFilesAreEscaped) {
+    write_bytes_to(
+        folder / "a.vtk",
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+        "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n"
+        "10\nPOINT_DATA 4\nSCALARS a\x1b[31m\xff float\nLOOKUP_TABLE default\n1 2 3 4\n");
+    const ProgramResult table = lamina_run({"info", folder / "a.vtk"});
+    EXPECT_EQ(table.exit_code, 0) << table.err;
+    EXPECT_EQ(table.out.find('\x1b'), std::string::npos) << table.out;
+    EXPECT_EQ(table.out.find('\xff'), std::string::npos) << table.out;
+    const ProgramResult report = lamina_run({"info", folder / "a.vtk", "--json"});
+    EXPECT_NO_THROW((void)json::parse(report.out)) << report.out;
+    const ProgramResult order = lamina_run({"order", folder / "a.vtk", "--json"});
+    EXPECT_NO_THROW((void)json::parse(order.out)) << order.out << order.err;
+}
+
+TEST_F(Messages, DataThatAreNotUsedAreSaidOnce) {
+    const std::string scene = scene_with("xyz");
+    const std::vector<std::string> render = {"render",         scene,       "-o",
+                                             folder / "a.exr", "--context", "cpu"};
+    const ProgramResult result = lamina_run(render);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string warning =
+        "v.nrrd: found 3 bytes more than the 4 x 4 x 4 uint8 samples of the header: they are not "
+        "used\n";
+    const std::size_t at = result.err.find(warning);
+    ASSERT_NE(at, std::string::npos) << result.err;
+    EXPECT_TRUE(result.err.starts_with("lamina: warning: ")) << result.err;
+    EXPECT_EQ(result.err.find(warning, at + 1), std::string::npos) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+
+    std::vector<std::string> quiet = render;
+    quiet.emplace_back("--quiet");
+    EXPECT_EQ(lamina_run(quiet).err, "");
+    EXPECT_NE(lamina_run({"info", folder / "v.nrrd"}).err.find(warning), std::string::npos);
+    scene_with("");
+    EXPECT_EQ(lamina_run(render).err.find("warning"), std::string::npos);
+}
+
+// As without a tree: a warning, not an error, and of numbers that somebody wrote.
+TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
+    json scene = gaussians_scene(12, 40, 30, 4);
+    scene["render"] = {{"max_error", 1e-5}, {"slice", {{"tree", "auto"}}}};
+    write_bytes_to(folder / "scene.json", scene.dump());
+    for (const char* const samples : {"auto", "1000"}) {
+        const ProgramResult result =
+            lamina_run({"render", folder / "scene.json", "-o", folder / "a.exr", "--context", "cpu",
+                        "--set", std::string("render.slice.samples=") + samples});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.err.find("lamina: render.max_error: 1e-05 is not kept: "),
+                  std::string::npos)
+            << result.err;
+    }
+}
+
+// Where a mesh is made there is no file of it.
+TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
+    json scene = gaussians_scene(4, 8, 6, 4);
+    scene["volume"] = "v.nrrd";
+    scene["mesh"] = {{"kuhn", true}};
+    write_bytes_to(folder / "scene.json", scene.dump());
+    const auto expect_of = [&](const std::string& volume, const std::string& message) {
+        write_bytes_to(folder / "v.nrrd", "NRRD0004\ndimension: 3\nsizes: 2 2 2\n" + volume);
+        const ProgramResult result = lamina_run(
+            {"render", folder / "scene.json", "-o", folder / "a.exr", "--method", "project"});
+        EXPECT_EQ(result.exit_code, 1);
+        expect_line(result.err, {"scene.json: mesh: " + message});
+    };
+    expect_of("type: uint8\nspacings: 1e30 1e30 1e30\nencoding: raw\n\n01234567",
+              "the diagonal of the mesh is ");
+    expect_of("type: float\nencoding: ascii\n\n1 2 3 4 5 6 7 nan\n",
+              "1 of 8 samples are NaN or infinite");
+}
+
+}  // namespace
+}  // namespace lamina

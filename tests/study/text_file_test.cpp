@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/text_file.h"
+
+#include <gtest/gtest.h>
+
+namespace lamina {
+namespace {
+
+std::string row_of(const std::string& cell) {
+    CsvTable table({"name"});
+    table.add_row({cell});
+    return table.text().substr(5);
+}
+
+TEST(CsvTable, QuotesWhatEndsACell) {
+    EXPECT_EQ(row_of("plain text"), "plain text\n");
+    EXPECT_EQ(row_of("a,b"), "\"a,b\"\n");
+    EXPECT_EQ(row_of("say \"a\""), "\"say \"\"a\"\"\"\n");
+    EXPECT_EQ(row_of("two\nlines"), "\"two\nlines\"\n");
+}
+
+TEST(CsvTable, NothingIsAFormula) {
+    EXPECT_EQ(row_of("=1+1"), "'=1+1\n");
+    EXPECT_EQ(row_of("=HYPERLINK(\"x\",\"y\")"), "\"'=HYPERLINK(\"\"x\"\",\"\"y\"\")\"\n");
+    EXPECT_EQ(row_of("+A1"), "'+A1\n");
+    EXPECT_EQ(row_of("-A1"), "'-A1\n");
+    EXPECT_EQ(row_of("-1+A1"), "'-1+A1\n");
+    EXPECT_EQ(row_of("@SUM(A1)"), "'@SUM(A1)\n");
+    EXPECT_EQ(row_of("\t=1"), "'\t=1\n");
+    EXPECT_EQ(row_of("\r=1"), "\"'\r=1\"\n");
+}
+
+TEST(CsvTable, NumbersStayNumbers) {
+    for (const char* const number : {"-1", "-.5", "-1e-300", "-1e-400", "-inf", "12", "-0"})
+        EXPECT_EQ(row_of(number), std::string(number) + "\n");
+    EXPECT_EQ(row_of(""), "\n");
+    EXPECT_EQ(row_of("a=b"), "a=b\n");
+}
+
+}  // namespace
+}  // namespace lamina
