@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/shortened.h"
+
 namespace lamina {
 namespace {
 
@@ -64,7 +66,7 @@ SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::js
         study.fail_at(at,
                       fmt::format("found {}, expected an object with a key of the scene and its "
                                   "values, as {{\"render.slice.samples\": [256, 512]}}",
-                                  object.dump()));
+                                  shortened(object.dump())));
     if (object.size() > most_keys)
         study.fail_at(at,
                       fmt::format("found {} keys, expected at most {}", object.size(), most_keys));

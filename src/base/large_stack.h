@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+namespace lamina {
+
+// What `work` returns, done with a stack of at least 8 MiB: here, or, where the limit of the main
+// thread's (ulimit -s) is lower, in a thread of its own. Threads that libraries start later get as
+// much. `work` must not throw. Throws Error where there is no memory for the stack.
+int with_large_stack(const std::function<int()>& work);
+
+}  // namespace lamina
