@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/large_stack.h"
 #include "base/standard_streams.h"
 #include "command_line.h"
 #include "verbs.h"
@@ -55,12 +56,8 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    lamina::make_streams_safe();
-    lamina::catch_interrupts();
-    lamina::set_command_line(argc, argv);
+// Does not throw.
+int run_and_report(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const lamina::UsageError& error) {
@@ -71,6 +68,19 @@ int main(int argc, char** argv) {
         std::fputs("lamina: out of memory\n", stderr);  // takes none
         return 1;
     } catch (const std::exception& error) {
+        return report(error.what(), 1);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    lamina::make_streams_safe();
+    lamina::catch_interrupts();
+    lamina::set_command_line(argc, argv);
+    try {
+        return lamina::with_large_stack([=] { return run_and_report(argc, argv); });
+    } catch (const lamina::Error& error) {
         return report(error.what(), 1);
     }
 }
