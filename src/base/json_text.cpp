@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Iterates over a text and tells how far it has come: parsers copy their iterators.
+// Iterates over a text, tells how far it has come (parsers copy their iterators), and hears
+// signals.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -30,11 +31,13 @@ class Cursor {
     reference operator*() const { return *at_; }
     Cursor& operator++() {
         *farthest_ = ++at_;
+        if (reinterpret_cast<std::uintptr_t>(at_) % bytes_between_checks == 0) check_interrupt();
         return *this;
     }
     bool operator==(const Cursor& other) const { return at_ == other.at_; }
 
   private:
+    static constexpr std::uintptr_t bytes_between_checks = 1u << 16;
     const char* at_;
     const char** farthest_;
 };
@@ -73,31 +76,30 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     bool parse_error(std::size_t, const std::string&, const Json::exception& problem) override {
-        const std::string message = problem.what();  // "[json.exception.parse_error.101] parse ..."
-        throw JsonSyntaxError(one_line(shortened(
-            message.substr(std::min(message.size(), message.find("] ") + 2)), most_of_message)));
+        std::string message = problem.what();  // "[json.exception.parse_error.101] parse error ..."
+        message = message.substr(std::min(message.size(), message.find("] ") + 2));
+        if (!message.starts_with("parse error at line")) message = place() + ": " + message;
+        throw JsonSyntaxError(one_line(shortened(message, most_of_message)));
     }
 
   private:
     static constexpr std::size_t most_of_message = 200;  // it holds the word that was read last
-    static constexpr std::size_t values_between_checks = 4096;
 
-    // Where the next value belongs.
-    Json& place(Json&& value) {
+    Json& put(Json&& value) {
         if (open_.empty()) return root_ = std::move(value);
         if (open_.back()->is_object()) return *member_ = std::move(value);
         return open_.back()->get_ref<Json::array_t&>().emplace_back(std::move(value));
     }
     bool add(Json value) {
         count();
-        place(std::move(value));
+        put(std::move(value));
         return true;
     }
     bool open(Json value) {
         count();
         if (open_.size() == most_json_depth)
             stop(fmt::format("nested more than {} deep", most_json_depth));
-        open_.push_back(&place(std::move(value)));
+        open_.push_back(&put(std::move(value)));
         return true;
     }
     bool close() {
@@ -105,17 +107,18 @@ class Builder : public nlohmann::json_sax<Json> {
         return true;
     }
     void count() {
-        if (values_ % values_between_checks == 0) check_interrupt();
         if (++values_ > most_json_values)
             stop(fmt::format("more than {} values, expected fewer", most_json_values));
     }
 
-    [[noreturn]] void stop(const std::string& problem) const {
+    [[noreturn]] void stop(const std::string& problem) const { fail("{}: {}", place(), problem); }
+    // Of the byte that was read last.
+    std::string place() const {
         const auto done = static_cast<std::size_t>(farthest_ - text_.data());
         const std::string_view read = text_.substr(0, done);
         const std::size_t line_start = read.rfind('\n') + 1;  // 0 in the first line
-        fail("line {}, column {}: {}", std::count(read.begin(), read.end(), '\n') + 1,
-             done - line_start, problem);
+        return fmt::format("line {}, column {}", std::count(read.begin(), read.end(), '\n') + 1,
+                           done - line_start);
     }
 
     std::string_view text_;
@@ -144,6 +147,7 @@ std::string bytes_of(const std::filesystem::path& file) {
 }  // namespace
 
 nlohmann::json parse_json(std::string_view text) {
+    check_interrupt();
     return Builder(text).build();
 }
 

@@ -5,9 +5,7 @@
 #include <sys/resource.h>
 
 #include <cstddef>
-#include <cstring>
-
-#include "base/error.h"
+#include <system_error>
 
 namespace lamina {
 namespace {
@@ -39,8 +37,8 @@ int with_large_stack(const std::function<int()>& work) {
     const int failure = pthread_create(&thread, &attributes, do_job, &job);
     pthread_attr_destroy(&attributes);
     if (failure != 0) {
-        fail("no stack of {} MiB, more than ulimit -s gives: {}", stack_bytes >> 20,
-             std::strerror(failure));
+        throw std::system_error(failure, std::generic_category(),
+                                "no stack of 8 MiB, more than ulimit -s gives");
     }
     pthread_join(thread, nullptr);
     return job.result;

@@ -178,6 +178,7 @@ TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
 // As when lamina is killed: this reads a question without end, and is past its first steps once it
 // has read more than a pipe holds.
 TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
+    std::signal(SIGPIPE, SIG_IGN);
     int question[2], answer[2];
     ASSERT_EQ(pipe2(question, O_CLOEXEC), 0);
     ASSERT_EQ(pipe2(answer, O_CLOEXEC), 0);
@@ -185,8 +186,9 @@ TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     if (asking == 0) {
         dup2(question[0], STDIN_FILENO);
         dup2(answer[1], STDOUT_FILENO);
-        const std::string command = "\"" LAMINA_TETRAHEDRALIZE_BINARY
-                                    "\" --parent $$ <&0 & exec 0</dev/null >/dev/null; wait";
+        // A shell gives its background an empty stdin, but not this one.
+        const std::string command = "exec 3<&0; \"" LAMINA_TETRAHEDRALIZE_BINARY
+                                    "\" --parent $$ <&3 & exec 3<&- </dev/null >/dev/null; wait";
         execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
         _exit(127);
     }
@@ -207,6 +209,13 @@ TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
     EXPECT_EQ(poll(&ended, 1, patience), 1);
     close(question[1]);
     close(answer[0]);
+}
+
+TEST(DelaunayProcess, TheProgramIsToldWhoAsks) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "echo \"$@\" >&2; exit 1");
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); },
+                 {"--parent " + std::to_string(getpid())});
 }
 
 TEST_F(Tetrahedralize, AParentThatIsGoneIsNotServed) {

@@ -17,8 +17,10 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "base/large_stack.h"
 #include "mesh/tetrahedralize_protocol.h"
 
 namespace {
@@ -190,6 +192,25 @@ int fail(const char* message, int exit_code = 1) {
     return exit_code;
 }
 
+// Does not throw.
+int answer_question() {
+    catch_crashes();
+    try {
+        std::FILE* const answer = take_stdout();
+        tetgenio in, out;
+        read_points(in);
+        tetrahedralize(in, out);
+        write_tets(answer, out);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory");
+    } catch (const NoRoom& error) {
+        return fail(error.what(), tetrahedralize_no_room);
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -206,19 +227,9 @@ int main(int argc, char** argv) {
         std::fputs(option == "--help" ? help : version, stdout);
         return std::fflush(stdout) == 0 ? 0 : 1;
     }
-    catch_crashes();
     try {
-        std::FILE* const answer = take_stdout();
-        tetgenio in, out;
-        read_points(in);
-        tetrahedralize(in, out);
-        write_tets(answer, out);
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory");
-    } catch (const NoRoom& error) {
-        return fail(error.what(), tetrahedralize_no_room);
-    } catch (const std::exception& error) {
+        return with_large_stack(answer_question);
+    } catch (const std::system_error& error) {
         return fail(error.what());
     }
-    return 0;
 }

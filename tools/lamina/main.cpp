@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <sstream>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
     lamina::set_command_line(argc, argv);
     try {
         return lamina::with_large_stack([=] { return run_and_report(argc, argv); });
-    } catch (const lamina::Error& error) {
+    } catch (const std::system_error& error) {
         return report(error.what(), 1);
     }
 }
