@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # How every target of the project is made: one library a room, one test program a room.
 
+include(CheckCXXSourceCompiles)
+
 add_library(lamina_options INTERFACE)
 target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -ffp-contract=off)
@@ -13,6 +15,22 @@ if(LAMINA_SANITIZE)
     target_compile_options(lamina_options INTERFACE -fsanitize=${LAMINA_SANITIZE}
         -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(lamina_options INTERFACE -fsanitize=${LAMINA_SANITIZE})
+endif()
+
+# Against what a hostile file might find: overwritten stacks and tables of functions, reads and writes past an array
+# (which needs optimisation), places known beforehand. Not beside sanitizers, which look closer.
+set(LAMINA_HARDENED OFF)
+if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$")
+    set(LAMINA_HARDENED ON)
+    target_compile_options(lamina_options INTERFACE -fstack-protector-strong -fPIE)
+    target_link_options(lamina_options INTERFACE -pie -Wl,-z,relro,-z,now)
+    # Where the distribution has chosen a level already, that stays.
+    set(CMAKE_REQUIRED_FLAGS -O2)
+    check_cxx_source_compiles("#ifdef _FORTIFY_SOURCE\n#error\n#endif\nint main() {}" LAMINA_NEEDS_FORTIFY)
+    unset(CMAKE_REQUIRED_FLAGS)
+    if(LAMINA_NEEDS_FORTIFY)
+        target_compile_definitions(lamina_options INTERFACE _FORTIFY_SOURCE=2)
+    endif()
 endif()
 
 # lamina_room(NAME SOURCES ... LINK rooms and libraries ...)

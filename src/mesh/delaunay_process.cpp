@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/delaunay_process.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +13,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -20,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/temporary_file.h"
 #include "mesh/tetrahedralize_protocol.h"
 
 extern char** environ;
@@ -27,61 +28,66 @@ extern char** environ;
 namespace lamina {
 namespace {
 
-struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
-// Gone when closed, whoever else ends.
-File temporary_file() {
-    File file(std::tmpfile());
-    if (!file) fail("cannot make a temporary file: {}", std::strerror(errno));
-    return file;
-}
-
-void write_all(std::FILE* file, const void* bytes, std::size_t count) {
-    if (std::fwrite(bytes, 1, count, file) != count) {
-        fail("cannot write a temporary file: {}", std::strerror(errno));
-    }
-}
-
-void write_points(std::FILE* file, std::span<const glm::dvec3> points) {
+void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
     static_assert(sizeof(glm::dvec3) == sizeof(TetrahedralizePoint));
     const auto count = static_cast<TetrahedralizeCount>(points.size());
-    write_all(file, &count, sizeof count);
-    write_all(file, points.data(), points.size_bytes());
-    if (std::fflush(file) != 0 || std::fseek(file, 0, SEEK_SET) != 0) {
-        fail("cannot write a temporary file: {}", std::strerror(errno));
-    }
+    file.write(&count, sizeof count);
+    file.write(points.data(), points.size_bytes());
+    file.rewind();
 }
 
 // The last line that has something on it: after TetGen's own chatter, the reason.
-std::string last_line(std::FILE* file) {
-    std::rewind(file);
-    std::string text, line, last;
-    char block[4096];
-    while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
-        text.append(block, count);
-        if (text.size() > 65536) text.erase(0, text.size() - 32768);
-    }
+std::string last_line(const std::string& text) {
     std::istringstream lines(text);
+    std::string line, last;
     while (std::getline(lines, line)) {
         if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
     }
     return one_line(last);
 }
 
-// A child that does not outlive this.
+// What a child says: a pipe, as a full disk has no room for the reason why it failed.
+class Messages {
+  public:
+    Messages() {
+        if (pipe2(ends_, O_CLOEXEC) != 0) fail("cannot make a pipe: {}", std::strerror(errno));
+        fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+    }
+    ~Messages() {
+        close(ends_[0]);
+        close(ends_[1]);
+    }
+    Messages(const Messages&) = delete;
+    Messages& operator=(const Messages&) = delete;
+
+    int writing_end() const { return ends_[1]; }
+    // What came since; without waiting for more.
+    void collect() {
+        char block[4096];
+        for (ssize_t count; (count = read(ends_[0], block, sizeof block)) > 0;) {
+            text_.append(block, static_cast<std::size_t>(count));
+            if (text_.size() > 65536) text_.erase(0, text_.size() - 32768);
+        }
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    int ends_[2] = {-1, -1};
+    std::string text_;
+};
+
+// A child that does not outlive this, nor this process: see tetrahedralize_parent_option.
 class Child {
   public:
-    Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, std::FILE* err) {
+    Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
         posix_spawn_file_actions_t actions;
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, fileno(out), STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, fileno(err), STDERR_FILENO);
-        std::string name = program.string();
-        char* const argv[] = {name.data(), nullptr};
+        posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+        std::string name = program.string(), option = tetrahedralize_parent_option,
+                    parent = std::to_string(getpid());
+        char* const argv[] = {name.data(), option.data(), parent.data(), nullptr};
         const int failure = posix_spawn(&id_, name.c_str(), &actions, nullptr, argv, environ);
         posix_spawn_file_actions_destroy(&actions);
         if (failure != 0) {
@@ -99,12 +105,13 @@ class Child {
     Child& operator=(const Child&) = delete;
 
     // Its status as waitpid() gives it. Throws Interrupted.
-    int wait() {
+    int wait(Messages& messages) {
         using namespace std::chrono_literals;
         for (std::chrono::microseconds pause = 200us;;
              pause = std::min<decltype(pause)>(2 * pause, 20ms)) {
             int status = 0;
             const pid_t ended = waitpid(id_, &status, WNOHANG);
+            messages.collect();  // also afterwards: a full pipe would stop it
             if (ended == id_) {
                 id_ = -1;
                 check_interrupt();  // Ctrl-C ends the child as well: that is no failure of its own
@@ -180,8 +187,9 @@ std::optional<std::filesystem::path> find_tetrahedralizer() {
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");
     for (std::string folder; std::getline(list, folder, ':');) {
-        const auto path =
-            std::filesystem::path(folder.empty() ? "." : folder) / tetrahedralize_program;
+        // Shells take an empty entry for the current folder: whatever lies there is not meant.
+        if (folder.empty()) continue;
+        const auto path = std::filesystem::path(folder) / tetrahedralize_program;
         if (is_program(path)) return path;
     }
     return std::nullopt;
@@ -200,16 +208,22 @@ std::filesystem::path require_tetrahedralizer() {
 
 DelaunayTets delaunay_by_process(const std::filesystem::path& program,
                                  std::span<const glm::dvec3> points) {
-    const File in = temporary_file(), out = temporary_file(), err = temporary_file();
-    write_points(in.get(), points);
-    Child child(program, in.get(), out.get(), err.get());
-    const int status = child.wait();
+    TemporaryFile in, out;
+    Messages messages;
+    write_points(in, points);
+    Child child(program, in.stream(), out.stream(), messages.writing_end());
+    const int status = child.wait(messages);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        const std::string reason = last_line(err.get());
+        const std::string reason = last_line(messages.text());
+        if (WIFEXITED(status) && WEXITSTATUS(status) == tetrahedralize_no_room) {
+            fail(
+                "{}: no room for the tetrahedra of {} points: {}: set TMPDIR to a folder with more",
+                temporary_folder(), points.size(), reason);
+        }
         fail("no tetrahedra from {} points: {} ({})", points.size(),
              reason.empty() ? tetrahedralize_program : reason, outcome_of(status));
     }
-    return read_tets(out.get(), points.size());
+    return read_tets(out.stream(), points.size());
 }
 
 }  // namespace lamina

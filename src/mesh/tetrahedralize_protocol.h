@@ -7,6 +7,9 @@
 // Corners count from 0 and are positively oriented (mesh/tet.h); neighbour i is the tet opposite
 // corner i, -1 on the hull. Points that equal an earlier one are in no tet. Without an answer of
 // that length the question has failed: the exit code is then not 0, and stderr says why.
+//
+// `--parent PID`: who asks. The program ends at once when the thread that started it does, or when
+// PID is no longer its parent: a killed lamina leaves nobody at work.
 #pragma once
 
 #include <array>
@@ -15,6 +18,9 @@
 namespace lamina {
 
 inline constexpr const char* tetrahedralize_program = "lamina-tetrahedralize";
+
+inline constexpr const char* tetrahedralize_parent_option = "--parent";
+inline constexpr int tetrahedralize_no_room = 4;  // exit code: the answer could not be written
 
 using TetrahedralizeCount = std::int64_t;
 using TetrahedralizePoint = std::array<double, 3>;

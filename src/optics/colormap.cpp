@@ -7,52 +7,36 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
 #include "optics/color_space.h"
-#include "optics/json_text.h"
 #include "optics/opacity.h"
 
 namespace lamina {
 
 namespace {
 
-constexpr std::uintmax_t most_bytes = 16u << 20;
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
 constexpr std::size_t most_points = 4096;  // as of a scene's transfer function
-constexpr int most_depth = 16;             // of nested lists and objects; presets have 3
 
 nlohmann::json load(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) fail("{}: no such file", name);
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (error || bytes > most_bytes) {
-        fail("{}: {} bytes, expected a colour map of at most {}", name, bytes, most_bytes);
+    nlohmann::json root = load_json(file);
+    if (root.is_array() && !root.empty()) root = nlohmann::json(root.front());
+    if (!root.is_object()) {
+        fail("{}: found {}, expected a ParaView preset: an object or an array with one",
+             file.string(), root.type_name());
     }
-    std::ifstream stream(file);
-    if (!stream) fail("{}: cannot be read", name);
-    try {
-        const auto check_depth = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
-            if (depth > most_depth) fail("{}: nested more than {} deep", name, most_depth);
-            return true;
-        };
-        nlohmann::json root = nlohmann::json::parse(stream, check_depth);
-        if (root.is_array() && !root.empty()) root = nlohmann::json(root.front());
-        if (!root.is_object()) {
-            fail("{}: found {}, expected a ParaView preset: an object or an array with one", name,
-                 root.type_name());
-        }
-        return root;
-    } catch (const nlohmann::json::exception& what) {
-        fail("{}: no valid JSON: {}", name, what.what());
-    }
+    return root;
+}
+
+std::string shown(const nlohmann::json& value) {
+    return shortened(json_text(value));
 }
 
 ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
@@ -70,7 +54,7 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
         return space == ColorSpace::hsv && wrapped ? ColorSpace::hsv_wrapped : space;
     }
     fail(R"({}: ColorSpace is {}, expected "RGB", "HSV", "Lab", "Diverging" or "Step")", name,
-         json_text(*found));
+         shown(*found));
 }
 
 // Rows of four numbers; the first of each is the scalar, in order, at most two rows at one scalar.
@@ -87,7 +71,7 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     for (std::size_t i = 0; i < flat.size(); ++i) {
         const double number = flat[i].is_number() ? flat[i].get<double>() : NAN;
         if (!(std::abs(number) <= 1e300)) {
-            fail("{}: {}[{}] is {}, expected a number", name, key, i, flat[i].dump());
+            fail("{}: {}[{}] is {}, expected a number", name, key, i, shown(flat[i]));
         }
         if (i % 4 > 0 && (number < 0 || number > 1)) {
             fail("{}: {}[{}] is {}, expected a number from 0 to 1", name, key, i, number);
@@ -208,7 +192,7 @@ Colormap read_paraview_colormap(const std::filesystem::path& file) {
     const auto log_scale = preset.find("UseLogScale");
     if (log_scale != preset.end() && *log_scale != 0 && *log_scale != false) {
         fail("{}: UseLogScale is {}, only linear colour maps are supported", name,
-             log_scale->dump());
+             shown(*log_scale));
     }
     if (!preset.contains("RGBPoints")) {
         fail("{}: RGBPoints is missing, expected [x, red, green, blue, ...]", name);

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <numeric>
 
-#include "optics/json_text.h"
+#include "base/shortened.h"
 
 namespace lamina {
 namespace {
 
-constexpr std::uintmax_t max_json_bytes = 64u << 20;
-constexpr int max_json_depth = 64;
+constexpr std::size_t most_of_path = 100;  // that a message shows
 const nlohmann::json empty_object = nlohmann::json::object();
 
 // Levenshtein distance, for suggestions.
@@ -44,28 +42,8 @@ std::string suggestion(const std::set<std::string>& words, const std::string& wo
 
 // The value as it stands in the file, cut where it is long.
 std::string shown(const nlohmann::json& value) {
-    const std::string text = json_text(value);
-    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+    return shortened(json_text(value));
 }
-
-// nlohmann::json keeps the last of two equal keys without a word; a scene file must not have two.
-class RepeatedKeys {
-  public:
-    bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
-        if (depth > max_json_depth) fail("nested more than {} deep", max_json_depth);
-        using Event = nlohmann::json::parse_event_t;
-        if (event == Event::object_start) open_.emplace_back();
-        if (event == Event::object_end) open_.pop_back();
-        if (event == Event::key && !open_.back().insert(parsed.get<std::string>()).second) {
-            repeated = parsed.get<std::string>();
-        }
-        return true;
-    }
-    std::string repeated;
-
-  private:
-    std::vector<std::set<std::string>> open_;
-};
 
 std::string expand_data_folder(JsonReader& reader, const std::string& key, std::string text) {
     static const std::string variable = "${LAMINA_DATA}";
@@ -82,43 +60,14 @@ std::string expand_data_folder(JsonReader& reader, const std::string& key, std::
 
 }  // namespace
 
-nlohmann::json load_json(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error)) fail("{}: no such file", file.string());
-    if (!std::filesystem::is_regular_file(file, error)) fail("{}: not a file", file.string());
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    if (error) fail("{}: cannot read: {}", file.string(), error.message());
-    if (bytes > max_json_bytes) {
-        fail("{}: found {} bytes, expected at most {} in a JSON file", file.string(), bytes,
-             max_json_bytes);
-    }
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail("{}: cannot read", file.string());
-    RepeatedKeys keys;
-    nlohmann::json parsed;
-    try {
-        parsed = nlohmann::json::parse(stream, std::ref(keys));
-    } catch (const nlohmann::json::exception& problem) {
-        std::string message =
-            problem.what();  // "[json.exception.parse_error.101] parse error at line 1, ..."
-        message = message.substr(std::min(message.size(), message.find("] ") + 2));
-        fail("{}: {}", file.string(), message);
-    } catch (const Error& problem) {
-        fail("{}: {}", file.string(), problem.what());
-    }
-    if (!keys.repeated.empty()) {
-        fail("{}: the key \"{}\" stands twice in one object", file.string(), keys.repeated);
-    }
-    return parsed;
-}
-
 JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
                        std::string path, std::set<std::string>* known)
     : object_(object), file_(file), path_(std::move(path)), known_(known) {
     if (!object_.is_object()) {
         throw KeyError(path_,
                        fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
-                                   path_.empty() ? "" : path_ + ": ", shown(object_)));
+                                   path_.empty() ? "" : shortened(path_, most_of_path) + ": ",
+                                   shown(object_)));
     }
 }
 
@@ -127,7 +76,8 @@ std::string JsonReader::path_to(const std::string& key) const {
 }
 
 void JsonReader::fail_at(const std::string& key, const std::string& message) const {
-    throw KeyError(path_to(key), fmt::format("{}: {}: {}", file_.string(), path_to(key), message));
+    throw KeyError(path_to(key), fmt::format("{}: {}: {}", file_.string(),
+                                             shortened(path_to(key), most_of_path), message));
 }
 
 void JsonReader::reject(const std::string& key, const std::string& expected) {
@@ -221,7 +171,8 @@ void JsonReader::close() const {
     for (const auto& [key, ignored] : object_.items()) {
         if (asked_.contains(key)) continue;
         throw UnknownKeyError(path_to(key), fmt::format("{}: {}: unknown key{}", file_.string(),
-                                                        path_to(key), suggestion(asked_, key)));
+                                                        shortened(path_to(key), most_of_path),
+                                                        suggestion(asked_, key)));
     }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/json_text.h"
 
 namespace lamina {
 
@@ -28,10 +29,6 @@ class UnknownKeyError : public KeyError {
   public:
     using KeyError::KeyError;
 };
-
-// Reads the file; syntax errors, repeated keys and files over 64 MiB are Errors with line and
-// column.
-nlohmann::json load_json(const std::filesystem::path& file);
 
 // Reads one JSON object key by key and remembers which keys it was asked for; close() then rejects
 // all others, with the nearest known key as a suggestion. Every error names the file, the path of

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_text.h"
+#include "base/shortened.h"
 #include "image/image_limits.h"
 #include "scene/data_reader.h"
 #include "scene/json_reader.h"
@@ -121,17 +123,34 @@ void read_render(JsonReader reader, Scene& scene) {
 }
 
 std::vector<std::string> parts_of(const std::string& key) {
+    // Parts make objects in each other, and these are held to the depth of a file.
+    const auto count = static_cast<std::size_t>(std::ranges::count(key, '.')) + 1;
+    if (count > most_json_depth) {
+        throw UsageError(fmt::format("--set {}: found {} parts between dots, expected at most {}",
+                                     shortened(key), count, most_json_depth));
+    }
     std::vector<std::string> parts;
     std::size_t start = 0;
     while (true) {
         const std::size_t dot = std::min(key.find('.', start), key.size());
         parts.push_back(key.substr(start, dot - start));
         if (parts.back().empty()) {
-            throw UsageError(
-                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", key));
+            throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8",
+                                         shortened(key)));
         }
         if (dot == key.size()) return parts;
         start = dot + 1;
+    }
+}
+
+// JSON, or the text itself where it is none.
+nlohmann::json value_of(const std::string& key, const std::string& text) {
+    try {
+        return parse_json(text);
+    } catch (const JsonSyntaxError&) {
+        return text;
+    } catch (const Error& error) {
+        throw UsageError(fmt::format("--set {}: {}", shortened(key), error.what()));
     }
 }
 
@@ -172,7 +191,7 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
             if (!number || std::stoul(part) >= node->size()) {
                 throw UsageError(
                     fmt::format("--set {}: found \"{}\", expected the number of one of {} elements",
-                                key, part, node->size()));
+                                shortened(key), shortened(part), node->size()));
             }
             node = &(*node)[std::stoul(part)];
         } else if (node->is_object()) {
@@ -181,11 +200,11 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
             *node = nlohmann::json::object();
             node = &(*node)[part];
         } else {
-            throw UsageError(fmt::format("--set {}: \"{}\" is not inside an object", key, part));
+            throw UsageError(fmt::format("--set {}: \"{}\" is not inside an object", shortened(key),
+                                         shortened(part)));
         }
     }
-    nlohmann::json parsed = nlohmann::json::parse(value, nullptr, false);
-    *node = parsed.is_discarded() ? nlohmann::json(value) : std::move(parsed);
+    *node = value_of(key, value);
 }
 
 void remove_key(nlohmann::json& document, const std::string& key) {

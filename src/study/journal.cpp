@@ -11,7 +11,8 @@
 #include <string>
 
 #include "base/error.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
 
 namespace lamina {
 namespace {
@@ -21,6 +22,15 @@ struct CompleteLines {
     std::int64_t bytes = 0;
 };
 
+// Null where the line is no JSON that the program reads.
+nlohmann::json record_of(const std::string& line) {
+    try {
+        return parse_json(line);
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
 CompleteLines read_lines(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot read", path.string());
@@ -28,10 +38,10 @@ CompleteLines read_lines(const std::filesystem::path& path) {
     std::string line;
     // getline meets the file's end where the newline is missing: that line is not complete.
     while (std::getline(stream, line) && !stream.eof()) {
-        lines.records.push_back(nlohmann::json::parse(line, nullptr, false));
+        lines.records.push_back(record_of(line));
         if (!lines.records.back().is_object()) {
             fail("{}: line {}: found \"{}\", expected a record that lamina study wrote",
-                 path.string(), lines.records.size(), one_line(line.substr(0, 60)));
+                 path.string(), lines.records.size(), one_line(shortened(line)));
         }
         lines.bytes += static_cast<std::int64_t>(line.size()) + 1;
     }

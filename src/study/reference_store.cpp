@@ -5,9 +5,9 @@
 
 #include "base/atomic_file.h"
 #include "base/content_hash.h"
+#include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
-#include "optics/json_text.h"
 #include "reference/volume_tracer.h"
 #include "scene/json_reader.h"
 #include "study/picture_key.h"

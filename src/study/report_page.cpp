@@ -4,7 +4,7 @@
 #include <cassert>
 #include <string_view>
 
-#include "optics/json_text.h"
+#include "base/json_text.h"
 #include "study/report_files.h"
 
 namespace lamina {

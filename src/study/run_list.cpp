@@ -9,7 +9,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
 
 namespace lamina {
 namespace {

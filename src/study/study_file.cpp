@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
 
 #include "base/error.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
 #include "scene/scene_reader.h"
 
 namespace lamina {
@@ -61,21 +61,25 @@ void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
     }
 }
 
-bool is_swept(const StudyFile& file, const std::string& key) {
-    return key == "scene" ||
-           std::any_of(file.sweep.begin(), file.sweep.end(), [&](const SweepGrid& grid) {
-               return std::any_of(grid.axes.begin(), grid.axes.end(),
-                                  [&](const SweepAxis& axis) { return axis.key == key; });
-           });
-}
+// The keys that a study sweeps, to check others against.
+class SweptKeys {
+  public:
+    explicit SweptKeys(const StudyFile& file) {
+        for (const SweepGrid& grid : file.sweep)
+            for (const SweepAxis& axis : grid.axes) keys_.insert(axis.key);
+    }
+    void check(JsonReader& reader, const std::string& field, const std::string& key) const {
+        if (!keys_.contains(key)) {
+            reader.fail_at(field, fmt::format("\"{}\" is not swept, expected a key of \"sweep\"",
+                                              shortened(key)));
+        }
+    }
 
-void check_swept(JsonReader& reader, const StudyFile& file, const std::string& field,
-                 const std::string& key) {
-    if (!is_swept(file, key))
-        reader.fail_at(field, fmt::format("\"{}\" is not swept, expected a key of \"sweep\"", key));
-}
+  private:
+    std::set<std::string> keys_{"scene"};
+};
 
-void read_drops(JsonReader& study, StudyFile& file) {
+void read_drops(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
     if (!study.has("drop")) return;
     std::vector<JsonReader> readers = study.objects("drop");
     if (readers.size() > most_drops) {
@@ -86,7 +90,7 @@ void read_drops(JsonReader& study, StudyFile& file) {
         StudyFile::Drop drop;
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {
-            check_swept(reader, file, "where", key);
+            swept.check(reader, "where", key);
             // A list stands for its elements, and for itself: bifurcation factors are a list.
             std::vector<nlohmann::json> values{value};
             if (value.is_array()) values.insert(values.end(), value.begin(), value.end());
@@ -98,10 +102,10 @@ void read_drops(JsonReader& study, StudyFile& file) {
     }
 }
 
-void read_baseline(JsonReader& study, StudyFile& file) {
+void read_baseline(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
     if (!study.has("baseline")) return;
     file.baseline = read_settings(study, "baseline");
-    for (const auto& [key, value] : *file.baseline) check_swept(study, file, "baseline", key);
+    for (const auto& [key, value] : *file.baseline) swept.check(study, "baseline", key);
 }
 
 }  // namespace
@@ -114,7 +118,10 @@ void apply_settings(const Settings& settings, nlohmann::json& document) {
             else
                 set_key(document, key, json_text(value));
         } catch (const UsageError&) {
-            fail("{}: not a key of a scene: it leads through a value that is no object", key);
+            fail(
+                "{}: not a key of a scene: expected at most {} parts with single dots between, "
+                "which lead through objects",
+                shortened(key), most_json_depth);
         }
     }
 }
@@ -135,8 +142,9 @@ StudyFile load_study(const std::filesystem::path& path) {
         study.reject("sweep", "an object {\"render.slice.samples\": [256, 512]}");
     file.sweep = read_sweep(study);
     read_scenes(study, base, file);
-    read_drops(study, file);
-    read_baseline(study, file);
+    const SweptKeys swept(file);
+    read_drops(study, swept, file);
+    read_baseline(study, swept, file);
     if (study.has("reference")) {
         file.reference = study.choice<TraceOf>(
             "reference", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});

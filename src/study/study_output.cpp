@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
 #include "study/report_page.h"
 #include "study/study_report.h"
 #include "study/text_file.h"

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/median.h"
-#include "optics/json_text.h"
 #include "scene/json_reader.h"
 #include "study/journal.h"
 #include "study/pareto.h"

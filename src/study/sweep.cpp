@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "optics/json_text.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
 
 namespace lamina {
 namespace {
@@ -66,7 +67,7 @@ SweepGrid read_grid(JsonReader& study, const std::string& at, const nlohmann::js
         study.fail_at(at,
                       fmt::format("found {}, expected an object with a key of the scene and its "
                                   "values, as {{\"render.slice.samples\": [256, 512]}}",
-                                  json_text(object)));
+                                  shortened(json_text(object))));
     if (object.size() > most_keys)
         study.fail_at(at,
                       fmt::format("found {} keys, expected at most {}", object.size(), most_keys));

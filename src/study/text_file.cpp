@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/atomic_file.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
 
 namespace lamina {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines that lack something, and environments that are not what one would expect.
+#include <sys/stat.h>
+
 #include <clocale>
 #include <cstdlib>
 
@@ -134,6 +136,37 @@ TEST_F(FaultsOfMachines, NamesOfEveryKind) {
     };
     EXPECT_EQ(lamina_run(rendering("-x.exr"), in_out).exit_code, 0);
     EXPECT_EQ(read_bytes_of(out / "-x.exr"), expected);
+}
+
+// Nobody writes into them: who opened one would wait for ever.
+TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
+    const auto pipe_called = [&](const std::string& name) {
+        const std::string path = folder / name;
+        EXPECT_EQ(mkfifo(path.c_str(), 0600), 0) << name;
+        return path;
+    };
+    for (const char* name : {"a.nrrd", "a.nhdr", "a.vtu", "a.vtk"}) {
+        const std::string path = pipe_called(name);
+        expect_one_line(lamina_run({"info", path}), 1, {path, "not a regular file"});
+    }
+    for (const char* name : {"a.exr", "a.png", "a.npy"}) {
+        const std::string path = pipe_called(name);
+        expect_one_line(lamina_run({"compare", path, path}), 1, {path, "not a regular file"});
+    }
+    const std::string pipe = pipe_called("a.json");
+    const std::string picture = out / "a.exr";
+    for (const char* verb : {"render", "study", "crosscheck"})
+        expect_one_line(lamina_run({verb, pipe, "-o", picture}), 1, {pipe, "not a file"});
+    expect_one_line(lamina_run({"integrate", pipe}), 1, {pipe, "not a file"});
+    expect_one_line(lamina_run(rendering(picture, {"--set", "transfer_function.colormap=a.json"})),
+                    1, {pipe, "not a file"});
+    expect_one_line(lamina_run(rendering(picture, {"--set", "volume=a.nrrd"})), 1, {"a.nrrd"});
+    write_bytes_to(folder / "b.nhdr",
+                   "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n"
+                   "data file: " +
+                       pipe_called("a.raw") + "\n\n");
+    expect_one_line(lamina_run({"info", folder / "b.nhdr"}), 1, {"a.raw", "not a regular file"});
+    EXPECT_TRUE(contents(out).empty());
 }
 
 TEST_F(FaultsOfMachines, FoldersThatAreNotThere) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits on the memory of the process: ulimit -v.
+// Limits on the memory of the process: ulimit -v, ulimit -s.
 #include <sys/resource.h>
 
 #include "cli/faults_test_case.h"
@@ -61,6 +61,35 @@ TEST_F(FaultsOfMemory, TooLittleIsOneLineForTheNativeEngine) {
             EXPECT_TRUE(contents(out).empty()) << bytes / mebibyte << " MiB";
         }
         EXPECT_GT(failed, 0);
+    }
+}
+
+// 64 KiB hold a tenth of what a picture takes, and threads of Mesa's would get as little.
+TEST_F(FaultsOfMemory, SmallStacksChangeNothing) {
+    const auto drawing_by = [&](const char* context) {
+        return std::vector<std::string>{"render",      folder / "scene.json", "-o",
+                                        out / "a.exr", "--context",           context};
+    };
+    const std::vector<std::string> works[] = {
+        {"info", folder / "volume.nrrd"},
+        {"mesh", folder / "volume.nrrd", "-o", out / "a.vtu", "--kuhn", "--quiet"},
+        drawing_by("cpu"),
+        drawing_by("osmesa"),
+        drawing_by("egl"),
+        rendering(out / "a.exr", {"--method", "project"}),
+        rendering(out / "a.npy", {"--method", "trace"})};
+    for (const std::vector<std::string>& arguments : works) {
+        SCOPED_TRACE(arguments[0] + " " + arguments.back());
+        make(arguments);
+        const auto expected = contents(out);
+        for (const rlim_t kibibytes : {64, 256}) {
+            const ProgramResult result = lamina_run(arguments, [=] {
+                const rlimit limit{kibibytes << 10, kibibytes << 10};
+                setrlimit(RLIMIT_STACK, &limit);
+            });
+            EXPECT_EQ(result.exit_code, 0) << kibibytes << " KiB: " << result.err;
+            EXPECT_TRUE(contents(out) == expected);
+        }
     }
 }
 

@@ -55,6 +55,15 @@ TEST_F(StudyMistakes, AKeyThatIsNoneIsAnError) {
     expect_bad("sweep", {{"transfer_function.points.7.value", {1, 2}}}, {"points.7.value"});
 }
 
+TEST_F(StudyMistakes, KeysOfManyPartsAreAnError) {
+    std::string parts = "a";
+    for (int i = 0; i < 100'000; ++i) parts += ".a";
+    for (const std::string& key : {parts, std::string(200'000, '.')}) {
+        expect_bad("sweep", {{key, {1, 2}}}, {"...: not a key of a scene", "at most 64 parts"});
+        expect_bad("base", {{key, 1}}, {"...: not a key of a scene", "at most 64 parts"});
+    }
+}
+
 TEST_F(StudyMistakes, AnEmptySweepIsAnError) {
     expect_bad("sweep", json::object(), {"sweep", "{}"});
     expect_bad("sweep", json::array(), {"sweep", "[]"});

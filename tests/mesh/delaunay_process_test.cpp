@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/delaunay_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <random>
 
 #include "support/expect_error.h"
+#include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -63,6 +69,77 @@ TEST(DelaunayProcess, IsFoundInThePath) {
     setenv("PATH", path.c_str(), 1);
 }
 
+// An empty entry is no way to run what lies in the current folder.
+TEST(DelaunayProcess, EmptyEntriesOfThePathAreNoFolder) {
+    const TemporaryFolder folder;
+    script(folder, "exit 0");
+    const std::string path = getenv("PATH");
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    for (const char* entries : {":", ":/absent", "/absent::/absent", "/absent:", ""}) {
+        setenv("PATH", entries, 1);
+        EXPECT_EQ(find_tetrahedralizer(), std::nullopt) << entries;
+    }
+    std::filesystem::current_path(before);
+    setenv("PATH", path.c_str(), 1);
+}
+
+// TMPDIR while it lives.
+class TemporaryFilesIn {
+  public:
+    explicit TemporaryFilesIn(const std::filesystem::path& folder) {
+        if (const char* before = getenv("TMPDIR")) before_ = before;
+        setenv("TMPDIR", folder.c_str(), 1);
+    }
+    ~TemporaryFilesIn() {
+        if (before_.empty())
+            unsetenv("TMPDIR");
+        else
+            setenv("TMPDIR", before_.c_str(), 1);
+    }
+    TemporaryFilesIn(const TemporaryFilesIn&) = delete;
+    TemporaryFilesIn& operator=(const TemporaryFilesIn&) = delete;
+
+  private:
+    std::string before_;
+};
+
+TEST(DelaunayProcess, TemporaryFilesLieInTmpdir) {
+    const TemporaryFolder folder, temporary;
+    const auto tool =
+        script(folder, "readlink /proc/$$/fd/0 /proc/$$/fd/1 | tr '\\n' ' ' >&2; exit 1");
+    const TemporaryFilesIn there(temporary.path());
+    const std::string message = error_of([&] { delaunay_by_process(tool, tetrahedron); });
+    const auto first = message.find(temporary.path());
+    ASSERT_NE(first, std::string::npos) << message;
+    EXPECT_NE(message.find(temporary.path(), first + 1), std::string::npos) << message;
+    EXPECT_TRUE(temporary.empty());
+}
+
+TEST(DelaunayProcess, FoldersForTemporaryFilesThatAreNone) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "exit 0");
+    const TemporaryFilesIn there(folder / "absent");
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); },
+                 {"absent: cannot write temporary files: No such file", "TMPDIR"});
+}
+
+// The question does not fit.
+TEST(DelaunayProcess, AFullFolderForTemporaryFilesIsNamed) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "exit 0");
+    const TemporaryFilesIn there(folder.path());
+    const FileSizeLimit full(16);
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); },
+                 {folder.path(), "cannot write temporary files: File too large", "TMPDIR"});
+}
+
+TEST(DelaunayProcess, ManyMessagesDoNotStopTheProgram) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "yes chatter | head -c 1000000 >&2; echo the end >&2; exit 1");
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"the end (exit code 1)"});
+}
+
 class Tetrahedralize : public testing::Test {
   protected:
     void SetUp() override {
@@ -82,6 +159,69 @@ TEST_F(Tetrahedralize, OneTetIsPositive) {
     std::sort(sorted.begin(), sorted.end());
     EXPECT_EQ(sorted, (Tet{0, 1, 2, 3}));
     EXPECT_EQ(mesh.neighbors[0], (std::array<std::int32_t, 4>{-1, -1, -1, -1}));
+}
+
+// The question fits, the answer does not: tets take more bytes than the points, of which each has
+// six and more.
+TEST_F(Tetrahedralize, AnAnswerWithoutRoomSaysWhere) {
+    const TemporaryFolder folder;
+    std::vector<glm::dvec3> points;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> place(0, 1);
+    for (int i = 0; i < 200; ++i) points.emplace_back(place(random), place(random), place(random));
+    const TemporaryFilesIn there(folder.path());
+    const FileSizeLimit full(sizeof(std::int64_t) + points.size() * sizeof(glm::dvec3));
+    expect_error([&] { run(points); }, {folder.path(), "no room for the tetrahedra of 200 points",
+                                        "File too large", "TMPDIR"});
+}
+
+// As when lamina is killed: this reads a question without end, and is past its first steps once it
+// has read more than a pipe holds.
+TEST_F(Tetrahedralize, EndsWithWhoAskedIt) {
+    std::signal(SIGPIPE, SIG_IGN);
+    int question[2], answer[2];
+    ASSERT_EQ(pipe2(question, O_CLOEXEC), 0);
+    ASSERT_EQ(pipe2(answer, O_CLOEXEC), 0);
+    const pid_t asking = fork();
+    if (asking == 0) {
+        dup2(question[0], STDIN_FILENO);
+        dup2(answer[1], STDOUT_FILENO);
+        // A shell gives its background an empty stdin, but not this one.
+        const std::string command = "exec 3<&0; \"" LAMINA_TETRAHEDRALIZE_BINARY
+                                    "\" --parent $$ <&3 & exec 3<&- </dev/null >/dev/null; wait";
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+    }
+    close(question[0]);
+    close(answer[1]);
+    const std::vector<char> bytes(std::size_t{1} << 20, 1);
+    std::size_t written = 0;
+    while (written < bytes.size()) {
+        const ssize_t count = write(question[1], bytes.data() + written, bytes.size() - written);
+        ASSERT_GT(count, 0);
+        written += static_cast<std::size_t>(count);
+    }
+    kill(asking, SIGKILL);
+    waitpid(asking, nullptr, 0);
+    // The end of its answer: nobody has that pipe open any more.
+    pollfd ended{answer[0], POLLIN, 0};
+    constexpr int patience = 20'000;
+    EXPECT_EQ(poll(&ended, 1, patience), 1);
+    close(question[1]);
+    close(answer[0]);
+}
+
+TEST(DelaunayProcess, TheProgramIsToldWhoAsks) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "echo \"$@\" >&2; exit 1");
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); },
+                 {"--parent " + std::to_string(getpid())});
+}
+
+TEST_F(Tetrahedralize, AParentThatIsGoneIsNotServed) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, LAMINA_TETRAHEDRALIZE_BINARY " --parent 1");
+    expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"has ended (exit code 1)"});
 }
 
 // Cospherical, on planes and lines, in numbers: what lattices are.

@@ -161,7 +161,7 @@ TEST_F(ColormapTest, ErrorsNameFileAndKey) {
         name + "point 0 of Points has midpoint 0.3 and sharpness 0, only 0.5 and 0 are supported");
     EXPECT_EQ(message_of("[]"),
               name + "found array, expected a ParaView preset: an object or an array with one");
-    EXPECT_NE(message_of("{").find("no valid JSON"), std::string::npos);
+    EXPECT_NE(message_of("{").find("parse error at line 1"), std::string::npos);
     EXPECT_THROW(read_paraview_colormap("no_such_file.json"), Error);
 }
 
@@ -170,7 +170,9 @@ TEST_F(ColormapTest, DeepNestingIsAnError) {
     const std::string lists = std::string(100000, '[') + std::string(100000, ']');
     for (const std::string& preset : {"{\"ColorSpace\": " + lists + ", \"RGBPoints\": [0,0,0,0]}",
                                       "{\"RGBPoints\": [" + lists + ",0,0,0]}", lists}) {
-        EXPECT_EQ(message_of(preset), file_.string() + ": nested more than 16 deep");
+        const std::string message = message_of(preset);
+        EXPECT_TRUE(message.starts_with(file_.string() + ": line 1, column ")) << message;
+        EXPECT_TRUE(message.ends_with(": nested more than 64 deep")) << message;
     }
 }
 

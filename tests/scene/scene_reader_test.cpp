@@ -89,6 +89,32 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     EXPECT_THROW(set_key(document, "camera..eye", "1"), UsageError);
 }
 
+// They make objects in each other, whose end would take a stack as deep.
+TEST(SceneReader, SetIsLimitedInDepth) {
+    std::string key = "a";
+    for (int i = 1; i < 64; ++i) key += ".a";
+    nlohmann::json document;
+    set_key(document, key, "[[1]]");
+    remove_key(document, key);
+    for (int i = 0; i < 100'000; ++i) key += ".a";
+    const auto message_of = [&](const std::string& name, const std::string& value) -> std::string {
+        try {
+            set_key(document, name, value);
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_TRUE(message_of(key, "1").ends_with("100064 parts between dots, expected at most 64"));
+    EXPECT_THROW(remove_key(document, key), UsageError);
+    EXPECT_LT(message_of(std::string(200'000, '.'), "1").size(), 250u);
+    const std::string lists(100'000, '[');
+    EXPECT_TRUE(message_of("b", lists).ends_with("nested more than 64 deep"));
+    EXPECT_TRUE(message_of("b", lists + std::string(100'000, ']')).starts_with("--set b: line 1"));
+    EXPECT_EQ(message_of("b", "[1"), "");  // no JSON: a word
+    EXPECT_EQ(document["b"], "[1");
+}
+
 TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
     Camera camera;
     camera.eye = {3, 4, 5};

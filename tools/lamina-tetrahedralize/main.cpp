@@ -3,10 +3,12 @@
 // (AGPL) then covers nothing but this program, and TetGen may print, throw numbers or end the
 // process without harm to the one that asked.
 #include <signal.h>
+#include <sys/prctl.h>
 #include <tetgen.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -15,8 +17,10 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "base/large_stack.h"
 #include "mesh/tetrahedralize_protocol.h"
 
 namespace {
@@ -122,10 +126,14 @@ void tetrahedralize(tetgenio& in, tetgenio& out) {
     }
 }
 
+// The answer cannot be written.
+class NoRoom : public std::runtime_error {
+  public:
+    NoRoom() : std::runtime_error("cannot write to stdout: " + std::string(std::strerror(errno))) {}
+};
+
 void write_all(std::FILE* stream, const void* bytes, std::size_t count) {
-    if (std::fwrite(bytes, 1, count, stream) != count) {
-        throw std::runtime_error("cannot write to stdout");
-    }
+    if (std::fwrite(bytes, 1, count, stream) != count) throw NoRoom();
 }
 
 // TetGen's corners are in our order already: det(b - a, c - a, d - a) > 0.
@@ -136,7 +144,7 @@ void write_tets(std::FILE* stream, const tetgenio& io) {
     write_all(stream, &header, sizeof header);
     write_all(stream, io.tetrahedronlist, count * sizeof(TetrahedralizeTet));
     write_all(stream, io.neighborlist, count * sizeof(TetrahedralizeTet));
-    if (std::fflush(stream) != 0) throw std::runtime_error("cannot write to stdout");
+    if (std::fflush(stream) != 0) throw NoRoom();
 }
 
 // The stream of answers; what TetGen prints on stdout goes to stderr from now on.
@@ -172,16 +180,43 @@ void catch_crashes() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-int fail(const char* message) {
+// False: the one that asks is gone already.
+bool end_with_parent(const char* parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    return std::to_string(getppid()) == parent;
+}
+
+int fail(const char* message, int exit_code = 1) {
     std::fflush(stdout);
     std::fprintf(stderr, "lamina-tetrahedralize: %s\n", message);
-    return 1;
+    return exit_code;
+}
+
+// Does not throw.
+int answer_question() {
+    catch_crashes();
+    try {
+        std::FILE* const answer = take_stdout();
+        tetgenio in, out;
+        read_points(in);
+        tetrahedralize(in, out);
+        write_tets(answer, out);
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory");
+    } catch (const NoRoom& error) {
+        return fail(error.what(), tetrahedralize_no_room);
+    } catch (const std::exception& error) {
+        return fail(error.what());
+    }
+    return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc > 1) {
+    if (argc == 3 && std::string(argv[1]) == tetrahedralize_parent_option) {
+        if (!end_with_parent(argv[2])) return fail("the program that started this has ended");
+    } else if (argc > 1) {
         const std::string option = argv[1];
         const bool known = argc == 2 && (option == "--help" || option == "--version");
         if (!known) {
@@ -192,17 +227,9 @@ int main(int argc, char** argv) {
         std::fputs(option == "--help" ? help : version, stdout);
         return std::fflush(stdout) == 0 ? 0 : 1;
     }
-    catch_crashes();
     try {
-        std::FILE* const answer = take_stdout();
-        tetgenio in, out;
-        read_points(in);
-        tetrahedralize(in, out);
-        write_tets(answer, out);
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory");
-    } catch (const std::exception& error) {
+        return with_large_stack(answer_question);
+    } catch (const std::system_error& error) {
         return fail(error.what());
     }
-    return 0;
 }

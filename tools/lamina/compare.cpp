@@ -8,13 +8,13 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "image/false_color.h"
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
-#include "optics/json_text.h"
 #include "study/error_json.h"
 #include "verbs.h"
 

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/printable.h"
 #include "base/standard_streams.h"
 #include "file_report.h"
 #include "mesh/mesh_file.h"
-#include "optics/json_text.h"
 #include "verbs.h"
 
 namespace lamina {

@@ -6,9 +6,11 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/large_stack.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "base/warning.h"
@@ -65,13 +67,8 @@ int run(int argc, char** argv) {
     return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    lamina::make_streams_safe();
-    lamina::catch_interrupts();
-    lamina::take_warnings(print_warning);
-    lamina::set_command_line(argc, argv);
+// Does not throw.
+int run_and_report(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const lamina::UsageError& error) {
@@ -82,6 +79,20 @@ int main(int argc, char** argv) {
         std::fputs("lamina: out of memory\n", stderr);  // takes none
         return 1;
     } catch (const std::exception& error) {
+        return report(error.what(), 1);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    lamina::make_streams_safe();
+    lamina::catch_interrupts();
+    lamina::take_warnings(print_warning);
+    lamina::set_command_line(argc, argv);
+    try {
+        return lamina::with_large_stack([=] { return run_and_report(argc, argv); });
+    } catch (const std::system_error& error) {
         return report(error.what(), 1);
     }
 }

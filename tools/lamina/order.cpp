@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/median.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
@@ -23,7 +24,6 @@
 #include "mesh/mesh_shape.h"
 #include "mesh/order_check.h"
 #include "mesh/visibility_order.h"
-#include "optics/json_text.h"
 #include "reference/order_pixels.h"
 #include "scene/json_reader.h"
 #include "scene/scene_mesh.h"

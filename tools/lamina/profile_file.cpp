@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "optics/json_text.h"
+#include "base/json_text.h"
 
 namespace lamina {
 namespace {

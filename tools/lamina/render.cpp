@@ -8,11 +8,11 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/json_text.h"
 #include "base/progress.h"
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
-#include "optics/json_text.h"
 #include "profile_file.h"
 #include "render_job.h"
 #include "scene_files.h"

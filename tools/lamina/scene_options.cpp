@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "optics/json_text.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
 
@@ -22,8 +23,8 @@ Scene load_scene(const SceneOptions& options, std::string& document_text) {
     for (const std::string& setting : options.settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) {
-            throw UsageError(
-                fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8", setting));
+            throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8",
+                                         shortened(setting)));
         }
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }

@@ -9,10 +9,10 @@
 
 #include "base/atomic_file.h"
 #include "base/folder.h"
+#include "base/json_text.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "git_commit.h"
-#include "optics/json_text.h"
 #include "selftest/selftest.h"
 #include "study/context_choice.h"
 #include "study/draw_context.h"

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/json_text.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/interrupt.h"
+#include "base/shortened.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::json;
+
+// Iterates over a text, tells how far it has come (parsers copy their iterators), and hears
+// signals.
+class Cursor {
+  public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    Cursor(const char* at, const char*& farthest) : at_(at), farthest_(&farthest) {}
+    reference operator*() const { return *at_; }
+    Cursor& operator++() {
+        *farthest_ = ++at_;
+        if (reinterpret_cast<std::uintptr_t>(at_) % bytes_between_checks == 0) check_interrupt();
+        return *this;
+    }
+    bool operator==(const Cursor& other) const { return at_ == other.at_; }
+
+  private:
+    static constexpr std::uintptr_t bytes_between_checks = 1u << 16;
+    const char* at_;
+    const char** farthest_;
+};
+
+// Builds the document event by event. The library's own builder with a callback looks through a
+// whole list again after each object in it, and so needs quadratic time.
+class Builder : public nlohmann::json_sax<Json> {
+  public:
+    explicit Builder(std::string_view text) : text_(text), farthest_(text.data()) {}
+
+    Json build() {
+        const char* const end = text_.data() + text_.size();
+        Json::sax_parse(Cursor(text_.data(), farthest_), Cursor(end, farthest_), this);
+        return std::move(root_);
+    }
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(Json::number_integer_t value) override { return add(value); }
+    bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
+    bool number_float(Json::number_float_t value, const std::string&) override {
+        return add(value);
+    }
+    bool string(std::string& value) override { return add(std::move(value)); }
+    bool binary(Json::binary_t&) override { return false; }  // JSON has none
+
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(std::string& name) override {
+        const auto [member, added] = open_.back()->get_ref<Json::object_t&>().try_emplace(name);
+        if (!added) stop(fmt::format("the key \"{}\" stands twice in one object", shortened(name)));
+        member_ = &member->second;
+        return true;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const Json::exception& problem) override {
+        std::string message = problem.what();  // "[json.exception.parse_error.101] parse error ..."
+        message = message.substr(std::min(message.size(), message.find("] ") + 2));
+        if (!message.starts_with("parse error at line")) message = place() + ": " + message;
+        throw JsonSyntaxError(one_line(shortened(message, most_of_message)));
+    }
+
+  private:
+    static constexpr std::size_t most_of_message = 200;  // it holds the word that was read last
+
+    Json& put(Json&& value) {
+        if (open_.empty()) return root_ = std::move(value);
+        if (open_.back()->is_object()) return *member_ = std::move(value);
+        return open_.back()->get_ref<Json::array_t&>().emplace_back(std::move(value));
+    }
+    bool add(Json value) {
+        count();
+        put(std::move(value));
+        return true;
+    }
+    bool open(Json value) {
+        count();
+        if (open_.size() == most_json_depth)
+            stop(fmt::format("nested more than {} deep", most_json_depth));
+        open_.push_back(&put(std::move(value)));
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+    void count() {
+        if (++values_ > most_json_values)
+            stop(fmt::format("more than {} values, expected fewer", most_json_values));
+    }
+
+    [[noreturn]] void stop(const std::string& problem) const { fail("{}: {}", place(), problem); }
+    // Of the byte that was read last.
+    std::string place() const {
+        const auto done = static_cast<std::size_t>(farthest_ - text_.data());
+        const std::string_view read = text_.substr(0, done);
+        const std::size_t line_start = read.rfind('\n') + 1;  // 0 in the first line
+        return fmt::format("line {}, column {}", std::count(read.begin(), read.end(), '\n') + 1,
+                           done - line_start);
+    }
+
+    std::string_view text_;
+    const char* farthest_;
+    Json root_;
+    std::vector<Json*> open_;  // lists and objects that have not ended, each in the one before
+    Json* member_ = nullptr;   // of the innermost object: the one whose key was read last
+    std::size_t values_ = 0;
+};
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) fail("no such file");
+    if (!std::filesystem::is_regular_file(file, error)) fail("not a file");
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    if (error) fail("cannot read: {}", error.message());
+    if (bytes > most_json_bytes)
+        fail("found {} bytes, expected at most {} in a JSON file", bytes, most_json_bytes);
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(static_cast<std::size_t>(bytes), '\0');
+    if (!stream || !stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+        fail("cannot read");
+    return text;
+}
+
+}  // namespace
+
+nlohmann::json parse_json(std::string_view text) {
+    check_interrupt();
+    return Builder(text).build();
+}
+
+nlohmann::json load_json(const std::filesystem::path& file) {
+    try {
+        return parse_json(bytes_of(file));
+    } catch (const Error& problem) {
+        fail("{}: {}", file.string(), problem.what());
+    }
+}
+
+}  // namespace lamina

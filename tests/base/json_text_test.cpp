@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/json_text.h"
+
+#include <gtest/gtest.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string>
+
+#include "base/interrupt.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+std::string repeated(const std::string& text, std::size_t times) {
+    std::string whole;
+    whole.reserve(text.size() * times);
+    for (std::size_t i = 0; i < times; ++i) whole += text;
+    return whole;
+}
+
+// A list of `count` copies.
+std::string list_of(const std::string& element, std::size_t count) {
+    return fmt::format("[{}{}]", repeated(element + ",", count - 1), element);
+}
+
+std::string nested(std::size_t depth) {
+    return repeated("[", depth) + repeated("]", depth);
+}
+
+// The library's own parser knows no limits, and serves as the oracle.
+TEST(JsonText, DocumentsAreThoseOfTheLibrary) {
+    for (const char* text :
+         {"null", "true", "-7", "18446744073709551615", "0.1", "1e-320", R"("é☃\n")", "[]", "{}",
+          R"([1, [2, {"a": {}, "b": [[], null]}], "x", -0.0])",
+          R"({"a": {"b": {"c": [1, 2]}, "d": 3}, "e": "f", "": false})", "\xEF\xBB\xBF[1]"}) {
+        EXPECT_EQ(parse_json(text), nlohmann::json::parse(text)) << text;
+    }
+}
+
+TEST(JsonText, MistakesSayWhere) {
+    expect_error([] { parse_json("{\"version\": 1,\n \"volume\" }"); }, {"line 2", "column"});
+    expect_error([] { parse_json(""); }, {"line 1", "column 1"});
+    expect_error([] { parse_json("[\n1e999]"); }, {"line 2, column ", "1e999"});
+    expect_error([] { parse_json("\"\xff\""); }, {"UTF-8"});
+    EXPECT_THROW(parse_json("[1] 2"), JsonSyntaxError);
+    expect_error([] { parse_json("{\"a\": 1,\n \"b\": {\"c\": 1, \"c\": 2}}"); },
+                 {"line 2", "column 18", "\"c\"", "twice"});
+    // Messages do not repeat what is long.
+    const std::string word(100'000, 'x');
+    EXPECT_LT(error_of([&] { parse_json(fmt::format("[\"{}", word)); }).size(), 250u);
+    EXPECT_LT(error_of([&] { parse_json(fmt::format(R"({{"{0}":1,"{0}":2}})", word)); }).size(),
+              250u);
+}
+
+TEST(JsonText, DepthAndNumberAreLimited) {
+    EXPECT_EQ(parse_json(nested(most_json_depth)), nlohmann::json::parse(nested(most_json_depth)));
+    expect_error([] { parse_json(fmt::format("[\n{}]", nested(most_json_depth))); },
+                 {"line 2, column 64: nested more than 64 deep"});
+    expect_error([] { parse_json(repeated("[", 1'000'000)); }, {"nested more than 64"});
+    expect_error([] { parse_json(repeated("{\"a\":", 1'000'000)); }, {"nested more than 64"});
+    // The list is a value, too.
+    EXPECT_EQ(parse_json(list_of("0", most_json_values - 1)).size(), most_json_values - 1);
+    expect_error([] { parse_json(list_of("0", most_json_values)); },
+                 {"line 1", "more than 10000000 values"});
+}
+
+// With a look through the whole list after each of its objects these would take an hour.
+TEST(JsonText, ListsOfObjectsTakeTimeInProportion) {
+    EXPECT_EQ(parse_json(list_of("{}", 1'000'000)).size(), 1'000'000u);
+    EXPECT_EQ(parse_json(list_of("[]", 1'000'000)).size(), 1'000'000u);
+}
+
+// The signal comes after some processor time of this process: in the midst of the list.
+void parse_until_a_signal_comes() {
+    const std::string text = list_of("{}", most_json_values - 1);
+    std::signal(SIGTERM, SIG_DFL);
+    catch_interrupts();
+    std::signal(SIGPROF, [](int) { raise(SIGTERM); });
+    const itimerval soon{{0, 0}, {0, 20'000}};
+    setitimer(ITIMER_PROF, &soon, nullptr);
+    try {
+        parse_json(text);
+    } catch (const Interrupted&) {
+        _exit(interrupt_exit_code());
+    }
+    _exit(1);
+}
+
+TEST(JsonTextDeathTest, SignalsAreHeard) {
+    testing::FLAGS_gtest_death_test_style = "threadsafe";
+    EXPECT_EXIT(parse_until_a_signal_comes(), testing::ExitedWithCode(128 + SIGTERM), "");
+}
+
+TEST(JsonText, FilesThatCannotBeRead) {
+    const TemporaryFolder folder;
+    expect_error([&] { load_json(folder / "none.json"); }, {"none.json", "no such file"});
+    expect_error([&] { load_json(folder.path()); }, {"not a file"});
+    write_bytes_to(folder / "huge.json", "");
+    std::filesystem::resize_file(folder / "huge.json", most_json_bytes + 1);
+    expect_error([&] { load_json(folder / "huge.json"); }, {"huge.json", "67108865", "67108864"});
+    write_bytes_to(folder / "twice.json", R"({"a": 1, "a": 2})");
+    expect_error([&] { load_json(folder / "twice.json"); }, {"twice.json: line 1, column "});
+}
+
+}  // namespace
+}  // namespace lamina
