@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "mesh/file_bytes.h"
+#include "base/file_bytes.h"
 #include "mesh/text_reader.h"
 
 namespace lamina {
