@@ -9,8 +9,11 @@
 
 namespace lamina {
 
-const std::vector<std::string> StudyFolder::results{"results.csv", "results.json", "report.html"};
-const std::vector<std::string> StudyFolder::folders{"references", "pictures"};
+std::vector<std::string> StudyFolder::names() {
+    std::vector<std::string> all = results();
+    for (const std::string& folder : folders()) all.push_back(folder);
+    return all;
+}
 
 std::filesystem::path StudyFolder::journal(int shard, int shards) const {
     return path / fmt::format("journal-{}-of-{}.jsonl", shard, shards);
@@ -30,7 +33,7 @@ std::vector<std::filesystem::path> StudyFolder::journals() const {
 std::vector<std::filesystem::path> StudyFolder::kept() const {
     std::vector<std::filesystem::path> found = journals();
     found.push_back(run_list());
-    for (const std::string& folder : folders) {
+    for (const std::string& folder : folders()) {
         std::error_code error;
         for (const auto& entry : std::filesystem::directory_iterator(path / folder, error))
             found.push_back(entry.path());
@@ -39,7 +42,7 @@ std::vector<std::filesystem::path> StudyFolder::kept() const {
 }
 
 void StudyFolder::make() const {
-    own().add(folders);
+    own().add(folders());
     for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
 }
 

@@ -14,8 +14,12 @@ namespace lamina {
 struct StudyFolder {
     explicit StudyFolder(std::filesystem::path folder) : path(std::move(folder)) {}
 
-    // Of what a study replaces, or fills.
-    static const std::vector<std::string> results, folders;
+    // Of what a study replaces, and of what it fills.
+    static std::vector<std::string> results() {
+        return {"results.csv", "results.json", "report.html"};
+    }
+    static std::vector<std::string> folders() { return {"references", "pictures"}; }
+    static std::vector<std::string> names();  // both
 
     std::filesystem::path path;
     OwnFiles own() const { return OwnFiles(path, "study"); }

@@ -82,6 +82,7 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
         const StudyFolder folder(path);
         check(folder);
         for (const auto& journal : folder.journals()) {
+            expect_regular_file(journal);
             const auto [found, added] = journals.emplace(journal.filename().string(), journal);
             if (!added) {
                 fail("{} and {} are the same shard: expected different ones",

@@ -56,18 +56,14 @@ void check_count(const StudyFile& file, const StudyOptions& options) {
     }
 }
 
-// Nothing that is read is replaced, nor what is somebody else's.
-void check_files(const std::vector<StudyData>& data, const StudyFolder& folder,
-                 const StudyOptions& options) {
+std::vector<std::filesystem::path> files_read(const std::vector<StudyData>& data,
+                                              const StudyOptions& options) {
     std::vector<std::filesystem::path> read{options.study};
     for (const StudyData& each : data) {
         const auto files = files_of(each.drawn);
         read.insert(read.end(), files.begin(), files.end());
     }
-    expect_different_files(read, folder.kept());
-    std::vector<std::string> names = StudyFolder::results;
-    names.insert(names.end(), StudyFolder::folders.begin(), StudyFolder::folders.end());
-    expect_own_folder(folder.path, "study", names, read, options.force);
+    return read;
 }
 
 // A folder belongs to one study, whose list it returns. `begun`: this shard has records in it.
@@ -126,9 +122,11 @@ void run_study(const StudyOptions& options) {
     const std::vector<StudyData> data = check_runs(list, file);
     restrict_instructions_as_asked();
     const StudyFolder folder(options.output);
-    check_files(data, folder, options);
+    const std::vector<std::filesystem::path> read = files_read(data, options);
+    expect_different_files(read, folder.kept());
     const auto journal = folder.journal(shard.number, shard.count);
     const auto there = check_folder(list, folder, std::filesystem::exists(journal), options.resume);
+    expect_own_folder(folder.path, "study", StudyFolder::names(), read, options.force);
     DataStore store;
     read_data(data, store, list);
     if (there) match_data(list, "now", *there, folder.run_list().string());
@@ -153,7 +151,7 @@ void run_study(const StudyOptions& options) {
 void merge(const StudyOptions& options) {
     const StudyFolder folder(options.output);
     try {
-        check_files({}, folder, options);
+        expect_own_folder(folder.path, "study", StudyFolder::names(), {}, options.force);
         merge_studies({options.merged.begin(), options.merged.end()}, folder,
                       [&](const std::string& text) { say(options, text); });
         write_results(folder, options);
