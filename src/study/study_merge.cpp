@@ -63,34 +63,31 @@ void copy_references(const std::filesystem::path& from, const std::filesystem::p
     }
 }
 
-}  // namespace
+// Throws Error where the folder's study is not the list's, or drew other data.
+void check_list(RunList& list, const std::filesystem::path& list_of, const StudyFolder& folder) {
+    const RunList other = read_list(folder);
+    if (other.id() != list.id()) {
+        fail("{}: holds another study, \"{}\", than {}, \"{}\"", folder.path.string(), other.title,
+             list_of.string(), list.title);
+    }
+    match_data(list, StudyFolder(list_of).run_list().string(), other, folder.run_list().string());
+}
 
-void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
-                   const ReferenceStore::Say& say) {
-    const std::filesystem::path first = StudyFolder(from.front()).run_list();
-    RunList list = read_list(StudyFolder(from.front()));
-    std::map<std::string, std::filesystem::path> journals;  // by name
-    const auto check = [&](const StudyFolder& folder) {
-        const RunList other = read_list(folder);
-        if (other.id() != list.id()) {
-            fail("{}: holds another study, \"{}\", than {}, \"{}\"", folder.path.string(),
-                 other.title, from.front().string(), list.title);
-        }
-        match_data(list, first.string(), other, folder.run_list().string());
-    };
-    for (const std::filesystem::path& path : from) {
-        const StudyFolder folder(path);
-        check(folder);
-        for (const auto& journal : folder.journals()) {
-            expect_regular_file(journal);
-            const auto [found, added] = journals.emplace(journal.filename().string(), journal);
-            if (!added) {
-                fail("{} and {} are the same shard: expected different ones",
-                     found->second.string(), journal.string());
-            }
+using Journals = std::map<std::string, std::filesystem::path>;  // by name
+
+void add_journals(const StudyFolder& folder, Journals& journals) {
+    for (const auto& journal : folder.journals()) {
+        expect_regular_file(journal);
+        const auto [found, added] = journals.emplace(journal.filename().string(), journal);
+        if (!added) {
+            fail("{} and {} are the same shard: expected different ones", found->second.string(),
+                 journal.string());
         }
     }
-    if (std::filesystem::exists(into.run_list())) check(into);
+}
+
+// What is there of them is a beginning of them.
+void check_journals(const Journals& journals, const StudyFolder& into) {
     for (const auto& [name, journal] : journals) {
         const std::filesystem::path there = into.path / name;
         if (!std::filesystem::exists(there)) continue;
@@ -99,7 +96,22 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
                  there.string(), journal.string());
         }
     }
+}
+
+}  // namespace
+
+void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
+                   const ReferenceStore::Say& say) {
+    RunList list = read_list(StudyFolder(from.front()));
+    Journals journals;
+    for (const std::filesystem::path& path : from) {
+        check_list(list, from.front(), StudyFolder(path));
+        add_journals(StudyFolder(path), journals);
+    }
+    if (std::filesystem::exists(into.run_list())) check_list(list, from.front(), into);
+    check_journals(journals, into);
     into.make();
+    // Where it is one of the folders that are read, its list stays.
     if (!std::filesystem::exists(into.run_list())) write_run_list(into, list);
     for (const std::filesystem::path& path : from) {
         const StudyFolder folder(path);
