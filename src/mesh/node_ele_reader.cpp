@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/interrupt.h"
-#include "mesh/file_bytes.h"
 #include "mesh/node_ele.h"
 #include "mesh/text_reader.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "mesh/file_bytes.h"
+#include "base/file_bytes.h"
 #include "mesh/mesh_assembly.h"
 #include "mesh/text_reader.h"
 #include "mesh/vtk_tokens.h"

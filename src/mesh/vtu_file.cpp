@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/warning.h"
-#include "mesh/file_bytes.h"
 #include "mesh/text_reader.h"
 
 namespace lamina {

@@ -17,14 +17,16 @@ double read_scalar(JsonReader& reader, const std::string& key) {
 }  // namespace
 
 IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings) {
-    TransferFunction transfer_function =
-        read_transfer_function(reader.object("transfer_function"), warnings);
+    JsonReader given = reader.object("transfer_function");
+    const auto colormap_file =
+        given.has("colormap") ? given.path_of("colormap") : std::filesystem::path();
+    TransferFunction transfer_function = read_transfer_function(given, warnings);
     const double front = read_scalar(reader, "sf");
     const double back = read_scalar(reader, "sb");
     const double length = reader.number("length");
     if (!(length >= 0)) reader.reject("length", "a number >= 0");
     reader.close();
-    return {std::move(transfer_function), front, back, length};
+    return {std::move(transfer_function), front, back, length, colormap_file};
 }
 
 }  // namespace lamina

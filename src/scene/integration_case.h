@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace lamina {
 // A segment of `lamina integrate` (DESIGN section 5).
 struct IntegrationCase {
     TransferFunction transfer_function;
-    double front = 0, back = 0;  // scalars, up to 1e300
-    double length = 0;           // world units, >= 0
+    double front = 0, back = 0;           // scalars, up to 1e300
+    double length = 0;                    // world units, >= 0
+    std::filesystem::path colormap_file;  // of the transfer function; empty: none
 };
 
 // {"transfer_function", "sf", "sb", "length"}; closes the reader. `warnings` as of

@@ -194,6 +194,10 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
     return errors;
 }
 
+std::vector<std::string> compared_picture_files(const std::string& name) {
+    return {name + ".png", name + ".csv"};
+}
+
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
                                          const std::string& name, KrausSubject& subject,
                                          const std::vector<Variant>& variants,
@@ -218,7 +222,7 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     write_picture_sheet(folder / (name + ".png"), pictures, exact_picture, differences, inset,
                         scale);
     write_text(folder / (name + ".csv"), csv_of_rows(rows));
-    made.values = {{"files", {name + ".png", name + ".csv"}},
+    made.values = {{"files", compared_picture_files(name)},
                    {"mesh", subject.name},
                    {"pixels", {scene.width, scene.height}},
                    {"inset", {inset.column, inset.row, inset.width, inset.height}},

@@ -39,6 +39,9 @@ struct ComparedPictures {
     nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows
 };
 
+// NAME.png and NAME.csv.
+std::vector<std::string> compared_picture_files(const std::string& name);
+
 // NAME.png, as the paper's figures: the variants' pictures side by side, the exact one last; below
 // each its inset, magnified and contrast-enhanced (each about its own mean, all with one
 // gain, which follows the exact one); and below that the signed difference from the exact one

@@ -9,7 +9,6 @@
 #include "study/picture_key.h"
 
 namespace lamina {
-namespace {
 
 std::string volume_name(const Scene& scene) {
     if (!scene.volume_request) return scene.volume_file.string();
@@ -20,13 +19,14 @@ std::string volume_name(const Scene& scene) {
 
 // A mesh made from a volume stays coarse where the transfer function shows nothing.
 std::string mesh_name(const Scene& scene) {
-    if (!scene.mesh_request) return fmt::format("{} {}", scene.mesh_file.string(), scene.scalar);
+    if (!scene.mesh_request) {
+        const std::string file = scene.mesh_file.string();
+        return scene.scalar.empty() ? file : file + " " + scene.scalar;
+    }
     const MeshSettings& settings = *scene.mesh_request;
     return fmt::format("{} {} {} {} {}", volume_name(scene), settings.tolerance, settings.max_tets,
                        settings.kuhn, transfer_function_key(scene.transfer_function));
 }
-
-}  // namespace
 
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
     std::unique_ptr<StoredVolume>& stored = volumes_[volume_name(scene)];

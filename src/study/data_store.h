@@ -10,6 +10,10 @@
 
 namespace lamina {
 
+// Paths, or formulas.
+std::string volume_name(const Scene& scene);
+std::string mesh_name(const Scene& scene);
+
 // Volumes and meshes of scenes, each loaded or made once, when first asked for. Throws Error where
 // that fails.
 class DataStore {

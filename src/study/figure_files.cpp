@@ -61,6 +61,10 @@ CodedImage strips_of(const std::vector<NamedCurve>& curves) {
 
 }  // namespace
 
+std::vector<std::string> ramp_figure_files(const std::string& name) {
+    return {name + ".csv", name + ".svg", name + ".png"};
+}
+
 Json write_ramp_figure(const std::filesystem::path& folder, const std::string& name,
                        const std::string& title, const std::vector<NamedCurve>& curves) {
     write_text(folder / (name + ".csv"), csv_of(curves));
@@ -69,7 +73,7 @@ Json write_ramp_figure(const std::filesystem::path& folder, const std::string& n
     write_png(png, strips_of(curves));
     png.commit();
     Json values;
-    values["files"] = {name + ".csv", name + ".svg", name + ".png"};
+    values["files"] = ramp_figure_files(name);
     for (const NamedCurve& named : curves) values["curves"][named.name] = named.curve;
     for (std::size_t i = 1; i < curves.size(); ++i) {
         values["errors"][curves[i].name] = to_json(error_of(curves[i].curve, curves[0].curve));

@@ -15,6 +15,9 @@ struct NamedCurve {
     Curve curve;
 };
 
+// NAME.csv, NAME.svg and NAME.png.
+std::vector<std::string> ramp_figure_files(const std::string& name);
+
 // Writes a figure of ramps, `curves[0]` being the exact one, into `folder`: NAME.csv (a column a
 // curve), NAME.svg (their plot) and NAME.png (a grey strip a curve, as the paper shows them).
 // Returns {files, curves: {name: [...]}, errors: {name: {linf, l1, l2}}}, in units of 1/255.

@@ -7,10 +7,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
 
@@ -32,8 +33,7 @@ nlohmann::json record_of(const std::string& line) {
 }
 
 CompleteLines read_lines(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) fail("{}: cannot read", path.string());
+    std::istringstream stream(read_file_bytes(path));
     CompleteLines lines;
     std::string line;
     // getline meets the file's end where the newline is missing: that line is not complete.
@@ -51,6 +51,8 @@ CompleteLines read_lines(const std::filesystem::path& path) {
 }  // namespace
 
 Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path_, ignored)) expect_regular_file(path_);
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
     try {

@@ -4,16 +4,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace lamina {
 
 // One table or figure of a paper: `reproduce`, or `draw` where it needs OpenGL. Either writes its
-// CSV and pictures into `folder`, which exists, and returns {values, paper, agrees, note, ...} (see
-// Findings::result). Errors in units of 1/255. A `Stage`, made from the capabilities of the current
-// context, holds what the items that draw share.
+// CSV and pictures, some of `files`, into `folder`, which exists, and returns {values, paper,
+// agrees, note, ...} (see Findings::result). Errors in units of 1/255. A `Stage`, made from the
+// capabilities of the current context, holds what the items that draw share.
 template <typename Stage>
 struct PaperItem {
     std::string name;
+    std::vector<std::string> files;
     nlohmann::ordered_json (*reproduce)(const std::filesystem::path& folder) = nullptr;
     nlohmann::ordered_json (*draw)(const std::filesystem::path& folder, Stage& stage) = nullptr;
 };

@@ -63,4 +63,18 @@ std::string content_of(const SceneMesh& mesh) {
     return hash.hex();
 }
 
+std::string content_of(const Colormap& colormap) {
+    ContentHash hash;
+    hash.add(static_cast<double>(colormap.colors.size()));
+    for (const ColorPoint& point : colormap.colors) {
+        hash.add(point.value);
+        add(hash, point.color);
+    }
+    for (const OpacityPoint& point : colormap.opacities) {
+        hash.add(point.value);
+        hash.add(point.opacity);
+    }
+    return hash.hex();
+}
+
 }  // namespace lamina

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "optics/colormap.h"
 #include "scene/scene.h"
 #include "scene/scene_mesh.h"
 #include "volume/volume.h"
@@ -17,5 +18,6 @@ std::string transfer_function_key(const TransferFunction& transfer_function);
 // Names of the data themselves, wherever they came from.
 std::string content_of(const Volume& volume);
 std::string content_of(const SceneMesh& mesh);
+std::string content_of(const Colormap& colormap);
 
 }  // namespace lamina

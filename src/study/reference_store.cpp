@@ -42,8 +42,16 @@ Reference trace(const Scene& scene, TraceOf of, DataStore& data) {
                              {scene.trace_tolerance}));
 }
 
-// All but the picture.
-Reference load_facts(const std::filesystem::path& folder, const std::string& id) {
+std::string content_of(const PreciseImage& image) {
+    ContentHash hash;
+    hash.add(static_cast<double>(image.width));
+    hash.add(image.rgba.data(), image.rgba.size() * sizeof(image.rgba[0]));
+    return hash.hex();
+}
+
+// All but the picture, and what names the picture.
+std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder,
+                                             const std::string& id) {
     const std::filesystem::path file = folder / (id + ".json");
     const nlohmann::json document = load_json(file);
     JsonReader reader(document, file);
@@ -53,42 +61,69 @@ Reference load_facts(const std::filesystem::path& folder, const std::string& id)
         reader.choice<TraceOf>("of", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
     reference.error_estimate = reader.number("error_estimate");
     reference.ms = reader.number("ms");
-    return reference;
+    return {std::move(reference), reader.text("picture")};
 }
 
 }  // namespace
 
 Reference ReferenceStore::load(const std::filesystem::path& folder, const std::string& id) {
-    Reference reference = load_facts(folder, id);
-    reference.image = read_npy(folder / (id + ".npy"));
-    return reference;
+    auto [reference, content] = load_facts(folder, id);
+    const std::filesystem::path file = folder / (id + ".npy");
+    reference.image = read_npy(file);
+    const std::string found = content_of(reference.image);
+    if (found != content) {
+        fail("{}: found a picture of hash {}, expected {} as {}.json says", file.string(), found,
+             content, id);
+    }
+    return std::move(reference);
 }
 
 double ReferenceStore::error_estimate(const std::filesystem::path& folder, const std::string& id) {
-    return load_facts(folder, id).error_estimate;
+    return load_facts(folder, id).first.error_estimate;
 }
 
-// The picture first: what has its .json is complete.
-void ReferenceStore::keep(const Reference& reference) const {
-    AtomicFile picture(folder_ / (reference.id + ".npy"));
-    write_npy(picture, reference.image);
-    picture.commit();
+// Nothing where it cannot be read: that is said once.
+std::optional<Reference> ReferenceStore::find(const std::string& id) {
+    if (lost_.contains(id)) return std::nullopt;
+    try {
+        return load(folder_, id);
+    } catch (const Error& error) {
+        say_(fmt::format("{}: the reference is traced again", error.what()));
+        lost_.insert(id);
+        return std::nullopt;
+    }
+}
+
+bool ReferenceStore::is_kept(const std::string& id) {
+    return find(id).has_value();
+}
+
+Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceOf of,
+                               DataStore& data) const {
+    std::optional<AtomicFile> picture;  // first: a file that cannot be written fails at once
+    if (!folder_.empty()) picture.emplace(folder_ / (id + ".npy"));
+    Reference reference = trace(scene, of, data);
+    reference.id = id;
+    if (!picture) return reference;
+    // The picture before the facts: what has its .json is complete.
+    write_npy(*picture, reference.image);
+    picture->commit();
     const nlohmann::ordered_json facts{{"of", reference.of == TraceOf::volume ? "volume" : "mesh"},
                                        {"error_estimate", reference.error_estimate},
-                                       {"ms", reference.ms}};
-    write_text(folder_ / (reference.id + ".json"), json_text(facts) + "\n");
+                                       {"ms", reference.ms},
+                                       {"picture", content_of(reference.image)}};
+    write_text(folder_ / (id + ".json"), json_text(facts) + "\n");
+    return reference;
 }
 
 const Reference& ReferenceStore::get(const Scene& scene, TraceOf of, DataStore& data) {
     const std::string id = key_of(scene, of, data);
-    const auto found = references_.find(id);
-    if (found != references_.end()) return found->second;
-    if (!folder_.empty() && std::filesystem::exists(folder_ / (id + ".json")))
-        return references_.emplace(id, load(folder_, id)).first->second;
-    Reference reference = trace(scene, of, data);
-    reference.id = id;
-    if (!folder_.empty()) keep(reference);
-    return references_.emplace(id, std::move(reference)).first->second;
+    const auto known = references_.find(id);
+    if (known != references_.end()) return known->second;
+    std::optional<Reference> reference;
+    if (!folder_.empty() && std::filesystem::exists(folder_ / (id + ".json"))) reference = find(id);
+    if (!reference) reference = make(id, scene, of, data);
+    return references_.emplace(id, std::move(*reference)).first->second;
 }
 
 }  // namespace lamina

@@ -52,12 +52,13 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
     return scene;
 }
 
-void check_runs(const RunList& list, const StudyFile& study) {
+std::vector<StudyData> check_runs(const RunList& list, const StudyFile& study) {
     struct Outcome {
         std::size_t runs = 0, failed = 0;
         std::string message;
     };
     std::vector<Outcome> outcomes(list.scenes.size());
+    std::vector<StudyData> data;
     for (const StudyRun& run : list.runs) {
         const StudyFile::SceneEntry& entry = study.scenes[run.scene];
         Outcome& outcome = outcomes[run.scene];
@@ -67,6 +68,7 @@ void check_runs(const RunList& list, const StudyFile& study) {
             const Scene scene = scene_of(run, study);
             check_file(scene.volume_file, entry);
             check_file(scene.mesh_file, entry);
+            add_data(run.scene, scene, reference_of(scene, study), data);
         } catch (const UnknownKeyError& error) {
             fail("{}: {}", study.file.string(), error.what());
         } catch (const KeyError& error) {
@@ -79,6 +81,7 @@ void check_runs(const RunList& list, const StudyFile& study) {
         if (outcome.failed == outcome.runs)
             fail("{}: no run can be drawn: {}", study.file.string(), outcome.message);
     }
+    return data;
 }
 
 }  // namespace lamina

@@ -179,7 +179,7 @@ RunList list_runs(const StudyFile& file) {
         fail("{}: sweep: found {} runs, expected at most {}", file.file.string(), run_count(file),
              most_runs);
     }
-    RunList list{file.title, {}, swept_keys(file), {}, {}, {}, file.rounds, file.frames};
+    RunList list{file.title, {}, swept_keys(file), {}, {}, {}, file.rounds, file.frames, {}};
     Lister lister(file, list);
     for (std::size_t scene = 0; scene < file.scenes.size(); ++scene) {
         list.scenes.push_back(file.scenes[scene].name);

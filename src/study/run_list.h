@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "study/study_data.h"
 #include "study/study_file.h"
 
 namespace lamina {
@@ -29,6 +30,12 @@ struct RunList {
         std::uint64_t runs = 0;
     };
 
+    // A volume, a mesh or a colour map that runs draw.
+    struct Data {
+        std::string name;     // its path, or its formula
+        std::string content;  // names what it holds; empty: it could not be read
+    };
+
     std::string title;
     std::vector<std::string> scenes;
     std::vector<std::string> swept;      // keys
@@ -36,8 +43,9 @@ struct RunList {
     std::vector<std::size_t> baselines;  // of each scene, into runs
     std::vector<Dropped> dropped;
     int rounds = 0, frames = 0;
+    std::vector<Data> data;  // in the order of the runs
 
-    // Of all that decides what is measured.
+    // Of all that decides what is measured, but for what the data hold.
     std::string id() const;
 };
 
@@ -61,8 +69,14 @@ TraceOf reference_of(const Scene& scene, const StudyFile& file);
 
 // Reads every run's scene, looks for its files, and throws Error where one is missing, a key is
 // unknown, or no run of a scene can be drawn. Whatever is wrong with single runs is found when
-// these are run.
-void check_runs(const RunList& list, const StudyFile& file);
+// these are run. Returns what the runs draw, each once.
+std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
+
+// Where two lists of one study both know what data hold, it must be the same, else Error; what only
+// one of them knows `list` knows then. `list_of`, `other_of`: where they come from, for the
+// message.
+void match_data(RunList& list, const std::string& list_of, const RunList& other,
+                const std::string& other_of);
 
 nlohmann::ordered_json to_json(const RunList& list);
 RunList run_list_from(const nlohmann::json& document, const std::filesystem::path& file);

@@ -17,10 +17,31 @@ Json to_json(const Settings& settings) {
 
 }  // namespace
 
+void match_data(RunList& list, const std::string& list_of, const RunList& other,
+                const std::string& other_of) {
+    if (list.data.size() != other.data.size()) {
+        fail("{}: names {} data sets, expected the {} of {}", list_of, list.data.size(),
+             other.data.size(), other_of);
+    }
+    for (std::size_t i = 0; i < list.data.size(); ++i) {
+        RunList::Data& found = list.data[i];
+        const RunList::Data& expected = other.data[i];
+        if (found.content.empty()) found.content = expected.content;
+        if (expected.content.empty() || found.content == expected.content) continue;
+        fail(
+            "{}: found data of hash {} ({}), expected {} ({}): results of different data do not "
+            "go together",
+            found.name, found.content, list_of, expected.content, other_of);
+    }
+}
+
 nlohmann::ordered_json to_json(const RunList& list) {
     Json json{{"study", list.id()},       {"title", list.title},         {"rounds", list.rounds},
               {"frames", list.frames},    {"scenes", list.scenes},       {"swept", list.swept},
-              {"dropped", Json::array()}, {"baselines", list.baselines}, {"runs", Json::array()}};
+              {"dropped", Json::array()}, {"baselines", list.baselines}, {"data", Json::array()},
+              {"runs", Json::array()}};
+    for (const RunList::Data& data : list.data)
+        json["data"].push_back({{"name", data.name}, {"content", data.content}});
     for (const RunList::Dropped& dropped : list.dropped)
         json["dropped"].push_back({{"because", dropped.because}, {"runs", dropped.runs}});
     for (const StudyRun& run : list.runs) {
@@ -33,6 +54,12 @@ nlohmann::ordered_json to_json(const RunList& list) {
 }
 
 RunList run_list_from(const nlohmann::json& document, const std::filesystem::path& file) {
+    if (document.is_object() && document.contains("study") && !document.contains("data")) {
+        fail(
+            "{}: found no \"data\", which says what was drawn: an older lamina wrote it; expected "
+            "an empty folder, where the study begins anew",
+            file.string());
+    }
     try {
         RunList list;
         document.at("title").get_to(list.title);
@@ -43,6 +70,8 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
         document.at("baselines").get_to(list.baselines);
         for (const nlohmann::json& each : document.at("dropped"))
             list.dropped.push_back({each.at("because"), each.at("runs")});
+        for (const nlohmann::json& each : document.at("data"))
+            list.data.push_back({each.at("name"), each.at("content")});
         for (const nlohmann::json& each : document.at("runs")) {
             StudyRun run{each.at("id"), each.at("name"), each.at("scene"), {}};
             for (const auto& [key, value] : each.at("settings").items())

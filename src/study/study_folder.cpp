@@ -9,6 +9,12 @@
 
 namespace lamina {
 
+std::vector<std::string> StudyFolder::names() {
+    std::vector<std::string> all = results();
+    for (const std::string& folder : folders()) all.push_back(folder);
+    return all;
+}
+
 std::filesystem::path StudyFolder::journal(int shard, int shards) const {
     return path / fmt::format("journal-{}-of-{}.jsonl", shard, shards);
 }
@@ -24,7 +30,19 @@ std::vector<std::filesystem::path> StudyFolder::journals() const {
     return found;
 }
 
+std::vector<std::filesystem::path> StudyFolder::kept() const {
+    std::vector<std::filesystem::path> found = journals();
+    found.push_back(run_list());
+    for (const std::string& folder : folders()) {
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(path / folder, error))
+            found.push_back(entry.path());
+    }
+    return found;
+}
+
 void StudyFolder::make() const {
+    own().add(folders());
     for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
 }
 

@@ -6,13 +6,23 @@
 #include <utility>
 #include <vector>
 
+#include "base/own_files.h"
+
 namespace lamina {
 
 // Where a study keeps what.
 struct StudyFolder {
     explicit StudyFolder(std::filesystem::path folder) : path(std::move(folder)) {}
 
+    // Of what a study replaces, and of what it fills.
+    static std::vector<std::string> results() {
+        return {"results.csv", "results.json", "report.html"};
+    }
+    static std::vector<std::string> folders() { return {"references", "pictures"}; }
+    static std::vector<std::string> names();  // both
+
     std::filesystem::path path;
+    OwnFiles own() const { return OwnFiles(path, "study"); }
     std::filesystem::path run_list() const { return path / "runs.json"; }
     std::filesystem::path references() const { return path / "references"; }
     std::filesystem::path pictures() const { return path / "pictures"; }
@@ -21,7 +31,9 @@ struct StudyFolder {
     }
     std::filesystem::path journal(int shard, int shards) const;
     std::vector<std::filesystem::path> journals() const;  // that are there, by name
-    void make() const;                                    // with its folders; throws Error
+    // All that is there and not a result: run list, journals, references, pictures.
+    std::vector<std::filesystem::path> kept() const;
+    void make() const;  // with its folders; throws Error
 };
 
 }  // namespace lamina

@@ -4,13 +4,15 @@
 #include <filesystem>
 #include <vector>
 
+#include "study/reference_store.h"
 #include "study/study_folder.h"
 
 namespace lamina {
 
 // Copies the journals, references and pictures of shards of one study into a folder. Throws Error
-// where they are of different studies, two of them are the same shard, or the folder holds another
-// study.
-void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into);
+// where they are of different studies or drew different data, two of them are the same shard, or
+// the folder holds another study. `say`: for references that are damaged.
+void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
+                   const ReferenceStore::Say& say);
 
 }  // namespace lamina

@@ -53,6 +53,7 @@ void write_run_list(const StudyFolder& folder, const RunList& list) {
 StudySummary write_study_output(const StudyFolder& folder) {
     const FolderLock lock(folder.path);
     const StudyResults results = read_results(folder);
+    folder.own().add(StudyFolder::results());
     write_text(folder.path / "results.csv", csv_of(results));
     Json report = report_of(results);
     write_text(folder.path / "results.json", json_text(report, 1) + "\n");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <new>
 #include <numeric>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
@@ -26,7 +27,8 @@ constexpr std::int64_t kept_bytes = std::int64_t{1} << 30;
 }  // namespace
 
 StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder,
-                         Shard shard, const nlohmann::ordered_json& begin)
+                         Shard shard, const nlohmann::ordered_json& begin, DataStore data,
+                         ReferenceStore::Say say)
     : list_(list),
       file_(file),
       folder_(folder),
@@ -34,7 +36,8 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
       journal_(folder.journal(shard.number, shard.count)),
       done_(list.runs.size(), Done{std::vector<char>(static_cast<std::size_t>(list.rounds)),
                                    std::vector<char>(static_cast<std::size_t>(list.rounds))}),
-      references_(folder.references()),
+      data_(std::move(data)),
+      references_(folder.references(), std::move(say)),
       contexts_([this] { drop_opengl(); }) {
     try {
         take_over(journal_.found());
@@ -46,6 +49,8 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
 }
 
 void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
+    if (!records.empty() && !records.front().contains("begin"))
+        fail("line 1 does not say how a process began");
     std::map<std::string, std::size_t> number_of;
     for (std::size_t i = 0; i < list_.runs.size(); ++i) number_of[list_.runs[i].id] = i;
     for (const nlohmann::json& record : records) {
@@ -60,10 +65,11 @@ void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
 }
 
 // A power cut may keep a record and lose a picture.
-bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& drawn) const {
-    const auto reference = drawn.at("reference").get<std::string>();
-    return std::filesystem::exists(folder_.picture(run)) &&
-           std::filesystem::exists(folder_.references() / (reference + ".json"));
+bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& drawn) {
+    const auto [found, added] =
+        kept_references_.try_emplace(drawn.at("reference").get<std::string>());
+    if (added) found->second = references_.is_kept(found->first);
+    return found->second && std::filesystem::exists(folder_.picture(run));
 }
 
 // What is still to be timed needs the baseline beside it, in this session.

@@ -40,10 +40,11 @@ struct Shard {
 //                                                             the study goes on
 class StudyRunner {
   public:
-    // `begin`: a record of where and how this process runs. Throws Error where the journal cannot
-    // be written, or another process writes it.
+    // `begin`: a record of where and how this process runs. `data`: may hold some of the first
+    // scene's. `say`: for what is done again though it was done before. Throws Error where the
+    // journal cannot be written, or another process writes it.
     StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder, Shard shard,
-                const nlohmann::ordered_json& begin);
+                const nlohmann::ordered_json& begin, DataStore data, ReferenceStore::Say say);
 
     // Does what the journal lacks. Throws Interrupted, and Error where records cannot be written;
     // whatever is wrong with a run alone is recorded.
@@ -67,7 +68,7 @@ class StudyRunner {
 
     void take_over(const std::vector<nlohmann::json>& records);
     void time_baselines_again();
-    bool has_pictures(const std::string& run, const nlohmann::json& drawn) const;
+    bool has_pictures(const std::string& run, const nlohmann::json& drawn);
     bool is_wanted(std::size_t run) const;
     bool is_finished(std::size_t run) const;
     std::vector<std::size_t> runs_of(std::size_t scene) const;
@@ -90,7 +91,8 @@ class StudyRunner {
     std::vector<Done> done_;
     DataStore data_;
     ReferenceStore references_;
-    std::map<std::size_t, StudyFrames> frames_;  // that are kept for the next round
+    std::map<std::string, bool> kept_references_;  // as they were found, by id
+    std::map<std::size_t, StudyFrames> frames_;    // that are kept for the next round
     DrawContexts contexts_;
 };
 

@@ -140,8 +140,9 @@ TEST_F(Crosschecks, WritesIntoItsFolderAlone) {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "out"))
         names.insert(entry.path().filename());
-    EXPECT_EQ(names, (std::set<std::string>{"budget.json", "projected.exr", "report.html",
-                                            "sliced.exr", "traced_mesh.exr", "traced_volume.exr"}));
+    EXPECT_EQ(names, (std::set<std::string>{"budget.json", "lamina-files.txt", "projected.exr",
+                                            "report.html", "sliced.exr", "traced_mesh.exr",
+                                            "traced_volume.exr"}));
 }
 
 TEST_F(Crosschecks, TheFourPicturesAreThoseOfRender) {

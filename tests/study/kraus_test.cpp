@@ -91,7 +91,14 @@ TEST(PictureSheet, LaysPicturesOutInRows) {
 }
 
 // The keys of a result without data sets, and its files.
-void expect_complete(const Json& result, const TemporaryFolder& folder) {
+// And nothing is written but what the item says beforehand.
+void expect_complete(const std::string& name, const Json& result, const TemporaryFolder& folder) {
+    const auto item = std::find_if(kraus_items().begin(), kraus_items().end(),
+                                   [&](const KrausItem& each) { return each.name == name; });
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        const std::string file = entry.path().filename();
+        EXPECT_EQ(std::count(item->files.begin(), item->files.end(), file), 1) << file;
+    }
     for (const char* key : {"values", "paper", "agrees", "note", "checks"})
         ASSERT_TRUE(result.contains(key)) << key;
     EXPECT_TRUE(result["agrees"].is_null());  // the paper's statements are about real meshes
@@ -147,7 +154,7 @@ TEST_F(Kraus, EveryItemHasItsKeysAndWritesItsFiles) {
         ASSERT_NE(item.draw, nullptr) << item.name;
         if (item.name == "figure10" || item.name == "artifacts") continue;
         const TemporaryFolder folder;
-        expect_complete(item.draw(folder.path(), stage), folder);
+        expect_complete(item.name, item.draw(folder.path(), stage), folder);
     }
 }
 
@@ -156,7 +163,7 @@ TEST_F(Kraus, Figure10LinearLengthsAreTooDark) {
     KrausStage stage(capabilities(), small_sizes(), {});
     const TemporaryFolder folder;
     const Json figure = draw_kraus_figure10(folder.path(), stage);
-    expect_complete(figure, folder);
+    expect_complete("figure10", figure, folder);
     const Json& plate = figure["values"]["meshes"][1];
     EXPECT_EQ(plate["mesh"], "plate");
     EXPECT_NEAR(plate["edge_ratio"].get<double>(), 1e4, 10);
@@ -170,7 +177,7 @@ TEST_F(Kraus, ArtifactsHaveARowForEveryRemedy) {
     KrausStage stage(capabilities(), small_sizes(), {});
     const TemporaryFolder folder;
     const Json artifacts = draw_kraus_artifacts(folder.path(), stage);
-    expect_complete(artifacts, folder);
+    expect_complete("artifacts", artifacts, folder);
     std::map<std::string, double> l2;
     for (const Json& row : artifacts["values"]["rows"]) {
         l2[row["mesh"].get<std::string>() + ", " + row["transfer_function"].get<std::string>() +

@@ -40,6 +40,7 @@ TEST(Lamar, EveryItemHasItsKeysAndWritesItsFiles) {
         EXPECT_TRUE(result["agrees"].is_boolean());
         EXPECT_FALSE(result["checks"].empty()) << item.name;
         ASSERT_FALSE(result["values"]["files"].empty()) << item.name;
+        EXPECT_EQ(result["values"]["files"], Json(item.files)) << item.name;
         for (const Json& file : result["values"]["files"]) {
             EXPECT_GT(std::filesystem::file_size(folder / file.get<std::string>()), 0u);
         }

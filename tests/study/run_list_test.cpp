@@ -96,7 +96,8 @@ TEST_F(RunLists, IdsChangeWithAllThatDecidesWhatIsMeasured) {
 
 TEST_F(RunLists, SurvivesItsFile) {
     study["drop"] = {{{"where", {{"render.target", "fixed8"}, {"scene", "a"}}}, {"because", "x"}}};
-    const RunList made = list();
+    RunList made = list();
+    made.data = {{"a.nrrd", "0123456789abcdef"}, {"cannot be read", ""}};
     const RunList read = run_list_from(json::parse(to_json(made).dump()), "runs.json");
     EXPECT_EQ(read.id(), made.id());
     EXPECT_EQ(to_json(read), to_json(made));
@@ -106,6 +107,27 @@ TEST_F(RunLists, SurvivesItsFile) {
     other = json::parse(to_json(made).dump());
     other.erase("rounds");
     expect_error([&] { run_list_from(other, "runs.json"); }, {"runs.json", "rounds"});
+    other = json::parse(to_json(made).dump());
+    other.erase("data");
+    expect_error([&] { run_list_from(other, "runs.json"); }, {"runs.json", "older lamina"});
+}
+
+TEST_F(RunLists, ListsOfDifferentDataDoNotMatch) {
+    const auto list_of = [](const std::vector<std::string>& contents) {
+        RunList made;
+        for (const std::string& content : contents) made.data.push_back({"a.nrrd", content});
+        return made;
+    };
+    RunList now = list_of({"1", "", "3"});
+    match_data(now, "now", list_of({"1", "2", ""}),
+               "runs.json");  // what one cannot read is no other
+    EXPECT_EQ(to_json(now)["data"], to_json(list_of({"1", "2", "3"}))["data"]);
+    expect_error(
+        [&] {
+            match_data(now, "now", list_of({"1", "2", "4"}), "runs.json");
+        },
+        {"a.nrrd: found", "hash 3 (now)", "expected 4 (runs.json)"});
+    expect_error([&] { match_data(now, "now", list_of({"1"}), "runs.json"); }, {"3 data sets"});
 }
 
 TEST_F(RunLists, WhatIsTheSameAsAnotherRunIsDroppedAndSaid) {

@@ -56,8 +56,7 @@ void check(const CompareOptions& options) {
 
 int compare(const CompareOptions& options) {
     check(options);
-    expect_different_files({options.a, options.diff}, "A and --diff");
-    expect_different_files({options.b, options.diff}, "B and --diff");
+    expect_different_files({options.a, options.b}, {options.diff});
     std::unique_ptr<AtomicFile> diff;
     if (!options.diff.empty()) diff = std::make_unique<AtomicFile>(options.diff);
     const Difference e = difference(load_image(options.a), load_image(options.b));

@@ -11,12 +11,15 @@
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/json_text.h"
+#include "base/own_files.h"
 #include "base/printable.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "command_line.h"
 #include "git_commit.h"
 #include "image/exr.h"
+#include "output_folder.h"
+#include "scene_files.h"
 #include "scene_options.h"
 #include "study/context_choice.h"
 #include "study/crosscheck.h"
@@ -30,11 +33,15 @@
 namespace lamina {
 namespace {
 
+constexpr const char* verb_name = "crosscheck";
+const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr", "sliced.exr",
+                                          "projected.exr",     "budget.json",     "report.html"};
+
 struct CrosscheckOptions {
     SceneOptions scene;
     std::string output, context = "auto";
     CrosscheckSettings settings;
-    bool quiet = false;
+    bool force = false, quiet = false;
 };
 
 void check_ladder(const CrosscheckSettings& settings) {
@@ -59,6 +66,7 @@ void write_picture(const std::filesystem::path& path, const Image& image) {
 void write_all(const std::filesystem::path& folder, const Crosscheck& made,
                const CrosscheckSubject& subject) {
     const ErrorBudget budget = error_budget(made.pictures);
+    OwnFiles(folder, verb_name).add(file_names);
     write_picture(folder / "traced_volume.exr", made.pictures.traced_volume);
     write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
     write_picture(folder / "sliced.exr", made.pictures.sliced);
@@ -73,9 +81,10 @@ void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     std::string ignored;
     const Scene scene = load_scene(options.scene, ignored);
+    const std::filesystem::path folder = options.output;
+    expect_own_folder(folder, verb_name, file_names, files_of(scene), options.force);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
-    const std::filesystem::path folder = options.output;
     make_folder(folder);
     const DrawContext context(choice);
     CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
@@ -95,7 +104,7 @@ void run(const CrosscheckOptions& options) {
 void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
-        "crosscheck", "Slice a volume and project its mesh, and say where they differ, and why");
+        verb_name, "Slice a volume and project its mesh, and say where they differ, and why");
     verb->add_option("SCENE", options->scene.file, "Scene file (JSON) with a volume")->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();
@@ -115,6 +124,7 @@ void add_crosscheck(CLI::App& app, int&) {
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+    verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options, tolerances] {
         Progress::set_quiet(options->quiet);

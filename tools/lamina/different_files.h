@@ -2,15 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace lamina {
 
-// Throws UsageError where two of these are one file, by the same name or another, or through a
-// link: what is read must not be replaced by what is written. Empty ones are passed over. `roles`:
-// what they are, for the message.
-void expect_different_files(const std::vector<std::filesystem::path>& files,
-                            const std::string& roles);
+// Throws UsageError where a file that a command writes is one that it reads, or is written twice:
+// by the same name or another, through a link, or as another name of the same bytes on the disk.
+// Empty paths are passed over.
+void expect_different_files(const std::vector<std::filesystem::path>& read,
+                            const std::vector<std::filesystem::path>& written);
 
 }  // namespace lamina

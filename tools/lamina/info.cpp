@@ -12,8 +12,10 @@
 #include "base/json_text.h"
 #include "base/printable.h"
 #include "base/standard_streams.h"
+#include "different_files.h"
 #include "file_report.h"
 #include "mesh/mesh_file.h"
+#include "scene_files.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -54,6 +56,8 @@ void run(const InfoOptions& options) {
             ".node, .ele)",
             options.file);
     }
+    expect_different_files(volume ? files_of_volume(options.file) : files_of_mesh(options.file),
+                           {options.png});
     const Json info = volume ? report_on_volume(options.file, options.png)
                              : report_on_mesh(options.file, options.png);
     write_result(options.json ? json_text(info, 2) + "\n" : table_text(info));

@@ -36,7 +36,6 @@ std::string json_text(const std::vector<SegmentIntegral>& results) {
 }
 
 void integrate(const std::string& cases_file, const std::string& output) {
-    expect_different_files({cases_file, output}, "CASES.json and -o");
     std::unique_ptr<AtomicFile> file;
     if (!output.empty()) file = std::make_unique<AtomicFile>(output);
     const std::filesystem::path path = cases_file;
@@ -46,15 +45,19 @@ void integrate(const std::string& cases_file, const std::string& output) {
     }
     std::vector<SegmentIntegral> results;
     std::vector<std::string> warnings;
+    std::vector<std::filesystem::path> read{path};
     for (std::size_t i = 0; i < cases.size(); ++i) {
         check_interrupt();
         const std::string place = fmt::format("[{}]", i);
         if (!cases[i].is_object()) {
             fail("{}: {}: found {}, expected an object", cases_file, place, cases[i].type_name());
         }
-        results.push_back(
-            integral_of(read_integration_case(JsonReader(cases[i], path, place), &warnings)));
+        const IntegrationCase given =
+            read_integration_case(JsonReader(cases[i], path, place), &warnings);
+        results.push_back(integral_of(given));
+        if (!given.colormap_file.empty()) read.push_back(given.colormap_file);
     }
+    expect_different_files(read, {output});
     for (const std::string& warning : warnings) print_message("lamina: warning: {}\n", warning);
     if (file) {
         file->write(json_text(results));

@@ -7,15 +7,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
+#include "different_files.h"
 #include "mesh/mesh_file.h"
 #include "mesh/volume_mesh.h"
 #include "scene/json_reader.h"
 #include "scene/scene_reader.h"
+#include "scene_files.h"
 #include "verbs.h"
 #include "volume/nrrd.h"
 
@@ -42,18 +45,16 @@ struct MeshTask {
 // A file that is made, or the two of them that .node means.
 class MeshOutput {
   public:
-    explicit MeshOutput(const std::filesystem::path& path) {
+    explicit MeshOutput(const std::filesystem::path& path) : paths_(files_of_mesh(path)) {
         const std::string extension = path.extension();
         if (extension != ".vtu" && extension != ".node") {
             throw UsageError(
                 fmt::format("-o {}: expected a name that ends in .vtu or .node", path.string()));
         }
         file_ = std::make_unique<AtomicFile>(path);
-        if (extension == ".node") {
-            elements_ =
-                std::make_unique<AtomicFile>(std::filesystem::path(path).replace_extension(".ele"));
-        }
+        if (extension == ".node") elements_ = std::make_unique<AtomicFile>(paths_.back());
     }
+    const std::vector<std::filesystem::path>& paths() const { return paths_; }
     void write(const MeshData& mesh) {
         if (!elements_) {
             write_vtu(*file_, mesh);
@@ -71,6 +72,7 @@ class MeshOutput {
     }
 
   private:
+    std::vector<std::filesystem::path> paths_;
     std::unique_ptr<AtomicFile> file_, elements_;
 };
 
@@ -90,9 +92,13 @@ bool is_scene(const std::filesystem::path& path) {
     return path.extension() == ".json";
 }
 
-MeshTask load(const MeshOptions& options) {
-    if (!is_scene(options.input)) return {read_nrrd(options.input), {}, {}};
+MeshTask load(const MeshOptions& options, const MeshOutput& output) {
+    if (!is_scene(options.input)) {
+        expect_different_files(files_of_volume(options.input), output.paths());
+        return {read_nrrd(options.input), {}, {}};
+    }
     const Scene scene = read_scene(load_json(options.input), options.input);
+    expect_different_files(files_of(scene), output.paths());
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) print_message("lamina: {}\n", warning);
     }
@@ -130,7 +136,7 @@ void run(const MeshOptions& options) {
     Progress::set_quiet(options.quiet);
     check(options);
     MeshOutput output(options.output);
-    MeshTask task = load(options);
+    MeshTask task = load(options, output);
     if (options.tolerance) task.settings.tolerance = *options.tolerance;
     if (options.max_tets) task.settings.max_tets = *options.max_tets;
     if (options.kuhn) task.settings.kuhn = true;

@@ -48,17 +48,6 @@ OmissionSwitch omission_switch(const RenderOptions& options) {
     return omissions;
 }
 
-void check_paths(const RenderOptions& options) {
-    expect_different_files({options.scene.file, options.output, options.stats, options.profile},
-                           "scene, -o, --stats and --profile");
-}
-
-void check_paths(const RenderOptions& options, const Scene& scene) {
-    for (const auto& data : files_of(scene))
-        expect_different_files({data, options.output, options.stats, options.profile},
-                               "the scene's data, -o, --stats and --profile");
-}
-
 void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
@@ -102,7 +91,7 @@ void run(const RenderOptions& options) {
     Stage reading("scene");
     const Scene scene = load_scene(options.scene, scene_text);
     reading.end();
-    check_paths(options, scene);
+    expect_different_files(files_of(scene), {options.output, options.stats, options.profile});
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
@@ -177,7 +166,6 @@ void add_render(CLI::App& app, int&) {
         }
         if (options->output.empty() && !options->profile.empty())
             throw UsageError("--profile: expected -o FILE, too");
-        check_paths(*options);
         Progress::set_quiet(options->quiet);
         run(*options);
     });

@@ -13,9 +13,12 @@
 #include "base/error.h"
 #include "base/folder.h"
 #include "base/json_text.h"
+#include "base/own_files.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "gl/context.h"
+#include "output_folder.h"
+#include "scene_files.h"
 #include "study/context_choice.h"
 #include "study/kraus.h"
 #include "study/kraus_stage.h"
@@ -29,7 +32,7 @@ namespace {
 struct ReproduceOptions {
     std::string paper, item, output;
     std::string context = "auto";
-    bool quiet = false;
+    bool force = false, quiet = false;
 };
 
 template <typename Stage>
@@ -48,6 +51,25 @@ std::vector<PaperItem<Stage>> chosen_items(const std::vector<PaperItem<Stage>>& 
     }
     throw UsageError(fmt::format("reproduce {} {}: unknown item, expected one of {}", options.paper,
                                  options.item, names_of(items)));
+}
+
+// That items may write, and the report on them.
+template <typename Stage>
+std::vector<std::string> files_of(const std::vector<PaperItem<Stage>>& items,
+                                  const std::string& report) {
+    std::vector<std::string> files{report};
+    for (const PaperItem<Stage>& item : items)
+        files.insert(files.end(), item.files.begin(), item.files.end());
+    return files;
+}
+
+// That items read where they are there.
+std::vector<std::filesystem::path> data_files() {
+    const std::filesystem::path data = KrausStage::data_folder();
+    std::vector<std::filesystem::path> files = files_of_volume(data / "bonsai.nrrd");
+    for (const char* const mesh : {"bluntfin.vtu", "combustor.vtu", "torso.vtu"})
+        files.push_back(data / mesh);
+    return files;
 }
 
 // Makes the context when an item first draws, and keeps it.
@@ -75,12 +97,16 @@ template <typename Stage>
 void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options) {
     Stagehand<Stage> stagehand(opengl_kind(options.context));
     const std::vector<PaperItem<Stage>> items = chosen_items(all, options);
-    make_folder(options.output);
     const std::filesystem::path folder = options.output;
-    AtomicFile file(folder / (options.paper + ".json"));
+    const std::string report_name = options.paper + ".json", verb = "reproduce " + options.paper;
+    expect_own_folder(folder, verb, files_of(items, report_name), data_files(), options.force);
+    const OwnFiles own(folder, verb);
+    make_folder(folder);
+    AtomicFile file(folder / report_name);
     nlohmann::ordered_json report;
     for (const PaperItem<Stage>& item : items) {
         nlohmann::ordered_json result;
+        own.add(item.files);
         try {
             result = stagehand.make(item, folder);
         } catch (const Interrupted&) {
@@ -90,6 +116,7 @@ void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions&
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
         report[item.name] = result;
     }
+    own.add({report_name});
     file.write(json_text(report, 1) + "\n");
     file.commit();
 }
@@ -120,6 +147,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
     verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");
+    verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "no progress");
     verb->callback([options] { run(*options); });
 }

@@ -7,28 +7,39 @@
 namespace lamina {
 namespace {
 
-void add_volume(const std::filesystem::path& volume, std::vector<std::filesystem::path>& files) {
-    files.push_back(volume);
+using Paths = std::vector<std::filesystem::path>;
+
+void append(Paths& files, const Paths& more) {
+    files.insert(files.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Paths files_of_volume(const std::filesystem::path& volume) {
+    Paths files{volume};
     try {
         files.push_back(read_nrrd_header(volume).data_path);
     } catch (const Error&) {
         // Said when the volume is read, if it is.
     }
+    return files;
 }
 
-void add_mesh(std::filesystem::path mesh, std::vector<std::filesystem::path>& files) {
-    files.push_back(mesh);
-    if (mesh.extension() == ".node") files.push_back(mesh.replace_extension(".ele"));
-    if (mesh.extension() == ".ele") files.push_back(mesh.replace_extension(".node"));
+Paths files_of_mesh(const std::filesystem::path& mesh) {
+    Paths files{mesh};
+    const std::string suffix = mesh.extension();
+    if (suffix == ".node" || suffix == ".ele") {
+        files.push_back(
+            std::filesystem::path(mesh).replace_extension(suffix == ".node" ? ".ele" : ".node"));
+    }
+    return files;
 }
 
-}  // namespace
-
-std::vector<std::filesystem::path> files_of(const Scene& scene) {
-    std::vector<std::filesystem::path> files;
+Paths files_of(const Scene& scene) {
+    Paths files{scene.file};
     if (!scene.colormap_file.empty()) files.push_back(scene.colormap_file);
-    if (!scene.volume_file.empty()) add_volume(scene.volume_file, files);
-    if (!scene.mesh_file.empty()) add_mesh(scene.mesh_file, files);
+    if (!scene.volume_file.empty()) append(files, files_of_volume(scene.volume_file));
+    if (!scene.mesh_file.empty()) append(files, files_of_mesh(scene.mesh_file));
     return files;
 }
 

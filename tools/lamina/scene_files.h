@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The files that reading one file means.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +9,13 @@
 
 namespace lamina {
 
-// All files that a scene file names, or that belong to them: its volume, that one's data file, its
-// mesh in one or two files, its colour map.
+// A volume's, and its data file.
+std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& volume);
+
+// A mesh's one or two.
+std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& mesh);
+
+// The scene's own, and those of all that it names: its volume, its mesh, its colour map.
 std::vector<std::filesystem::path> files_of(const Scene& scene);
 
 }  // namespace lamina

@@ -10,9 +10,11 @@
 #include "base/atomic_file.h"
 #include "base/folder.h"
 #include "base/json_text.h"
+#include "base/own_files.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "git_commit.h"
+#include "output_folder.h"
 #include "selftest/selftest.h"
 #include "study/context_choice.h"
 #include "study/draw_context.h"
@@ -23,11 +25,13 @@ namespace lamina {
 namespace {
 
 constexpr int bound_exceeded = 3;
+constexpr const char* verb_name = "selftest";
+constexpr const char *report_name = "selftest.json", *table_name = "selftest.txt";
 
 struct SelftestOptions {
     std::vector<std::string> groups;
     std::string output, context = "auto";
-    bool quiet = false;
+    bool force = false, quiet = false;
 };
 
 // Makes the renderer wrong on purpose, to see that the self-test finds it.
@@ -41,8 +45,9 @@ int run(const SelftestOptions& options) {
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
+    expect_own_folder(folder, verb_name, {report_name, table_name}, {}, options.force);
     make_folder(folder);
-    AtomicFile report(folder / "selftest.json"), table_file(folder / "selftest.txt");
+    AtomicFile report(folder / report_name), table_file(folder / table_name);
     const std::string mistake = mistake_asked_for();
     const DrawContext context(choice);
     const PictureMaker maker(context.capabilities(), mistake);
@@ -57,6 +62,7 @@ int run(const SelftestOptions& options) {
                                     {"mistake", mistake},
                                     {"machine", describe_machine()}};
     document.update(selftest_json(results));
+    OwnFiles(folder, verb_name).add({report_name, table_name});
     report.write(json_text(document, 1) + "\n");
     report.commit();
     const std::string table = selftest_table(results);
@@ -75,7 +81,7 @@ int run(const SelftestOptions& options) {
 void add_selftest(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<SelftestOptions>();
     CLI::App* const verb = app.add_subcommand(
-        "selftest", "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
+        verb_name, "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
     verb->add_option("-o,--output", options->output,
                      "Folder for selftest.json and selftest.txt (made if need be)")
         ->required();
@@ -85,6 +91,7 @@ void add_selftest(CLI::App& app, int& exit_code) {
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+    verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "The summary alone, and no progress on stderr");
     verb->callback([options, &exit_code] {
         Progress::set_quiet(options->quiet);

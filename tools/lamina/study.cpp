@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -13,8 +14,11 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "command_line.h"
+#include "different_files.h"
 #include "git_commit.h"
+#include "output_folder.h"
 #include "scene/json_reader.h"
+#include "scene_files.h"
 #include "study/context_choice.h"
 #include "study/machine.h"
 #include "study/run_list.h"
@@ -30,7 +34,7 @@ struct StudyOptions {
     std::string study, output;
     std::optional<std::string> shard;
     std::vector<std::string> merged;
-    bool resume = false, yes = false, quiet = false;
+    bool resume = false, yes = false, force = false, quiet = false;
 };
 
 Shard read_shard(const std::string& text) {
@@ -53,10 +57,21 @@ void check_count(const StudyFile& file, const StudyOptions& options) {
     }
 }
 
-// A folder belongs to one study. `begun`: this shard has records in it.
-void check_folder(const RunList& list, const StudyFolder& folder, bool begun, bool resume) {
-    if (!std::filesystem::exists(folder.run_list())) return;
-    const RunList there = run_list_from(load_json(folder.run_list()), folder.run_list());
+std::vector<std::filesystem::path> files_read(const std::vector<StudyData>& data,
+                                              const StudyOptions& options) {
+    std::vector<std::filesystem::path> read{options.study};
+    for (const StudyData& each : data) {
+        const auto files = files_of(each.drawn);
+        read.insert(read.end(), files.begin(), files.end());
+    }
+    return read;
+}
+
+// A folder belongs to one study, whose list it returns. `begun`: this shard has records in it.
+std::optional<RunList> check_folder(const RunList& list, const StudyFolder& folder, bool begun,
+                                    bool resume) {
+    if (!std::filesystem::exists(folder.run_list())) return std::nullopt;
+    RunList there = run_list_from(load_json(folder.run_list()), folder.run_list());
     if (there.id() != list.id()) {
         fail("{}: holds another study, \"{}\": expected an empty folder, or one of this study",
              folder.path.string(), there.title);
@@ -65,6 +80,7 @@ void check_folder(const RunList& list, const StudyFolder& folder, bool begun, bo
         fail("{}: holds finished runs of this study: --resume goes on with them",
              folder.path.string());
     }
+    return there;
 }
 
 void say(const StudyOptions& options, const std::string& text) {
@@ -94,20 +110,32 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
+void read_data(const std::vector<StudyData>& data, DataStore& store, RunList& list) {
+    const std::vector<std::string> contents = contents_of(data, store);
+    for (std::size_t i = 0; i < data.size(); ++i) list.data.push_back({data[i].name, contents[i]});
+}
+
 void run_study(const StudyOptions& options) {
     const Shard shard = options.shard ? read_shard(*options.shard) : Shard{};
     const StudyFile file = load_study(options.study);
     check_count(file, options);
-    const RunList list = list_runs(file);
-    check_runs(list, file);
+    RunList list = list_runs(file);
+    const std::vector<StudyData> data = check_runs(list, file);
     restrict_instructions_as_asked();
     const StudyFolder folder(options.output);
+    const std::vector<std::filesystem::path> read = files_read(data, options);
+    expect_different_files(read, folder.kept());
     const auto journal = folder.journal(shard.number, shard.count);
-    check_folder(list, folder, std::filesystem::exists(journal), options.resume);
+    const auto there = check_folder(list, folder, std::filesystem::exists(journal), options.resume);
+    expect_own_folder(folder.path, "study", StudyFolder::names(), read, options.force);
+    DataStore store;
+    read_data(data, store, list);
+    if (there) match_data(list, "now", *there, folder.run_list().string());
     folder.make();
     write_run_list(folder, list);
     say_what_is_left_out(list, options);
-    StudyRunner runner(list, file, folder, shard, begin_record());
+    StudyRunner runner(list, file, folder, shard, begin_record(), std::move(store),
+                       [&](const std::string& text) { say(options, text); });
     const std::size_t before = runner.finished();
     say(options, fmt::format("{} runs, {} of them finished before", runner.wanted(), before));
     try {
@@ -124,7 +152,9 @@ void run_study(const StudyOptions& options) {
 void merge(const StudyOptions& options) {
     const StudyFolder folder(options.output);
     try {
-        merge_studies({options.merged.begin(), options.merged.end()}, folder);
+        expect_own_folder(folder.path, "study", StudyFolder::names(), {}, options.force);
+        merge_studies({options.merged.begin(), options.merged.end()}, folder,
+                      [&](const std::string& text) { say(options, text); });
         write_results(folder, options);
     } catch (const Interrupted&) {
         throw Interrupted(fmt::format(
@@ -149,6 +179,7 @@ void add_study(CLI::App& app, int&) {
                      "Put the shards in these folders together in the folder of -o");
     verb->add_flag("--yes", options->yes,
                    fmt::format("Run it though it has more than {} runs", most_runs_unasked));
+    verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         Progress::set_quiet(options->quiet);

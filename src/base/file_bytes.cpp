@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/file_bytes.h"
+#include "base/file_bytes.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,13 +13,18 @@
 
 namespace lamina {
 
-std::string read_file_bytes(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
+void expect_regular_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
     if (!std::filesystem::exists(status)) fail("{}: cannot read: no such file", path.string());
     if (!std::filesystem::is_regular_file(status)) {
         fail("{}: cannot read: not a regular file", path.string());
     }
+}
+
+std::string read_file_bytes(const std::filesystem::path& path) {
+    expect_regular_file(path);
+    std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
     if (error) fail("{}: cannot read: {}", path.string(), error.message());
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/own_files.h"
+
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+TEST(OwnFiles, WhatIsThereIsOwnWhereItIsListed) {
+    const TemporaryFolder folder;
+    const OwnFiles own(folder.path(), "study");
+    own.expect_own({"a.csv", "b.csv"});  // none is there
+    own.add({"a.csv"});
+    write_bytes_to(folder / "a.csv", "1");
+    own.expect_own({"a.csv", "b.csv"});
+    write_bytes_to(folder / "b.csv", "1");
+    expect_error(
+        [&] {
+            own.expect_own({"a.csv", "b.csv"});
+        },
+        {"b.csv", "not written by lamina study", "--force"});
+    own.add({"b.csv"});
+    own.expect_own({"a.csv", "b.csv"});
+}
+
+TEST(OwnFiles, AreOfOneVerb) {
+    const TemporaryFolder folder;
+    const OwnFiles study(folder.path(), "study"), crosscheck(folder.path(), "crosscheck");
+    study.add({"report.html"});
+    write_bytes_to(folder / "report.html", "");
+    expect_error([&] { crosscheck.expect_own({"report.html"}); }, {"report.html", "crosscheck"});
+    crosscheck.add({"budget.json"});
+    study.expect_own({"report.html"});  // a verb's lines stay when another adds its own
+}
+
+TEST(OwnFiles, FoldersAndLinksThatLeadNowhereAreThere) {
+    const TemporaryFolder folder;
+    const OwnFiles own(folder.path(), "study");
+    std::filesystem::create_directory(folder / "pictures");
+    std::filesystem::create_symlink("absent", folder / "link");
+    expect_error([&] { own.expect_own({"pictures"}); }, {"pictures"});
+    expect_error([&] { own.expect_own({"link"}); }, {"link"});
+}
+
+TEST(OwnFiles, AddMakesTheFolder) {
+    const TemporaryFolder folder;
+    OwnFiles(folder / "new/place", "study").add({"a"});
+    EXPECT_TRUE(std::filesystem::exists(folder / "new/place" / OwnFiles::list_name));
+}
+
+TEST(OwnFiles, AnotherFileOfTheListsNameIsLeftAlone) {
+    const TemporaryFolder folder;
+    const OwnFiles own(folder.path(), "study");
+    for (const char* text : {"", "\n", "my files\nstudy: a.csv\n"}) {
+        write_bytes_to(folder / OwnFiles::list_name, text);
+        expect_error([&] { own.expect_own({}); }, {OwnFiles::list_name, "not a list"});
+        expect_error([&] { own.add({"a.csv"}); }, {OwnFiles::list_name, "not a list"});
+        EXPECT_EQ(read_bytes_of(folder / OwnFiles::list_name), text);
+    }
+}
+
+}  // namespace
+}  // namespace lamina
