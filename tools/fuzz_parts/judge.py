@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A random scene's pictures against what lamina claims of them, or its documents promise."""
+import json
+from dataclasses import dataclass, field
+
+import numpy
+
+from . import cameras, emission, mesh_oracle, transfer, volume_oracle
+from .program import Program
+
+CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
+ORACLE_PIXELS = 8
+SLAB_PIXELS = 300
+
+
+@dataclass
+class Verdict:
+    seed: int
+    labels: dict
+    findings: list = field(default_factory=list)
+    checks: dict = field(default_factory=dict)  # by name: how many times its bound was used at most
+    refusal: str = ""
+    commands: list = field(default_factory=list)
+
+
+class Judge:
+    def __init__(self, made, lamina, folder, seconds):
+        self.made, self.folder = made, folder
+        self.program = Program(lamina, folder, seconds)
+        self.verdict = Verdict(made.seed, made.labels, self.program.findings, commands=self.program.commands)
+        self.optics = transfer.Optics(made.scene["transfer_function"])
+        self.render = made.scene["render"]
+        self.max_error = self.render.get("max_error", 1)
+        size = made.scene["image"]
+        self.rays = cameras.Rays(made.scene["camera"], size["width"], size["height"])
+
+    def check(self, name, error, bound, text=""):
+        """In parts of full scale; error and bound as arrays of the same shape, or numbers."""
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            shares = numpy.nan_to_num(numpy.asarray(error / bound), nan=0.0, posinf=1e300)
+        share = float(shares.max()) if shares.size else 0.0
+        self.verdict.checks[name] = max(share, self.verdict.checks.get(name, 0.0))
+        if share <= 1:
+            return
+        at = numpy.unravel_index(shares.argmax(), shares.shape)
+        worst = float(numpy.broadcast_to(error, shares.shape)[at]) * 255
+        allowed = float(numpy.broadcast_to(bound, shares.shape)[at]) * 255
+        self.program.report(name, f"{worst:.4g} / 255, allowed {allowed:.4g}{text}", share)
+
+    def run(self):
+        self.made.write(self.folder)
+        traced = self.program.render("traced", ["--method", "trace", "--set", "render.trace.tolerance=1e-7"], ".npy")
+        drawn = self.program.render("drawn", self.made.arguments)
+        if drawn is None:
+            self.verdict.refusal = getattr(self.program, "refusal", "")
+        if traced is not None:
+            self.tracer(traced)
+        if traced is not None and drawn is not None:
+            (self.slices if self.made.volume else self.tets)(drawn, traced.picture)
+        return self.verdict
+
+    # The tracer against code that shares nothing with it.
+    def tracer(self, traced):
+        pixels = self.oracle_pixels(traced.picture)
+        data = self.made.volume or self.made.mesh
+        pieces_of = volume_oracle.pieces if self.made.volume else mesh_oracle.pieces
+        origins, directions = self.rays.of(*pixels)
+        count = len(origins)
+        # How much the roundings of the eye's and the data's own coordinates may move a ray.
+        largest = numpy.abs(data.origin if self.made.volume else data.points).max()
+        reach = max(largest, numpy.abs(self.rays.eye).max(), numpy.linalg.norm(
+            self.rays.eye - numpy.array(self.made.scene["camera"]["center"])))
+        moved = 2.0 ** -49 * reach
+        shifts = [moved * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
+                  for a, b, c in ((0, 0, 0), (1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))]
+        pieces = pieces_of(data, numpy.concatenate([origins + shift for shift in shifts]),
+                           numpy.tile(directions, (len(shifts), 1)))
+        colors, doubt = emission.integrate(pieces, self.optics, count * len(shifts))
+        coarser, _ = emission.integrate(pieces, self.optics, count * len(shifts), nodes=6)
+        colors, coarser = (x.reshape(len(shifts), count, 4) for x in (colors, coarser))
+        doubt = numpy.minimum(doubt.reshape(len(shifts), count).max(0), self.optics.brightest)
+        spread = numpy.abs(colors - colors[0]).max((0, 2))
+        converged = numpy.abs(colors - coarser).max((0, 2))
+        # Beside these, double precision: some 1e-10 of full scale where a peak is 1e-4 of the values' range wide.
+        bound = traced.stats["error_estimate"] + 4 * spread + 4 * converged + doubt + 1e-9 * self.optics.brightest
+        error = numpy.abs(traced.picture[pixels[1], pixels[0]] - colors[0]).max(1)
+        self.check("tracer", error, bound, f" (estimate {255 * traced.stats['error_estimate']:.2g})")
+
+    def oracle_pixels(self, picture):
+        """Spread over those that show something, and two more."""
+        seen = numpy.flatnonzero(picture[..., 3].ravel() > 0)
+        steps = numpy.linspace(0, len(seen) - 1, ORACLE_PIXELS).astype(int) if len(seen) else []
+        chosen = numpy.unique(numpy.concatenate([seen[steps], [self.made.seed % picture[..., 3].size, 0]]).astype(int))
+        rows, columns = numpy.divmod(chosen, picture.shape[1])
+        return columns, rows
+
+    # Slicing.
+    def slices(self, drawn, traced):
+        plan, settings = drawn.stats["plan"], self.render["slice"]
+        self.verdict.labels["slabs"] = plan["slabs"]
+        error = numpy.abs(drawn.picture - traced).max(2)
+        automatic = "samples" not in settings
+        claims = automatic and not any("max_error" in line for line in drawn.messages)
+        rounding = self.rounding_bound(plan)
+        if claims and rounding is not None and settings.get("filter") != "hardware":
+            self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")
+        exact = settings.get("filter", "exact") == "exact"
+        if plan["target"] == "float32" and plan["classification"] == "post" and exact and plan["slabs"] <= 400:
+            self.post_classified(drawn, plan)
+        if plan["target"] != "float32" and rounding is not None:
+            self.codes(drawn, plan, rounding)
+        elif plan["target"] == "float32" and not self.made.arguments[2:]:
+            self.omitted(drawn, plan)
+
+    def rounding_bound(self, plan):
+        """What compositing in the plan's target may add, where the scene asked for it (scene/tree_choice.cpp has the
+        same bounds for what is automatic, which max_error counts); None where nothing is promised."""
+        target, tree = self.render.get("target", "float32"), plan.get("tree")
+        asked_tree = self.render["slice"].get("tree")
+        if target == "auto" or asked_tree == "auto" or plan["target"] == "float32":
+            return 3 * 2.0 ** -24 * plan["slabs"] * self.optics.brightest if plan["target"] == "float32" else 0.0
+        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]
+                     or tree["code"] != "minimax"):
+            return None
+        code = CODES.get(target) or 0.5 / (2 ** self.render["emulate"]["bits"] - 1)
+        dither = plan.get("dither")
+        opacity = 1
+        if dither:
+            opacity = 2 * dither["increment"]
+        elif target == "emulated" and self.render["emulate"]["alpha"] != "nearest":
+            opacity = 2
+        roundings = plan["slabs"] * (2 + opacity + (plan["order"] == "front_to_back"))
+        roundings += 2 * dither["increment"] if dither and dither["color"] else target == "emulated"
+        if tree:
+            roundings = 1 + plan["slabs"] * 3 * 2.0 ** -24 / code
+        brightest = self.optics.brightest
+        return min(roundings * code * brightest if target == "float16" else roundings * code + brightest - 1, brightest)
+
+    def pixels(self):
+        count = self.rays.width * self.rays.height
+        chosen = numpy.arange(0, count, max(1, count // SLAB_PIXELS))
+        rows, columns = numpy.divmod(chosen, self.rays.width)
+        return columns, rows
+
+    def post_classified(self, drawn, plan):
+        """So many slabs are a definite picture: it has float32's roundings (docs/precision.md), what lies behind the
+        depth where marching ends (max_error / 1024) and empty bricks (.026 / 255)."""
+        pixels = self.pixels()
+        wanted, doubt = volume_oracle.slabs(self.made.volume, self.optics, self.rays, pixels, plan["slabs"])
+        bound = doubt + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22) + (self.max_error / 1024 + 0.026) / 255
+        error = numpy.abs(drawn.picture[pixels[1], pixels[0]] - wanted).max(1)
+        self.check("slabs", error, bound, f" by {plan['slabs']} slabs")
+
+    def codes(self, drawn, plan, rounding):
+        """A coarser target against the same slabs in float32."""
+        slicing = {key: value for key, value in self.render["slice"].items() if key not in ("tree", "dither")}
+        render = {**self.render, "target": "float32", "slice": {**slicing, "samples": plan["slabs"]}}
+        (self.folder / "float32_scene.json").write_text(json.dumps({**self.made.scene, "render": render}, indent=1))
+        exact = self.program.render("float32", self.made.arguments, scene="float32_scene.json")
+        if exact is None:
+            return
+        bound = rounding
+        if rounding == 0:  # chosen by the program
+            bound = plan.get("error_bound", self.max_error if self.render["slice"].get("tree") == "auto"
+                             else 0.15 * self.max_error) / 255
+        bound += (2 * self.max_error / 1024 + 0.052) / 255 + self.optics.brightest * plan["slabs"] * 2.0 ** -22
+        self.check("codes", numpy.abs(drawn.picture - exact.picture).max(2), bound, f" by {plan['slabs']} slabs")
+
+    def omitted(self, drawn, plan):
+        """docs/omissions.md says what each changes; tables change the picture towards the truth by what is not known."""
+        names = {omission["name"] for omission in drawn.stats["omitted"]}
+        if not names or names & {"table", "length_layers"}:
+            return
+        full = self.program.render("full", [*self.made.arguments, "--no-omit", "--set",
+                                            f"render.slice.samples={plan['slabs']}"])
+        if full is not None:
+            bound = (self.max_error / 1024 + 0.026) / 255 + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22)
+            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), bound, ": " + ", ".join(sorted(names)))
+
+    # Projected tetrahedra.
+    def tets(self, drawn, traced):
+        plan = drawn.stats["plan"]
+        promised = (plan["target"] == "float32" and plan["interpolation"] == "perspective"
+                    and plan["thickness"] == "exact" and self.render["project"]["coloring"] in ("preintegrated", "analytic")
+                    and self.render["project"].get("order") in (None, "exact")
+                    and drawn.stats["counts"]["pairs_in_wrong_order"] == 0)
+        if not promised:
+            return
+        claimed = plan.get("weight_error", plan.get("table", {}).get("error", 0)) / 255
+        error = numpy.abs(drawn.picture - traced).max(2)
+        # Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet on a ray.
+        mesh = self.made.mesh
+        corners = mesh.points[mesh.tets]
+        edge = max(numpy.linalg.norm(corners[:, a] - corners[:, b], axis=1).max() for a in range(4) for b in range(a))
+        placed = min(1.0, 9e-6 * edge * self.optics.densest * 2) * self.optics.brightest
+        self.check("tets", error, claimed + placed + self.optics.brightest * 5e-4,
+                   f" by {plan['source'] if 'source' in plan else 'parts'}, {plan['geometry']}")

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`lamina`, run on one scene after another, and what is wrong with every run whatever was asked."""
+import json
+import shlex
+import subprocess
+import time
+from dataclasses import dataclass, field
+
+import numpy
+
+from . import pictures
+
+# What the sanitizers write.
+REPORTS = ("AddressSanitizer", "LeakSanitizer", "ThreadSanitizer", "UndefinedBehaviorSanitizer", "runtime error:")
+
+
+@dataclass
+class Finding:
+    kind: str
+    text: str
+    times: float = 0  # how many times the bound, where there is one
+
+
+@dataclass
+class Outcome:
+    command: str
+    exit_code: int
+    messages: list
+    seconds: float
+    picture: numpy.ndarray = None
+    stats: dict = field(default_factory=dict)
+
+
+class Program:
+    def __init__(self, lamina, folder, seconds):
+        """folder: of the scene; pictures and statistics go there, too."""
+        self.lamina, self.folder, self.seconds = lamina, folder, seconds
+        self.findings = []
+        self.commands = []
+
+    def report(self, kind, text, times=0):
+        self.findings.append(Finding(kind, text, times))
+
+    def render(self, name, arguments, suffix=".exr", scene="scene.json"):
+        """None where it ended in an error, said as it should be or not."""
+        picture, stats = self.folder / f"{name}{suffix}", self.folder / f"{name}.json"
+        command = ["render", scene, "-o", picture.name, "--stats", stats.name, *arguments]
+        self.commands.append(shlex.join([str(self.lamina), *command]))
+        start = time.monotonic()
+        try:
+            done = subprocess.run([str(self.lamina), *command], cwd=self.folder, capture_output=True,
+                                  timeout=self.seconds)
+        except subprocess.TimeoutExpired:
+            self.report("hang", f"{name}: no end after {self.seconds} s")
+            return None
+        messages = done.stderr.decode("utf-8", "replace").splitlines()
+        found = Outcome(self.commands[-1], done.returncode, messages, time.monotonic() - start)
+        if not self.ended_well(name, found, picture, stats):
+            return None
+        found.stats = json.loads(stats.read_text())
+        found.picture = pictures.read(picture)
+        if not numpy.isfinite(found.picture).all():
+            self.report("nan", f"{name}: numbers in the picture that are none")
+            return None
+        # Opacity is 1 - product of numbers 0..1; float32 adds slabs up, by one rounding each.
+        alpha = found.picture[..., 3]
+        if alpha.min() < -1e-4 or alpha.max() > 1 + 1e-4 or found.picture.min() < -1e-4:
+            self.report("range", f"{name}: opacity {alpha.min():.6g} to {alpha.max():.6g}, least {found.picture.min():.3g}")
+        return found
+
+    def ended_well(self, name, found, picture, stats):
+        """Whether there is a picture; reports what is wrong."""
+        text = " | ".join(found.messages[:4])[:400]
+        if any(report in line for report in REPORTS for line in found.messages):
+            self.report("sanitizer", f"{name}: {text}")
+        elif found.exit_code == 1:
+            written = picture.exists() or stats.exists()
+            if len(found.messages) != 1 or not found.messages[0].startswith("lamina: ") or written:
+                self.report("message", f"{name}: expected one line, nothing written; found {text or 'nothing'}")
+            self.refusal = found.messages[0] if found.messages else ""
+        elif found.exit_code != 0:
+            self.report("crash", f"{name}: exit code {found.exit_code}: {text}")
+        elif not picture.exists() or not stats.exists():
+            self.report("message", f"{name}: exit code 0, and no picture or statistics")
+        else:
+            return True
+        return False
