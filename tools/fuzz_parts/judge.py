@@ -105,9 +105,11 @@ class Judge:
         if claims and rounding is not None and settings.get("filter") != "hardware":
             self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")
         exact = settings.get("filter", "exact") == "exact"
+        if rounding is None:
+            return
         if plan["target"] == "float32" and plan["classification"] == "post" and exact and plan["slabs"] <= 400:
             self.post_classified(drawn, plan)
-        if plan["target"] != "float32" and rounding is not None:
+        if plan["target"] != "float32":
             self.codes(drawn, plan, rounding)
         elif plan["target"] == "float32" and not self.made.arguments[2:]:
             self.omitted(drawn, plan)
@@ -117,10 +119,11 @@ class Judge:
         same bounds for what is automatic, which max_error counts); None where nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")
+        if tree and tree["nodes"] == "shader" and tree["code"] != "minimax" and len(tree["factors"]) > 1:
+            return None  # the other codes are there to be compared with
         if target == "auto" or asked_tree == "auto" or plan["target"] == "float32":
             return 3 * 2.0 ** -24 * plan["slabs"] * self.optics.brightest if plan["target"] == "float32" else 0.0
-        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]
-                     or tree["code"] != "minimax"):
+        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]):
             return None
         code = CODES.get(target) or 0.5 / (2 ** self.render["emulate"]["bits"] - 1)
         dither = plan.get("dither")

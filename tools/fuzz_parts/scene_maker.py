@@ -99,7 +99,9 @@ def omissions(dice):
 
 def world_scale(dice):
     """Voxels of about so many world units."""
-    return dice.log_between(1e-35, 1e25) if dice.chance(0.06) else dice.pick(1, 1, dice.log_between(1e-3, 1e3))
+    if dice.chance(0.06):
+        return dice.pick(dice.log_between(1e-35, 1e-28), dice.log_between(1e-28, 1e18), dice.log_between(1e18, 1e25))
+    return dice.pick(1, 1, dice.log_between(1e-3, 1e3))
 
 
 def image(dice):
