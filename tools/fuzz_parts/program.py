@@ -75,9 +75,10 @@ class Program:
             self.report("sanitizer", f"{name}: {text}")
         elif found.exit_code == 1:
             written = picture.exists() or stats.exists()
-            if len(found.messages) != 1 or not found.messages[0].startswith("lamina: ") or written:
+            # What is noticed earlier has lines of its own; the error is the last one.
+            if not found.messages or any(not line.startswith("lamina: ") for line in found.messages) or written:
                 self.report("message", f"{name}: expected one line, nothing written; found {text or 'nothing'}")
-            self.refusal = found.messages[0] if found.messages else ""
+            self.refusal = found.messages[-1] if found.messages else ""
         elif found.exit_code != 0:
             self.report("crash", f"{name}: exit code {found.exit_code}: {text}")
         elif not picture.exists() or not stats.exists():

@@ -130,8 +130,9 @@ def volume_scene(seed, dice):
     scene = {"version": 1, "volume": "volume.nrrd"}
     if not numpy.isfinite(volume.samples).all():
         scene["nan"] = "transparent"
+        volume.kind += " with NaN"
     made = RandomScene(seed, scene, {"volume.nrrd": volumes.nrrd(volume, dice)}, [], volume=volume,
-                       labels={"data": f"{volume.kind} {volume.type}"})
+                       labels={"data": f"{volume.type} {volume.kind}"})
     made = assembled(seed, dice, volume, corner, edges, made)
     made.scene["render"] = slicing(dice)
     made.arguments += omissions(dice)
@@ -146,6 +147,7 @@ def mesh_scene(seed, dice):
     scene = {"version": 1, "mesh": name}
     if not numpy.isfinite(mesh.values).all():
         scene["nan"] = "transparent"
+        mesh.kind += ", NaN"
     made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
     made = assembled(seed, dice, mesh, corner, edges, made)
     if dice.chance(0.1):  # on a corner

@@ -32,7 +32,7 @@ def points_of(kind, low, high, dice):
     if kind == "peaks":
         found = []
         for _ in range(dice.whole(1, 3)):
-            middle, half = dice.between(0.02, 0.98), dice.log_between(2e-4, 0.1)
+            middle, half = dice.between(0.02, 0.98), dice.log_between(2e-5, 0.1)
             found += [(at(middle - half), 0), (at(middle), dice.between(0.3, 1)), (at(middle + half), 0)]
         return found
     if kind == "steps":

@@ -3,7 +3,7 @@
 and slabs as post-classified slicing takes them."""
 import numpy
 
-from .emission import Pieces
+from .emission import Pieces, integrate
 
 
 def trilinear(samples, cell, local):
@@ -82,44 +82,84 @@ def pieces(volume, origins, directions):
     return found.at(finite & (end > start))
 
 
-def slabs(volume, optics, rays, pixels, count):
-    """Of some pixels (column and row): the colours [n, 4] of so many post-classified slabs, composited exactly, and how
-    far roundings of float32 in the scalar can take each from them."""
-    origins, directions = rays.of(*pixels)
-    low, high = volume.corners()
-    corners = [volume.to_world([(low, high)[(c >> a) & 1][a] for a in range(3)]) for c in range(8)]
-    depths = [float((corner - rays.eye) @ rays.forward) for corner in corners]
-    near, far = max(min(depths), 0), max(max(depths), 0)
-    chord = IndexRays(volume, origins, directions)
-    value_range = volume.finite_range() or (0, 0)
-    # Scalars are made of values up to the range, weights of places up to the size: a few roundings of each.
-    size = max(volume.samples.shape)
-    doubt = 2.0 ** -24 * (8 + 2 * size) * (value_range[1] - value_range[0]) + 2.0 ** -23 * max(map(abs, value_range))
-    picture, bound = numpy.zeros((len(origins), 4)), numpy.zeros(len(origins))
-    clear, clearer = numpy.ones(len(origins)), numpy.ones(len(origins))
-    for slab in range(count):
-        start = numpy.maximum(near + (far - near) * slab / count, chord.near)
-        end = numpy.minimum(near + (far - near) * (slab + 1) / count, chord.far)
+class SlabRays:
+    """Some pixels' rays (column and row), cut by slabs of equal thickness between the box's nearest and farthest depth
+    before the eye."""
+
+    def __init__(self, volume, rays, pixels, count):
+        self.volume, self.count = volume, count
+        low, self.high = volume.corners()
+        self.low = low
+        corners = [volume.to_world([(low, self.high)[(c >> a) & 1][a] for a in range(3)]) for c in range(8)]
+        depths = [float((corner - rays.eye) @ rays.forward) for corner in corners]
+        self.near, self.far = max(min(depths), 0), max(max(depths), 0)
+        self.chord = IndexRays(volume, *rays.of(*pixels))
+        lowest, highest = volume.finite_range() or (0, 0)
+        # Scalars are made of values up to the range, weights of places up to the size: a few roundings of float32 each.
+        self.doubt = (2.0 ** -24 * (8 + 2 * max(volume.samples.shape)) * (highest - lowest)
+                      + 2.0 ** -23 * max(abs(lowest), abs(highest)))
+
+    def slab(self, number):
+        """The rays that have a part in it, and where in z that starts and ends."""
+        start = numpy.maximum(self.near + (self.far - self.near) * number / self.count, self.chord.near)
+        end = numpy.minimum(self.near + (self.far - self.near) * (number + 1) / self.count, self.chord.far)
         hit = numpy.flatnonzero(end > start)
+        return hit, start[hit], end[hit]
+
+    def scalar(self, hit, z):
+        """Value, whether it is one, and the place in the volume."""
+        place = self.chord.origin[hit] + z[:, None] * self.chord.slope[hit]
+        cell = numpy.clip(numpy.floor(place), numpy.floor(self.low), numpy.ceil(self.high) - 1).astype(int)
+        return *trilinear(self.volume.samples, cell, numpy.clip(place - cell, 0, 1)), place
+
+
+def post_classified(rays, optics):
+    """Colours [n, 4] of slabs that show what is in the middle of each segment, composited exactly, and how far roundings
+    of float32 in the scalar can take each from them."""
+    count = len(rays.chord.near)
+    picture, bound = numpy.zeros((count, 4)), numpy.zeros(count)
+    clear, clearer = numpy.ones(count), numpy.ones(count)
+    holes = not numpy.isfinite(rays.volume.samples).all()
+    for slab in range(rays.count):
+        hit, start, end = rays.slab(slab)
         if not len(hit):
             continue
-        middle = chord.origin[hit] + ((start + end) / 2)[hit, None] * chord.slope[hit]
-        cell = numpy.clip(numpy.floor(middle), numpy.floor(low), numpy.ceil(high) - 1).astype(int)
-        scalar, finite = trilinear(volume.samples, cell, numpy.clip(middle - cell, 0, 1))
-        length = (end - start)[hit] * chord.world[hit] * finite
-        looks = [optics.at(scalar + offset) for offset in (0, -doubt, doubt)]
-        # Next to a face of cells that show nothing (NaN), roundings decide which side counts.
-        edge = numpy.abs(middle - numpy.round(middle)).min(1) < 2.0 ** -20 * size
+        scalar, finite, place = rays.scalar(hit, (start + end) / 2)
+        length = (end - start) * rays.chord.world[hit] * finite
+        looks = [optics.at(scalar + offset) for offset in (0, -rays.doubt, rays.doubt)]
         alphas = [-numpy.expm1(-look[:, 3] * length) for look in looks]
-        least = numpy.minimum.reduce(alphas)
-        spread = numpy.maximum.reduce(alphas) - least
+        least, most = numpy.minimum.reduce(alphas), numpy.maximum.reduce(alphas)
+        spread = most - least
+        if holes:  # next to a face of cells that show nothing, roundings decide which side counts
+            edge = numpy.abs(place - numpy.round(place)).min(1) < 2.0 ** -20 * max(rays.volume.samples.shape)
+            spread = numpy.where(edge, 1.0, spread)
         colors = [look[:, :3] for look in looks]
         color_spread = (numpy.maximum.reduce(colors) - numpy.minimum.reduce(colors)).max(1)
-        if not numpy.isfinite(volume.samples).all():
-            spread = numpy.where(edge, 1.0, spread)
         picture[hit, :3] += (clear[hit] * alphas[0])[:, None] * colors[0]
         picture[hit, 3] += clear[hit] * alphas[0]
-        bound[hit] += clearer[hit] * (spread * optics.brightest + numpy.maximum.reduce(alphas) * color_spread)
+        bound[hit] += clearer[hit] * (spread * optics.brightest + most * color_spread)
         clear[hit] *= 1 - alphas[0]
         clearer[hit] *= 1 - least
     return picture, bound
+
+
+def preintegrated(rays, optics):
+    """The same of slabs in which the scalar runs straight from end to end, moved so that its mean is that of the parabola
+    through both and the middle (docs/precision.md), within the range of the data."""
+    parts, ends = [], []
+    for slab in range(rays.count):
+        hit, start, end = rays.slab(slab)
+        front, middle, back = (rays.scalar(hit, z)[0] for z in (start, (start + end) / 2, end))
+        bend = 2 / 3 * (middle - (front + back) / 2)
+        parts.append(Pieces(hit, start * rays.chord.world[hit], (end - start) * rays.chord.world[hit], None))
+        ends.append(numpy.stack([front + bend, back + bend], 1))
+    ends = numpy.clip(numpy.concatenate(ends), *rays.volume.finite_range())
+    pictures = []
+    for moved in ((0, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)):
+        shifted = ends + rays.doubt * numpy.array(moved)
+        scalars = shifted[:, :1] + (shifted[:, 1:] - shifted[:, :1]) * numpy.array([0, 1 / 3, 2 / 3, 1])
+        scalars[ends[:, 0] == ends[:, 1]] = shifted[ends[:, 0] == ends[:, 1]][:, :1]
+        pieces = Pieces(*(numpy.concatenate([getattr(part, name) for part in parts])
+                          for name in ("ray", "start", "length")), scalars)
+        pictures.append(integrate(pieces, optics, len(rays.chord.near))[0])
+    return pictures[0], 2 * numpy.abs(numpy.array(pictures) - pictures[0]).max((0, 2))

@@ -37,7 +37,7 @@ class Volume:
 def sizes(dice):
     kind = dice.weighted(small=6, thin=2, line=1, single=0.3, wide=0.7)
     if kind == "wide":
-        return [dice.whole(20, 40) for _ in range(3)]
+        return [dice.whole(20, 64) for _ in range(3)]
     size = [dice.whole(2, 12) for _ in range(3)]
     if kind == "thin":
         size[dice.whole(0, 2)] = dice.whole(1, 2)
@@ -62,7 +62,7 @@ def field(kind, size, dice):
         return dice.array(*size)
     if kind == "sparse":
         found = numpy.zeros(size)
-        for _ in range(dice.whole(1, 8)):
+        for _ in range(dice.whole(1, 8) if dice.chance(0.7) else dice.whole(20, 80)):
             found[tuple(dice.whole(0, n - 1) for n in size)] = dice.between(0.3, 1)
         return found
     if kind == "labels":
