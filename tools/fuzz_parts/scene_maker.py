@@ -154,6 +154,7 @@ def mesh_scene(seed, dice):
         eye = mesh.points[dice.whole(0, len(mesh.points) - 1)]
         if numpy.linalg.norm(eye - made.scene["camera"]["center"]) > 1e-3 * numpy.abs(edges).max():
             made.scene["camera"]["eye"] = eye.tolist()
+            made.labels["camera"] = "corner of a tet"
             made.scene["camera"]["up"] = cameras.up_for(
                 (eye - made.scene["camera"]["center"]) / numpy.linalg.norm(eye - made.scene["camera"]["center"]), dice)
     made.scene["render"] = projecting(dice)

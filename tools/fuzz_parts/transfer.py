@@ -132,3 +132,12 @@ class Optics:
 
     def at(self, scalars):
         return self.in_part(self.part_at(scalars), scalars)
+
+    def shows(self, low, high):
+        """Whether there is extinction anywhere between two scalars."""
+        first, last = self.part_at(low), self.part_at(high)
+        shown = (self.at_low[:, 3] > 0) | (self.at_high[:, 3] > 0)
+        up_to = numpy.concatenate([[0], numpy.cumsum(shown)])
+        between = up_to[last] > up_to[numpy.minimum(first + 1, last)]
+        ends = (self.at(low)[..., 3] > 0) | (self.at(high)[..., 3] > 0)
+        return ends | between | (first < last) & ((self.at_high[first, 3] > 0) | (self.at_low[last, 3] > 0))

@@ -3,7 +3,7 @@
 and slabs as post-classified slicing takes them."""
 import numpy
 
-from .emission import Pieces, integrate
+from .emission import Pieces, integrate, joined
 
 
 def trilinear(samples, cell, local):
@@ -145,21 +145,24 @@ def post_classified(rays, optics):
 
 def preintegrated(rays, optics):
     """The same of slabs in which the scalar runs straight from end to end, moved so that its mean is that of the parabola
-    through both and the middle (docs/precision.md), within the range of the data."""
-    parts, ends = [], []
+    through both and the middle (docs/precision.md), within the range of the data; what shows nothing between the least and
+    the largest of the three shows nothing."""
+    parts, samples = [], []
     for slab in range(rays.count):
         hit, start, end = rays.slab(slab)
-        front, middle, back = (rays.scalar(hit, z)[0] for z in (start, (start + end) / 2, end))
-        bend = 2 / 3 * (middle - (front + back) / 2)
-        parts.append(Pieces(hit, start * rays.chord.world[hit], (end - start) * rays.chord.world[hit], None))
-        ends.append(numpy.stack([front + bend, back + bend], 1))
-    ends = numpy.clip(numpy.concatenate(ends), *rays.volume.finite_range())
+        samples.append(numpy.stack([rays.scalar(hit, z)[0] for z in (start, (start + end) / 2, end)], 1))
+        parts.append(Pieces(hit, start * rays.chord.world[hit], (end - start) * rays.chord.world[hit], samples[-1]))
+    parts, samples = joined(*parts), numpy.concatenate(samples)
+    bend = 2 / 3 * (samples[:, 1] - (samples[:, 0] + samples[:, 2]) / 2)
+    ends = numpy.clip(samples[:, [0, 2]] + bend[:, None], *rays.volume.finite_range())
     pictures = []
-    for moved in ((0, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)):
-        shifted = ends + rays.doubt * numpy.array(moved)
+    # Roundings of the ends, and (the last one counts) of the least and the largest sample.
+    for front, back, wider in ((0, 0, 0), (1, 1, 0), (-1, -1, 0), (1, -1, 0), (-1, 1, 0), (0, 0, 1), (0, 0, -1)):
+        shifted = ends + rays.doubt * numpy.array([front, back])
         scalars = shifted[:, :1] + (shifted[:, 1:] - shifted[:, :1]) * numpy.array([0, 1 / 3, 2 / 3, 1])
-        scalars[ends[:, 0] == ends[:, 1]] = shifted[ends[:, 0] == ends[:, 1]][:, :1]
-        pieces = Pieces(*(numpy.concatenate([getattr(part, name) for part in parts])
-                          for name in ("ray", "start", "length")), scalars)
+        same = ends[:, 0] == ends[:, 1]
+        scalars[same] = shifted[same][:, :1]
+        seen = optics.shows(samples.min(1) - wider * rays.doubt, samples.max(1) + wider * rays.doubt)
+        pieces = Pieces(parts.ray, parts.start, parts.length, scalars).at(seen)
         pictures.append(integrate(pieces, optics, len(rays.chord.near))[0])
     return pictures[0], 2 * numpy.abs(numpy.array(pictures) - pictures[0]).max((0, 2))
