@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Emission and absorption along rays, by code that shares nothing with lamina's: pieces of cubics in Bernstein form are
-halved until each lies between two knots of the transfer function; there optical depth is exact, and colour is integrated
-by Gauss's rule over pieces that are thin enough."""
+"""Emission and absorption along rays, by code that shares nothing with lamina's: pieces of cubics in Bernstein form
+are halved until each lies between two knots of the transfer function; there optical depth is exact, and colour is
+integrated by Gauss's rule over pieces that are thin enough."""
 from dataclasses import dataclass
 
 import numpy

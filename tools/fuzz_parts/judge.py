@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A random scene's pictures against what lamina claims of them, or its documents promise."""
 import json
+import platform
 from dataclasses import dataclass, field
 
 import numpy
@@ -9,6 +10,8 @@ from . import cameras, emission, mesh_oracle, transfer, volume_oracle
 from .program import Program
 
 CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
+TRACE = ["--method", "trace", "--set", "render.trace.tolerance=1e-7"]
+OF_MESH = ["--set", "render.trace.of=mesh"]
 ORACLE_PIXELS = 8
 SLAB_PIXELS = 300
 STRAIGHT_PIXELS = 60
@@ -50,15 +53,31 @@ class Judge:
 
     def run(self):
         self.made.write(self.folder)
-        traced = self.program.render("traced", ["--method", "trace", "--set", "render.trace.tolerance=1e-7"], ".npy")
+        traced = self.program.render("traced", TRACE, ".npy")
         drawn = self.program.render("drawn", self.made.arguments)
         if drawn is None:
             self.verdict.refusal = getattr(self.program, "refusal", "")
         if traced is not None:
             self.tracer(traced)
         if traced is not None and drawn is not None:
-            (self.slices if self.made.volume else self.tets)(drawn, traced.picture)
+            self.drawn(drawn, traced)
         return self.verdict
+
+    def drawn(self, drawn, traced):
+        if self.made.seed % 8 == 0 and platform.machine() == "x86_64" and drawn.stats["context"].startswith("cpu"):
+            self.same(drawn)
+        if self.render["method"] == "slice":
+            return self.slices(drawn, traced.picture)
+        if self.made.volume:  # a mesh made from it
+            traced = self.program.render("traced_mesh", TRACE + OF_MESH, ".npy")
+        return traced and self.tets(drawn, traced.picture)
+
+    def same(self, drawn):
+        """Neither instructions nor threads change a picture (docs/architecture.md)."""
+        least = self.program.render("least", self.made.arguments, least=True)
+        if least is not None:
+            differ = int((least.picture != drawn.picture).any(2).sum())
+            self.check("same", float(differ), 1e-9, f" is nothing: {differ} pixels differ with SSE4 on one processor")
 
     # The tracer against code that shares nothing with it.
     def tracer(self, traced):
@@ -140,9 +159,15 @@ class Judge:
         brightest = self.optics.brightest
         return min(roundings * code * brightest if target == "float16" else roundings * code + brightest - 1, brightest)
 
+    def left_out(self, plan):
+        """What two pictures of the same slabs in float32 may differ by: float32's roundings (docs/precision.md,
+        "Opacity in float32"), what lies behind the depth where marching ends (max_error / 1024), empty bricks
+        (.026 / 255)."""
+        return ((self.max_error / 1024 + 0.026) / 255
+                + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22))
+
     def slabs(self, drawn, plan):
-        """So many slabs are a definite picture: it has float32's roundings (docs/precision.md, "Opacity in float32"), what
-        lies behind the depth where marching ends (max_error / 1024) and empty bricks (.026 / 255)."""
+        """So many slabs are a definite picture."""
         straight = plan["classification"] == "preintegrated"
         if plan["slabs"] > 400 or straight and not numpy.isfinite(self.made.volume.samples).all():
             return
@@ -151,7 +176,7 @@ class Judge:
         rows, columns = numpy.divmod(chosen, self.rays.width)
         cut = volume_oracle.SlabRays(self.made.volume, self.rays, (columns, rows), plan["slabs"])
         wanted, doubt = (volume_oracle.preintegrated if straight else volume_oracle.post_classified)(cut, self.optics)
-        bound = doubt + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22) + (self.max_error / 1024 + 0.026) / 255
+        bound = doubt + self.left_out(plan)
         error = numpy.abs(drawn.picture[rows, columns] - wanted)
         # Tables hold opacity exactly, and colour as well as they say.
         error = error[:, 3] if straight and "table" in plan else error.max(1)
@@ -169,25 +194,26 @@ class Judge:
         if rounding == 0:  # chosen by the program
             bound = plan.get("error_bound", self.max_error if self.render["slice"].get("tree") == "auto"
                              else 0.15 * self.max_error) / 255
-        bound += (2 * self.max_error / 1024 + 0.052) / 255 + self.optics.brightest * plan["slabs"] * 2.0 ** -22
-        self.check("codes", numpy.abs(drawn.picture - exact.picture).max(2), bound, f" by {plan['slabs']} slabs")
+        self.check("codes", numpy.abs(drawn.picture - exact.picture).max(2), bound + 2 * self.left_out(plan),
+                   f" by {plan['slabs']} slabs")
 
     def omitted(self, drawn, plan):
-        """docs/omissions.md says what each changes; tables change the picture towards the truth by what is not known."""
+        """docs/omissions.md says what each changes; of tables it is not said by how much."""
         names = {omission["name"] for omission in drawn.stats["omitted"]}
         if not names or names & {"table", "length_layers"}:
             return
         full = self.program.render("full", [*self.made.arguments, "--no-omit", "--set",
                                             f"render.slice.samples={plan['slabs']}"])
         if full is not None:
-            bound = (self.max_error / 1024 + 0.026) / 255 + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22)
-            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), bound, ": " + ", ".join(sorted(names)))
+            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), self.left_out(plan),
+                       ": " + ", ".join(sorted(names)))
 
     # Projected tetrahedra.
     def tets(self, drawn, traced):
         plan = drawn.stats["plan"]
         promised = (plan["target"] == "float32" and plan["interpolation"] == "perspective"
-                    and plan["thickness"] == "exact" and self.render["project"]["coloring"] in ("preintegrated", "analytic")
+                    and plan["thickness"] == "exact"
+                    and self.render["project"]["coloring"] in ("preintegrated", "analytic")
                     and self.render["project"].get("order") in (None, "exact")
                     and drawn.stats["counts"]["pairs_in_wrong_order"] == 0)
         if not promised:
@@ -201,27 +227,34 @@ class Judge:
                    f" by {plan['source']}, {plan['geometry']}")
 
     def placed(self, traced):
-        """Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet. Where that is much,
-        what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours."""
-        mesh = self.made.mesh
-        corners = mesh.points[mesh.tets]
-        edge = max(numpy.linalg.norm(corners[:, a] - corners[:, b], axis=1).max() for a in range(4) for b in range(a))
+        """Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet. Where that is
+        much, what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours."""
+        edge = self.longest_edge()
         most = min(1.0, 2 * 9e-6 * edge * self.optics.densest) * self.optics.brightest
         if most < 1e-3 * self.optics.brightest:
             return most
         change = numpy.zeros(traced.shape[:2])
         for number, (a, b, c) in enumerate(((1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))):
-            moved = self.moved_picture(number, 9e-6 * edge * (a * self.rays.right + b * self.rays.up + c * self.rays.forward))
-            change = numpy.maximum(change, numpy.abs(moved - traced).max(2))
+            way = 9e-6 * edge * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
+            change = numpy.maximum(change, numpy.abs(self.moved_picture(number, way) - traced).max(2))
         height, width = change.shape
         wide = numpy.pad(change, 1)
         near = numpy.max([wide[i:i + height, j:j + width] for i in range(3) for j in range(3)], axis=0)
         return numpy.minimum(most, 4 * near + 1e-3 * self.optics.brightest)
 
+    def longest_edge(self):
+        if self.made.volume:  # no longer than its box
+            low, high = self.made.volume.corners()
+            return numpy.linalg.norm(self.made.volume.steps @ (high - low))
+        corners = self.made.mesh.points[self.made.mesh.tets]
+        return max(numpy.linalg.norm(corners[:, a] - corners[:, b], axis=1).max() for a in range(4) for b in range(a))
+
     def moved_picture(self, number, way):
         camera = dict(self.made.scene["camera"])
         for key in ("eye", "center"):
             camera[key] = (numpy.array(camera[key]) + way).tolist()
-        (self.folder / f"moved{number}_scene.json").write_text(json.dumps({**self.made.scene, "camera": camera}, indent=1))
-        moved = self.program.render(f"moved{number}", ["--method", "trace"], ".npy", scene=f"moved{number}_scene.json")
+        name = f"moved{number}_scene.json"
+        (self.folder / name).write_text(json.dumps({**self.made.scene, "camera": camera}, indent=1))
+        arguments = TRACE + (OF_MESH if self.made.volume else [])
+        moved = self.program.render(f"moved{number}", arguments, ".npy", scene=name)
         return numpy.full(1, numpy.inf) if moved is None else moved.picture

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """`lamina`, run on one scene after another, and what is wrong with every run whatever was asked."""
 import json
+import math
+import os
+import resource
 import shlex
+import signal
 import subprocess
 import time
 from dataclasses import dataclass, field
@@ -12,6 +16,7 @@ from . import pictures
 
 # What the sanitizers write.
 REPORTS = ("AddressSanitizer", "LeakSanitizer", "ThreadSanitizer", "UndefinedBehaviorSanitizer", "runtime error:")
+WAITING = 10  # times as long may a run wait for its processors
 
 
 @dataclass
@@ -38,20 +43,31 @@ class Program:
         self.findings = []
         self.commands = []
 
+    def limit(self):
+        """Of processor time: other work on the machine does not count."""
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(self.seconds), math.ceil(self.seconds) + 5))
+
     def report(self, kind, text, times=0):
         self.findings.append(Finding(kind, text, times))
 
-    def render(self, name, arguments, suffix=".exr", scene="scene.json"):
-        """None where it ended in an error, said as it should be or not."""
+    def render(self, name, arguments, suffix=".exr", scene="scene.json", least=False):
+        """None where it ended in an error, said as it should be or not. least: on one processor, with the least
+        instructions."""
         picture, stats = self.folder / f"{name}{suffix}", self.folder / f"{name}.json"
         command = ["render", scene, "-o", picture.name, "--stats", stats.name, *arguments]
-        self.commands.append(shlex.join([str(self.lamina), *command]))
+        command = [str(self.lamina), *command]
+        if least:
+            command = ["taskset", "-c", str(min(os.sched_getaffinity(0))), "env", "LAMINA_INSTRUCTIONS=SSE4", *command]
+        self.commands.append(shlex.join(command))
         start = time.monotonic()
         try:
-            done = subprocess.run([str(self.lamina), *command], cwd=self.folder, capture_output=True,
-                                  timeout=self.seconds)
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * self.seconds,
+                                  preexec_fn=self.limit)
         except subprocess.TimeoutExpired:
-            self.report("hang", f"{name}: no end after {self.seconds} s")
+            self.report("hang", f"{name}: no end after {WAITING * self.seconds:g} s")
+            return None
+        if done.returncode == -signal.SIGXCPU:
+            self.report("hang", f"{name}: no end after {self.seconds:g} s of a processor")
             return None
         messages = done.stderr.decode("utf-8", "replace").splitlines()
         found = Outcome(self.commands[-1], done.returncode, messages, time.monotonic() - start)
@@ -65,7 +81,8 @@ class Program:
         # Opacity is 1 - product of numbers 0..1; float32 adds slabs up, by one rounding each.
         alpha = found.picture[..., 3]
         if alpha.min() < -1e-4 or alpha.max() > 1 + 1e-4 or found.picture.min() < -1e-4:
-            self.report("range", f"{name}: opacity {alpha.min():.6g} to {alpha.max():.6g}, least {found.picture.min():.3g}")
+            self.report("range", f"{name}: opacity {alpha.min():.6g} to {alpha.max():.6g}, "
+                                 f"least {found.picture.min():.3g}")
         return found
 
     def ended_well(self, name, found, picture, stats):

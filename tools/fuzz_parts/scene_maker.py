@@ -57,7 +57,8 @@ def slicing(dice):
     if dice.chance(0.1):
         found["filter"] = dice.pick("hardware", "auto")
     if dice.chance(0.15) and target in ("fixed8", "fixed16", "emulated"):
-        found["dither"] = {"period": dice.pick(4, 16, "auto"), "color": dice.chance(0.5), "increment": dice.pick(1, 1, 4)}
+        found["dither"] = {"period": dice.pick(4, 16, "auto"), "color": dice.chance(0.5),
+                           "increment": dice.pick(1, 1, 4)}
     if dice.chance(0.2):
         found["tree"] = tree(dice, target)
     return render
@@ -134,7 +135,11 @@ def volume_scene(seed, dice):
     made = RandomScene(seed, scene, {"volume.nrrd": volumes.nrrd(volume, dice)}, [], volume=volume,
                        labels={"data": f"{volume.type} {volume.kind}"})
     made = assembled(seed, dice, volume, corner, edges, made)
-    made.scene["render"] = slicing(dice)
+    if dice.chance(0.05) and volume.samples.size < 2000:
+        made.scene["mesh"] = {"kuhn": True} if dice.chance(0.5) else {"tolerance": dice.log_between(0.005, 0.3),
+                                                                      "max_tets": 3000}
+        made.labels["data"] += " as a mesh"
+    made.scene["render"] = projecting(dice) if "mesh" in made.scene else slicing(dice)
     made.arguments += omissions(dice)
     return made
 

@@ -48,7 +48,8 @@ def points_of(kind, low, high, dice):
     if kind == "band":  # shows between two values, with steep sides
         middle, half = dice.between(0.05, 0.95), dice.log_between(1e-3, 0.1)
         side = half * dice.log_between(1e-3, 1)
-        return [(at(middle - half - side), 0), (at(middle - half), 1), (at(middle + half), 1), (at(middle + half + side), 0)]
+        return [(at(middle - half - side), 0), (at(middle - half), 1),
+                (at(middle + half), 1), (at(middle + half + side), 0)]
     count = dice.whole(3, 9) if kind == "few" else dice.whole(20, 300)
     return [(at(dice.between(-0.05, 1.05)), dice.pick(0, 0, dice.share())) for _ in range(count)]
 

@@ -114,8 +114,8 @@ class SlabRays:
 
 
 def post_classified(rays, optics):
-    """Colours [n, 4] of slabs that show what is in the middle of each segment, composited exactly, and how far roundings
-    of float32 in the scalar can take each from them."""
+    """Colours [n, 4] of slabs that show what is in the middle of each segment, composited exactly, and how far
+    roundings of float32 in the scalar can take each from them."""
     count = len(rays.chord.near)
     picture, bound = numpy.zeros((count, 4)), numpy.zeros(count)
     clear, clearer = numpy.ones(count), numpy.ones(count)
@@ -144,9 +144,9 @@ def post_classified(rays, optics):
 
 
 def preintegrated(rays, optics):
-    """The same of slabs in which the scalar runs straight from end to end, moved so that its mean is that of the parabola
-    through both and the middle (docs/precision.md), within the range of the data; what shows nothing between the least and
-    the largest of the three shows nothing."""
+    """The same of slabs in which the scalar runs straight from end to end, moved so that its mean is that of the
+    parabola through both and the middle (docs/precision.md), within the range of the data; what shows nothing between
+    the least and the largest of the three shows nothing."""
     parts, samples = [], []
     for slab in range(rays.count):
         hit, start, end = rays.slab(slab)

@@ -138,13 +138,15 @@ def steps_and_origin(size, dice, scale):
     steps = turn * numpy.array(length) * scale
     reach = numpy.abs(steps @ numpy.array(size, float)).max()
     far = dice.weighted(none=4, near=3, far=1)
-    origin = numpy.zeros(3) if far == "none" else reach * numpy.array(dice.vector(-1, 1)) * (1 if far == "near" else 1e3)
-    return steps, origin
+    if far == "none":
+        return steps, numpy.zeros(3)
+    return steps, reach * numpy.array(dice.vector(-1, 1)) * (1 if far == "near" else 1e3)
 
 
 def make(dice, scale):
     size = sizes(dice)
-    kind = dice.pick("ramp", "noise", "sparse", "labels", "blobs", "blocks", "sheets", "ramp", "noise", "sparse", "constant")
+    kind = dice.pick("ramp", "noise", "sparse", "labels", "blobs", "blocks", "sheets", "ramp", "noise", "sparse",
+                     "constant")
     kind_of_sample = dice.pick("uint8", "uint8", "uint16", "int16", "float", "float")
     samples = with_type(field(kind, size, dice), kind_of_sample, dice)
     if kind_of_sample == "float" and dice.chance(0.4):
