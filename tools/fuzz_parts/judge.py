@@ -223,19 +223,23 @@ class Judge:
             claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
         # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).
         self.check("tets", numpy.abs(drawn.picture - traced).max(2),
-                   claimed + self.optics.brightest * 5e-4 + self.placed(traced),
+                   claimed + self.optics.brightest * 5e-4 + self.placed(traced, plan["geometry"] == "triangles"),
                    f" by {plan['source']}, {plan['geometry']}")
 
-    def placed(self, traced):
+    def placed(self, traced, on_grid):
         """Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet. Where that is
-        much, what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours."""
+        much, what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours. Corners of
+        triangles lie on a rasteriser's grid of 1/256 pixel."""
         edge = self.longest_edge()
-        most = min(1.0, 2 * 9e-6 * edge * self.optics.densest) * self.optics.brightest
+        off = 9e-6 * edge
+        if on_grid:
+            off += self.rays.pixel / 256 * (1 if self.rays.parallel else self.farthest())
+        most = min(1.0, 2 * off * self.optics.densest) * self.optics.brightest
         if most < 1e-3 * self.optics.brightest:
             return most
         change = numpy.zeros(traced.shape[:2])
         for number, (a, b, c) in enumerate(((1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))):
-            way = 9e-6 * edge * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
+            way = off * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
             change = numpy.maximum(change, numpy.abs(self.moved_picture(number, way) - traced).max(2))
         height, width = change.shape
         wide = numpy.pad(change, 1)
@@ -248,6 +252,11 @@ class Judge:
             return numpy.linalg.norm(self.made.volume.steps @ (high - low))
         corners = self.made.mesh.points[self.made.mesh.tets]
         return max(numpy.linalg.norm(corners[:, a] - corners[:, b], axis=1).max() for a in range(4) for b in range(a))
+
+    def farthest(self):
+        """Depth before the eye."""
+        points = self.made.mesh.points if self.made.mesh else self.made.volume.world_corners()
+        return max(float(((points - self.rays.eye) @ self.rays.forward).max()), 0.0)
 
     def moved_picture(self, number, way):
         camera = dict(self.made.scene["camera"])

@@ -88,11 +88,9 @@ class SlabRays:
 
     def __init__(self, volume, rays, pixels, count):
         self.volume, self.count = volume, count
-        low, self.high = volume.corners()
-        self.low = low
-        corners = [volume.to_world([(low, self.high)[(c >> a) & 1][a] for a in range(3)]) for c in range(8)]
-        depths = [float((corner - rays.eye) @ rays.forward) for corner in corners]
-        self.near, self.far = max(min(depths), 0), max(max(depths), 0)
+        self.low, self.high = volume.corners()
+        depths = (volume.world_corners() - rays.eye) @ rays.forward
+        self.near, self.far = max(depths.min(), 0.0), max(depths.max(), 0.0)
         self.chord = IndexRays(volume, *rays.of(*pixels))
         lowest, highest = volume.finite_range() or (0, 0)
         # Scalars are made of values up to the range, weights of places up to the size: a few roundings of float32 each.

@@ -27,6 +27,10 @@ class Volume:
     def to_world(self, index):
         return self.origin + self.steps @ numpy.asarray(index, float)
 
+    def world_corners(self):
+        low, high = self.corners()
+        return numpy.array([self.to_world([(low, high)[(c >> a) & 1][a] for a in range(3)]) for c in range(8)])
+
     def finite_range(self):
         """None where no sample is finite."""
         values = self.samples.astype(float)
