@@ -24,6 +24,7 @@ class Verdict:
     findings: list = field(default_factory=list)
     checks: dict = field(default_factory=dict)  # by name: how many times its bound was used at most
     refusal: str = ""
+    doubted: bool = False  # `samples: auto` that said that max_error is not kept, or not surely
     commands: list = field(default_factory=list)
 
 
@@ -121,6 +122,7 @@ class Judge:
         error = numpy.abs(drawn.picture - traced).max(2)
         automatic = "samples" not in settings
         claims = automatic and not any("max_error" in line for line in drawn.messages)
+        self.verdict.doubted = automatic and not claims
         rounding = self.rounding_bound(plan)
         if claims and rounding is not None and settings.get("filter") != "hardware":
             self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")

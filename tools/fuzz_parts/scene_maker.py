@@ -107,8 +107,11 @@ def world_scale(dice):
 
 def image(dice):
     width, height = dice.whole(12, 40), dice.whole(12, 40)
-    if dice.chance(0.05):
+    kind = dice.weighted(small=90, line=4, large=4)
+    if kind == "line":
         width, height = dice.pick((1, 1), (64, 1), (1, 50))
+    elif kind == "large":  # more rays than `samples: auto` traces
+        width, height = dice.whole(220, 330), dice.whole(170, 240)
     return {"width": width, "height": height}
 
 
