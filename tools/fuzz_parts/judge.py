@@ -1,0 +1,271 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A random scene's pictures against what lamina claims of them, or its documents promise."""
+import json
+import platform
+from dataclasses import dataclass, field
+
+import numpy
+
+from . import cameras, emission, mesh_oracle, transfer, volume_oracle
+from .program import Program
+
+CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
+TRACE = ["--method", "trace", "--set", "render.trace.tolerance=1e-7"]
+OF_MESH = ["--set", "render.trace.of=mesh"]
+ORACLE_PIXELS = 8
+SLAB_PIXELS = 300
+STRAIGHT_PIXELS = 60
+
+
+@dataclass
+class Verdict:
+    seed: int
+    labels: dict
+    findings: list = field(default_factory=list)
+    checks: dict = field(default_factory=dict)  # by name: how many times its bound was used at most
+    refusal: str = ""
+    doubted: bool = False  # `samples: auto` that said that max_error is not kept, or not surely
+    commands: list = field(default_factory=list)
+
+
+class Judge:
+    def __init__(self, made, lamina, folder, seconds):
+        self.made, self.folder = made, folder
+        self.program = Program(lamina, folder, seconds)
+        self.verdict = Verdict(made.seed, made.labels, self.program.findings, commands=self.program.commands)
+        self.optics = transfer.Optics(made.scene["transfer_function"])
+        self.render = made.scene["render"]
+        self.max_error = self.render.get("max_error", 1)
+        size = made.scene["image"]
+        self.rays = cameras.Rays(made.scene["camera"], size["width"], size["height"])
+
+    def check(self, name, error, bound, text=""):
+        """In parts of full scale; error and bound as arrays of the same shape, or numbers."""
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            shares = numpy.nan_to_num(numpy.asarray(error / bound), nan=0.0, posinf=1e300)
+        share = float(shares.max()) if shares.size else 0.0
+        self.verdict.checks[name] = max(share, self.verdict.checks.get(name, 0.0))
+        if share <= 1:
+            return
+        at = numpy.unravel_index(shares.argmax(), shares.shape)
+        worst = float(numpy.broadcast_to(error, shares.shape)[at]) * 255
+        allowed = float(numpy.broadcast_to(bound, shares.shape)[at]) * 255
+        self.program.report(name, f"{worst:.4g} / 255, allowed {allowed:.4g}{text}", share)
+
+    def run(self):
+        self.made.write(self.folder)
+        traced = self.program.render("traced", TRACE, ".npy")
+        drawn = self.program.render("drawn", self.made.arguments)
+        if drawn is None:
+            self.verdict.refusal = getattr(self.program, "refusal", "")
+        if traced is not None:
+            self.tracer(traced)
+        if traced is not None and drawn is not None:
+            self.drawn(drawn, traced)
+        return self.verdict
+
+    def drawn(self, drawn, traced):
+        if self.made.seed % 8 == 0 and platform.machine() == "x86_64" and drawn.stats["context"].startswith("cpu"):
+            self.same(drawn)
+        if self.render["method"] == "slice":
+            return self.slices(drawn, traced.picture)
+        if self.made.volume:  # a mesh made from it
+            traced = self.program.render("traced_mesh", TRACE + OF_MESH, ".npy")
+        return traced and self.tets(drawn, traced.picture)
+
+    def same(self, drawn):
+        """Neither instructions nor threads change a picture (docs/architecture.md)."""
+        least = self.program.render("least", self.made.arguments, least=True)
+        if least is not None:
+            differ = int((least.picture != drawn.picture).any(2).sum())
+            self.check("same", float(differ), 1e-9, f" is nothing: {differ} pixels differ with SSE4 on one processor")
+
+    # The tracer against code that shares nothing with it.
+    def tracer(self, traced):
+        pixels = self.oracle_pixels(traced.picture)
+        data = self.made.volume or self.made.mesh
+        pieces_of = volume_oracle.pieces if self.made.volume else mesh_oracle.pieces
+        origins, directions = self.rays.of(*pixels)
+        count = len(origins)
+        # How much the roundings of the eye's and the data's own coordinates may move a ray.
+        largest = numpy.abs(data.origin if self.made.volume else data.points).max()
+        reach = max(largest, numpy.abs(self.rays.eye).max(), numpy.linalg.norm(
+            self.rays.eye - numpy.array(self.made.scene["camera"]["center"])))
+        moved = 2.0 ** -49 * reach
+        shifts = [moved * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
+                  for a, b, c in ((0, 0, 0), (1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))]
+        pieces = pieces_of(data, numpy.concatenate([origins + shift for shift in shifts]),
+                           numpy.tile(directions, (len(shifts), 1)))
+        colors, doubt = emission.integrate(pieces, self.optics, count * len(shifts))
+        coarser, _ = emission.integrate(pieces, self.optics, count * len(shifts), nodes=6)
+        colors, coarser = (x.reshape(len(shifts), count, 4) for x in (colors, coarser))
+        doubt = numpy.minimum(doubt.reshape(len(shifts), count).max(0), self.optics.brightest)
+        spread = numpy.abs(colors - colors[0]).max((0, 2))
+        converged = numpy.abs(colors - coarser).max((0, 2))
+        # Beside these, double precision: some 1e-10 of full scale where a peak is 1e-4 of the values' range wide.
+        bound = traced.stats["error_estimate"] + 4 * spread + 4 * converged + doubt + 1e-9 * self.optics.brightest
+        error = numpy.abs(traced.picture[pixels[1], pixels[0]] - colors[0]).max(1)
+        self.check("tracer", error, bound, f" (estimate {255 * traced.stats['error_estimate']:.2g})")
+
+    def oracle_pixels(self, picture):
+        """Spread over those that show something, and two more."""
+        seen = numpy.flatnonzero(picture[..., 3].ravel() > 0)
+        steps = numpy.linspace(0, len(seen) - 1, ORACLE_PIXELS).astype(int) if len(seen) else []
+        chosen = numpy.unique(numpy.concatenate([seen[steps], [self.made.seed % picture[..., 3].size, 0]]).astype(int))
+        rows, columns = numpy.divmod(chosen, picture.shape[1])
+        return columns, rows
+
+    # Slicing.
+    def slices(self, drawn, traced):
+        plan, settings = drawn.stats["plan"], self.render["slice"]
+        self.verdict.labels["slabs"] = plan["slabs"]
+        error = numpy.abs(drawn.picture - traced).max(2)
+        automatic = "samples" not in settings
+        claims = automatic and not any("max_error" in line for line in drawn.messages)
+        self.verdict.doubted = automatic and not claims
+        rounding = self.rounding_bound(plan)
+        if claims and rounding is not None and settings.get("filter") != "hardware":
+            self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")
+        exact = settings.get("filter", "exact") == "exact"
+        if rounding is None:
+            return
+        if plan["target"] == "float32" and exact:
+            self.slabs(drawn, plan)
+        if plan["target"] != "float32":
+            self.codes(drawn, plan, rounding)
+        elif plan["target"] == "float32" and not self.made.arguments[2:]:
+            self.omitted(drawn, plan)
+
+    def rounding_bound(self, plan):
+        """What compositing in the plan's target may add, where the scene asked for it (scene/tree_choice.cpp has the
+        same bounds for what is automatic, which max_error counts); None where nothing is promised."""
+        target, tree = self.render.get("target", "float32"), plan.get("tree")
+        asked_tree = self.render["slice"].get("tree")
+        if tree and tree["nodes"] == "shader" and tree["code"] != "minimax" and len(tree["factors"]) > 1:
+            return None  # the other codes are there to be compared with
+        if target == "auto" or asked_tree == "auto" or plan["target"] == "float32":
+            return 3 * 2.0 ** -24 * plan["slabs"] * self.optics.brightest if plan["target"] == "float32" else 0.0
+        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]):
+            return None
+        code = CODES.get(target) or 0.5 / (2 ** self.render["emulate"]["bits"] - 1)
+        dither = plan.get("dither")
+        opacity = 1
+        if dither:
+            opacity = 2 * dither["increment"]
+        elif target == "emulated" and self.render["emulate"]["alpha"] != "nearest":
+            opacity = 2
+        roundings = plan["slabs"] * (2 + opacity + (plan["order"] == "front_to_back"))
+        roundings += 2 * dither["increment"] if dither and dither["color"] else target == "emulated"
+        if tree:
+            roundings = 1 + plan["slabs"] * 3 * 2.0 ** -24 / code
+        brightest = self.optics.brightest
+        return min(roundings * code * brightest if target == "float16" else roundings * code + brightest - 1, brightest)
+
+    def left_out(self, plan):
+        """What two pictures of the same slabs in float32 may differ by: float32's roundings (docs/precision.md,
+        "Opacity in float32"), what lies behind the depth where marching ends (max_error / 1024), empty bricks
+        (.026 / 255)."""
+        return ((self.max_error / 1024 + 0.026) / 255
+                + self.optics.brightest * (1e-5 + plan["slabs"] * 2.0 ** -22))
+
+    def slabs(self, drawn, plan):
+        """So many slabs are a definite picture."""
+        straight = plan["classification"] == "preintegrated"
+        if plan["slabs"] > 400 or straight and not numpy.isfinite(self.made.volume.samples).all():
+            return
+        count = self.rays.width * self.rays.height
+        chosen = numpy.arange(0, count, max(1, count // (STRAIGHT_PIXELS if straight else SLAB_PIXELS)))
+        rows, columns = numpy.divmod(chosen, self.rays.width)
+        cut = volume_oracle.SlabRays(self.made.volume, self.rays, (columns, rows), plan["slabs"])
+        wanted, doubt = (volume_oracle.preintegrated if straight else volume_oracle.post_classified)(cut, self.optics)
+        bound = doubt + self.left_out(plan)
+        error = numpy.abs(drawn.picture[rows, columns] - wanted)
+        # Tables hold opacity exactly, and colour as well as they say.
+        error = error[:, 3] if straight and "table" in plan else error.max(1)
+        self.check("straight" if straight else "slabs", error, bound, f" by {plan['slabs']} slabs")
+
+    def codes(self, drawn, plan, rounding):
+        """A coarser target against the same slabs in float32."""
+        slicing = {key: value for key, value in self.render["slice"].items() if key not in ("tree", "dither")}
+        render = {**self.render, "target": "float32", "slice": {**slicing, "samples": plan["slabs"]}}
+        (self.folder / "float32_scene.json").write_text(json.dumps({**self.made.scene, "render": render}, indent=1))
+        exact = self.program.render("float32", self.made.arguments, scene="float32_scene.json")
+        if exact is None:
+            return
+        bound = rounding
+        if rounding == 0:  # chosen by the program
+            bound = plan.get("error_bound", self.max_error if self.render["slice"].get("tree") == "auto"
+                             else 0.15 * self.max_error) / 255
+        self.check("codes", numpy.abs(drawn.picture - exact.picture).max(2), bound + 2 * self.left_out(plan),
+                   f" by {plan['slabs']} slabs")
+
+    def omitted(self, drawn, plan):
+        """docs/omissions.md says what each changes; of tables it is not said by how much."""
+        names = {omission["name"] for omission in drawn.stats["omitted"]}
+        if not names or names & {"table", "length_layers"}:
+            return
+        full = self.program.render("full", [*self.made.arguments, "--no-omit", "--set",
+                                            f"render.slice.samples={plan['slabs']}"])
+        if full is not None:
+            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), self.left_out(plan),
+                       ": " + ", ".join(sorted(names)))
+
+    # Projected tetrahedra.
+    def tets(self, drawn, traced):
+        plan = drawn.stats["plan"]
+        promised = (plan["target"] == "float32" and plan["interpolation"] == "perspective"
+                    and plan["thickness"] == "exact"
+                    and self.render["project"]["coloring"] in ("preintegrated", "analytic")
+                    and self.render["project"].get("order") in (None, "exact")
+                    and drawn.stats["counts"]["pairs_in_wrong_order"] == 0)
+        if not promised:
+            return
+        claimed = plan.get("weight_error", plan.get("table", {}).get("error", 0)) / 255
+        if plan["source"] == "table":
+            claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
+        # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).
+        self.check("tets", numpy.abs(drawn.picture - traced).max(2),
+                   claimed + self.optics.brightest * 5e-4 + self.placed(traced, plan["geometry"] == "triangles"),
+                   f" by {plan['source']}, {plan['geometry']}")
+
+    def placed(self, traced, on_grid):
+        """Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet. Where that is
+        much, what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours. Corners of
+        triangles lie on a rasteriser's grid of 1/256 pixel."""
+        edge = self.longest_edge()
+        off = 9e-6 * edge
+        if on_grid:
+            off += self.rays.pixel / 256 * (1 if self.rays.parallel else self.farthest())
+        most = min(1.0, 2 * off * self.optics.densest) * self.optics.brightest
+        if most < 1e-3 * self.optics.brightest:
+            return most
+        change = numpy.zeros(traced.shape[:2])
+        for number, (a, b, c) in enumerate(((1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))):
+            way = off * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
+            change = numpy.maximum(change, numpy.abs(self.moved_picture(number, way) - traced).max(2))
+        height, width = change.shape
+        wide = numpy.pad(change, 1)
+        near = numpy.max([wide[i:i + height, j:j + width] for i in range(3) for j in range(3)], axis=0)
+        return numpy.minimum(most, 4 * near + 1e-3 * self.optics.brightest)
+
+    def longest_edge(self):
+        if self.made.volume:  # no longer than its box
+            low, high = self.made.volume.corners()
+            return numpy.linalg.norm(self.made.volume.steps @ (high - low))
+        corners = self.made.mesh.points[self.made.mesh.tets]
+        return max(numpy.linalg.norm(corners[:, a] - corners[:, b], axis=1).max() for a in range(4) for b in range(a))
+
+    def farthest(self):
+        """Depth before the eye."""
+        points = self.made.mesh.points if self.made.mesh else self.made.volume.world_corners()
+        return max(float(((points - self.rays.eye) @ self.rays.forward).max()), 0.0)
+
+    def moved_picture(self, number, way):
+        camera = dict(self.made.scene["camera"])
+        for key in ("eye", "center"):
+            camera[key] = (numpy.array(camera[key]) + way).tolist()
+        name = f"moved{number}_scene.json"
+        (self.folder / name).write_text(json.dumps({**self.made.scene, "camera": camera}, indent=1))
+        arguments = TRACE + (OF_MESH if self.made.volume else [])
+        moved = self.program.render(f"moved{number}", arguments, ".npy", scene=name)
+        return numpy.full(1, numpy.inf) if moved is None else moved.picture

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whole random scenes: data, transfer function, camera, how it is drawn. The same seed gives the same scene."""
+import json
+from dataclasses import dataclass, field
+
+import numpy
+
+from . import cameras, meshes, transfer, volumes
+from .dice import Dice
+
+
+@dataclass
+class RandomScene:
+    seed: int
+    scene: dict
+    files: dict  # contents by name
+    arguments: list  # of `lamina render`
+    volume: volumes.Volume = None
+    mesh: meshes.Mesh = None
+    labels: dict = field(default_factory=dict)  # what it is, for people
+
+    def write(self, folder):
+        for name, data in self.files.items():
+            (folder / name).write_bytes(data)
+        (folder / "scene.json").write_text(json.dumps(self.scene, indent=1) + "\n")
+
+
+def tree(dice, target):
+    if dice.chance(0.4):
+        return "auto"
+    fixed = target in ("fixed8", "fixed16", "emulated") and (target == "emulated" or dice.chance(0.2))
+    found = {"factors": [dice.whole(1, 12) for _ in range(dice.whole(1, 3))], "nodes": "fixed" if fixed else "shader"}
+    if not fixed:
+        found["code"] = dice.pick("minimax", "minimax", "phi", "alpha")
+        if target == "fixed8":
+            found["alpha_bits"] = dice.pick(8, 16)
+    return found
+
+
+def emulation(dice):
+    return {"bits": dice.whole(4, 16), "alpha": dice.pick("truncate", "nearest", "stochastic"),
+            "over": dice.pick("separate", "fused"), "seed": dice.whole(0, 1000)}
+
+
+def slicing(dice):
+    target = dice.weighted(float32=6, float16=0.7, fixed16=0.7, fixed8=0.7, emulated=0.7, auto=1.2)
+    render = {"method": "slice", "target": target}
+    if target == "emulated":
+        render["emulate"] = emulation(dice)
+    if dice.chance(0.5):
+        render["max_error"] = dice.pick(0.25, 0.5, 2, 4, 16)
+    found = render["slice"] = {}
+    if dice.chance(0.45):
+        found["samples"] = dice.pick(1, 2, 3, 7, 16, 33, 64, 100, 200)
+    found["classification"] = dice.pick("post", "preintegrated")
+    found["order"] = dice.pick("back_to_front", "front_to_back")
+    if dice.chance(0.1):
+        found["filter"] = dice.pick("hardware", "auto")
+    if dice.chance(0.15) and target in ("fixed8", "fixed16", "emulated"):
+        found["dither"] = {"period": dice.pick(4, 16, "auto"), "color": dice.chance(0.5),
+                           "increment": dice.pick(1, 1, 4)}
+    if dice.chance(0.2):
+        found["tree"] = tree(dice, target)
+    return render
+
+
+def projecting(dice):
+    target = dice.weighted(float32=7, float16=0.4, fixed16=0.6, fixed8=0.5, emulated=0.4, auto=1)
+    render = {"method": "project", "target": target}
+    if target == "emulated":
+        render["emulate"] = emulation(dice)
+    found = render["project"] = {}
+    found["coloring"] = dice.weighted(preintegrated=5, analytic=2, attenuation=0.3, vertex=0.3)
+    if dice.chance(0.3):
+        found["geometry"] = dice.pick("silhouette", "triangles")
+    if dice.chance(0.1):
+        found["order"] = dice.pick("mpvo", "exact", "centroid", "none")
+    if dice.chance(0.1):
+        found["interpolation"] = "linear"
+    if dice.chance(0.05):
+        found["thickness"] = "dz"
+    if dice.chance(0.1) and target != "float32":
+        found["dither"] = dice.pick("alpha", "after_blend")
+    if dice.chance(0.15) and found["coloring"] == "preintegrated":
+        found["table"] = {"scalar": dice.pick(16, 64, 200), "length": dice.pick(4, 16),
+                          "mapping": dice.pick("octave", "log2", "linear"),
+                          "store": dice.pick("mean_extinction", "opacity"),
+                          "format": dice.pick("fixed16", "fixed8", "float16", "float32"),
+                          "construction": dice.pick("exact", "incremental")}
+    return render
+
+
+def omissions(dice):
+    kind = dice.weighted(all=6, none=2, one=1)
+    if kind == "all":
+        return []
+    return ["--no-omit"] if kind == "none" else ["--no-omit=" + dice.pick(
+        "empty_space", "early_termination", "constant_regions", "blending", "table", "length_layers", "color")]
+
+
+def world_scale(dice):
+    """Voxels of about so many world units."""
+    if dice.chance(0.06):
+        return dice.pick(dice.log_between(1e-35, 1e-28), dice.log_between(1e-28, 1e18), dice.log_between(1e18, 1e25))
+    return dice.pick(1, 1, dice.log_between(1e-3, 1e3))
+
+
+def image(dice):
+    width, height = dice.whole(12, 40), dice.whole(12, 40)
+    kind = dice.weighted(small=90, line=4, large=4)
+    if kind == "line":
+        width, height = dice.pick((1, 1), (64, 1), (1, 50))
+    elif kind == "large":  # more rays than `samples: auto` traces
+        width, height = dice.whole(220, 330), dice.whole(170, 240)
+    return {"width": width, "height": height}
+
+
+def assembled(seed, dice, data, corner, edges, made):
+    length = float(numpy.linalg.norm(edges.sum(1))) or float(numpy.abs(edges).max())
+    made.scene["transfer_function"], made.labels["transfer"] = transfer.make(dice, data.finite_range(), length)
+    made.scene["camera"], made.labels["camera"] = cameras.make(dice, corner, edges)
+    made.scene["image"] = image(dice)
+    if dice.chance(0.04):
+        made.arguments += ["--context", "osmesa"]
+    else:
+        made.arguments += ["--context", "cpu"]
+    return made
+
+
+def volume_scene(seed, dice):
+    volume = volumes.make(dice, world_scale(dice))
+    low, high = volume.corners()
+    corner, edges = volume.to_world(low), volume.steps * (high - low)
+    scene = {"version": 1, "volume": "volume.nrrd"}
+    if not numpy.isfinite(volume.samples).all():
+        scene["nan"] = "transparent"
+        volume.kind += " with NaN"
+    made = RandomScene(seed, scene, {"volume.nrrd": volumes.nrrd(volume, dice)}, [], volume=volume,
+                       labels={"data": f"{volume.type} {volume.kind}"})
+    made = assembled(seed, dice, volume, corner, edges, made)
+    if dice.chance(0.05) and volume.samples.size < 2000:
+        made.scene["mesh"] = {"kuhn": True} if dice.chance(0.5) else {"tolerance": dice.log_between(0.005, 0.3),
+                                                                      "max_tets": 3000}
+        made.labels["data"] += " as a mesh"
+    made.scene["render"] = projecting(dice) if "mesh" in made.scene else slicing(dice)
+    made.arguments += omissions(dice)
+    return made
+
+
+def mesh_scene(seed, dice):
+    mesh = meshes.make(dice, world_scale(dice))
+    corner = mesh.points.min(0)
+    edges = numpy.diag(mesh.points.max(0) - corner)
+    name, files = meshes.files(mesh, dice)
+    scene = {"version": 1, "mesh": name}
+    if not numpy.isfinite(mesh.values).all():
+        scene["nan"] = "transparent"
+        mesh.kind += ", NaN"
+    made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
+    made = assembled(seed, dice, mesh, corner, edges, made)
+    if dice.chance(0.1):  # on a corner
+        eye = mesh.points[dice.whole(0, len(mesh.points) - 1)]
+        if numpy.linalg.norm(eye - made.scene["camera"]["center"]) > 1e-3 * numpy.abs(edges).max():
+            made.scene["camera"]["eye"] = eye.tolist()
+            made.labels["camera"] = "corner of a tet"
+            made.scene["camera"]["up"] = cameras.up_for(
+                (eye - made.scene["camera"]["center"]) / numpy.linalg.norm(eye - made.scene["camera"]["center"]), dice)
+    made.scene["render"] = projecting(dice)
+    made.arguments += omissions(dice) if dice.chance(0.5) else []
+    return made
+
+
+def make(seed):
+    dice = Dice(seed)
+    return volume_scene(seed, dice) if dice.chance(0.68) else mesh_scene(seed, dice)
