@@ -277,8 +277,9 @@ class SlicePlanner {
             slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
             return;
         }
-        slice.bricks = cut_into_bricks(facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type),
-                                       capabilities_);
+        slice.bricks =
+            cut_into_bricks(facts_.grid, slice.nan_transparent,
+                            slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
     }
 
     void choose_compositing() {
