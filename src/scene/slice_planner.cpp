@@ -17,6 +17,7 @@
 #include "scene/slab_choice.h"
 #include "scene/target_choice.h"
 #include "scene/tree_check.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -62,6 +63,7 @@ class SlicePlanner {
     Plan make() {
         check_limits(scene_, capabilities_);
         SlicePlan& slice = plan_.slice;
+        slice.unit = world_unit(box_diagonal(facts_.grid));
         slice.target = scene_.target;
         slice.classification = scene_.slice.classification;
         slice.order = scene_.slice.order;
@@ -243,9 +245,10 @@ class SlicePlanner {
         }
         TablePlan& table = slice.table;
         table.colored = !slice.single_color;
-        table.max_length =
+        const double longest =
             (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
-        const double depth = facts_.max_extinction * table.max_length;
+        table.max_length = longest * slice.unit;
+        const double depth = facts_.max_extinction * longest;
         if (leave_out(facts_.pieces == 1 && (!table.colored || depth <= thin_depth), "table",
                       table.colored
                           ? fmt::format("the transfer function is one linear piece and a "
