@@ -13,12 +13,12 @@ constexpr double most_extinction = .5;
 Volume with_gaps(std::mt19937& random) {
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        grid.size[axis] = 1 + random() % 5;
+        grid.size[axis] = static_cast<std::int64_t>(1 + random() % 5);
         grid.centering[axis] = random() % 4 > 0 ? Centering::cell : Centering::node;
     }
     std::uniform_real_distribution<float> value(0, 1);
     const float gap = random() % 2 > 0 ? NAN : INFINITY;
-    const unsigned every = 3 + random() % 10;
+    const auto every = 3 + random() % 10;
     std::int64_t left = grid.sample_count();
     return test::volume_of<float>(grid, [&](double, double, double) {
         const bool last_chance = --left == 0;  // all of them gaps would be refused
