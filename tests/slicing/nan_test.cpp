@@ -61,7 +61,7 @@ void expect_within(double most, const Image& picture, const Image& reference) {
 }
 
 Capabilities with_bricks(Capabilities capabilities) {
-    capabilities.max_texture_bytes = 4 * 3 * 3 * 3;
+    capabilities.max_3d_texture_size = 3;
     return capabilities;
 }
 
