@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a fragment of the paper's triangles knows (projection/fan_geometry.h).
-in vec2 inverse;
+in vec3 inverse;
 in vec4 front_values;
 in vec4 back_values;
 flat in uint tet;
@@ -25,15 +25,15 @@ struct TetOptics {
 TetOptics find_optics() {
 #if DIVIDED
     float z_front = 1.0 / inverse.x;
-    float z_back = 1.0 / (inverse.x - inverse.y);
-    float world_length = max(inverse.y, 0.0) * z_front * z_back;
+    float z_back = 1.0 / inverse.y;
+    float world_length = max(inverse.z, 0.0) * z_front * z_back;
 #ifndef THICKNESS_DZ
     vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
     world_length *= sqrt(1.0 + dot(from_middle, from_middle));
 #endif
     return TetOptics(front_values * z_front, back_values * z_back, world_length);
 #else
-    return TetOptics(front_values, back_values, max(inverse.y, 0.0));
+    return TetOptics(front_values, back_values, max(inverse.z, 0.0));
 #endif
 }
 

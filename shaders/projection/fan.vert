@@ -3,14 +3,14 @@
 // A vertex of the paper's triangles (projection/fan_geometry.h), with w = 1: what is handed on is interpolated linearly
 // in the picture (Kraus 2004, section 2.3).
 layout(location = 0) in vec2 position;  // window coordinates
-layout(location = 1) in vec2 inverse_in;
+layout(location = 1) in vec3 inverse_in;
 layout(location = 2) in vec4 front_in;
 layout(location = 3) in vec4 back_in;
 layout(location = 4) in uint tet_in;
 
 uniform vec2 image_size;
 
-out vec2 inverse;
+out vec3 inverse;
 out vec4 front_values;
 out vec4 back_values;
 flat out uint tet;

@@ -145,6 +145,15 @@ OpticalProperties TransferFunction::at(double value) const {
     return interpolate(*(above - 1), *above, value);
 }
 
+TransferFunction TransferFunction::attenuated(double factor) const {
+    TransferFunction result = *this;
+    for (TransferKnot& knot : result.knots_) {
+        knot.optics.extinction =
+            std::min(knot.optics.extinction * factor, std::numeric_limits<double>::max());
+    }
+    return result;
+}
+
 double TransferFunction::max_extinction(double lo, double hi) const {
     double largest = std::max(at(lo).extinction, at(hi).extinction);
     // Asked for every brick of a volume: not of all knots.

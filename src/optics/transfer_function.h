@@ -33,6 +33,8 @@ class TransferFunction {
     // Points on the straight line between their neighbours are left out.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
+    // With all extinctions times `factor`, at most the largest number that there is.
+    TransferFunction attenuated(double factor) const;
 
     // Largest extinction and the range of colours met over the closed interval [lo, hi] (both sides
     // of steps count).

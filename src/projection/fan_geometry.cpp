@@ -2,6 +2,7 @@
 #include "projection/fan_geometry.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -11,9 +12,9 @@
 namespace lamina {
 namespace {
 
-// The three tets of a prism with the triangles a0 a1 a2 and b0 b1 b2.
-constexpr std::array<std::array<std::size_t, 4>, 3> prism_tets{
-    {{0, 1, 2, 3}, {1, 2, 3, 4}, {2, 3, 4, 5}}};
+// Corners of fans this far beyond the picture, in pixels, keep what float32 and rasterisers have of
+// sub-pixel digits.
+constexpr double farthest_beyond = 1024;
 
 }  // namespace
 
@@ -55,20 +56,6 @@ FanGeometry::Fronts FanGeometry::fronts_of(std::int32_t index) const {
     return fronts;
 }
 
-FanGeometry::Fronts FanGeometry::fronts_of(const Corners& corners) const {
-    Fronts fronts;
-    for (std::size_t face = 0; face < 4; ++face) {
-        const glm::dvec3& a = corners[face_corners[face][0]].seen;
-        const glm::dvec3& b = corners[face_corners[face][1]].seen;
-        const glm::dvec3& c = corners[face_corners[face][2]].seen;
-        const glm::dvec3 normal = glm::cross(b - a, c - a);
-        const double eye_side = window_.perspective() ? -glm::dot(normal, a) : -normal.z;
-        const double inner_side = glm::dot(normal, corners[face].seen - a);
-        fronts[face] = (eye_side > 0) != (inner_side > 0);
-    }
-    return fronts;
-}
-
 FanGeometry::Point FanGeometry::point_of(const Corner& corner) const {
     const double inverse = window_.perspective() ? 1 / corner.seen.z : 1;
     return {inverse, corner.seen.z, corner.values * inverse};
@@ -93,7 +80,7 @@ FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front
     FanVertex vertex{};
     vertex.position = window;
     if (divided_) {
-        vertex.inverse = glm::dvec2(front.inverse_z, difference);
+        vertex.inverse = glm::dvec3(front.inverse_z, back.inverse_z, difference);
         vertex.front = front.values;
         vertex.back = back.values;
         return vertex;
@@ -104,7 +91,7 @@ FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front
         const glm::dvec2 place = (window - window_.middle()) * window_.view().pixel;
         if (plan_.thickness == Thickness::exact) thickness *= std::sqrt(1 + glm::dot(place, place));
     }
-    vertex.inverse = glm::dvec2(0, thickness);
+    vertex.inverse = glm::dvec3(0, 0, thickness);
     const glm::dvec4 at_front = front.values / front.inverse_z;
     const glm::dvec4 at_back = back.values / back.inverse_z;
     vertex.front = at_front;
@@ -204,13 +191,15 @@ bool FanGeometry::make_around_crossing(const Corners& corners,
     return true;
 }
 
+void FanGeometry::append(FanVertex vertex, std::int32_t tet, const Place& place, Written& written) {
+    vertex.tet = static_cast<std::uint32_t>(tet);
+    std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
+}
+
 void FanGeometry::append(const Fan& fan, std::int32_t tet, const Place& place, Written& written) {
     const auto first = place.first_vertex + static_cast<std::uint32_t>(written.vertices);
-    for (int i = 0; i <= fan.rim; ++i) {
-        FanVertex vertex = fan.vertices[static_cast<std::size_t>(i)];
-        vertex.tet = static_cast<std::uint32_t>(tet);
-        std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
-    }
+    for (int i = 0; i <= fan.rim; ++i)
+        append(fan.vertices[static_cast<std::size_t>(i)], tet, place, written);
     for (int i = 0; i < fan.rim; ++i) {
         place.indices[written.indices++] = first;
         place.indices[written.indices++] = first + 1 + static_cast<std::uint32_t>(i);
@@ -232,58 +221,47 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
         hi = glm::max(hi, corner.window);
     }
     if (behind == 4) return {};
-    if (behind > 0) return write_clipped(index, corners, place);
-    if (hi.x < 0 || hi.y < 0 || lo.x > window_.view().width || lo.y > window_.view().height)
-        return {};
+    if (behind > 0) return write_pairs(index, corners, place);
+    const glm::dvec2 size = 2.0 * window_.middle();
+    if (hi.x < 0 || hi.y < 0 || lo.x > size.x || lo.y > size.y) return {};
+    // Linear interpolation is the paper's between the corners of whole tets alone.
+    const glm::dvec2 beyond = glm::max(-lo, hi - size);
+    const bool exact = divided_ || !window_.perspective();
+    if (exact && std::max(beyond.x, beyond.y) > farthest_beyond)
+        return write_pairs(index, corners, place);
     Written written;
     Fan fan;
     if (make_fan(corners, fronts_of(index), fan)) append(fan, index, place, written);
     return written;
 }
 
-// The part in front of the near plane: a tet where one corner is, a prism where two or three are.
-TetGeometry::Written FanGeometry::write_clipped(std::int32_t index, const Corners& corners,
-                                                const Place& place) const {
-    std::array<std::size_t, 4> before{}, behind{};
-    std::size_t count = 0, behind_count = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        (corners[i].seen.z < plan_.near_depth ? behind[behind_count++] : before[count++]) = i;
-    }
-    const auto cut = [&](std::size_t from, std::size_t to) {
-        const Corner& a = corners[from];
-        const Corner& b = corners[to];
-        const double share = (plan_.near_depth - a.seen.z) / (b.seen.z - a.seen.z);
-        Corner corner;
-        corner.seen = a.seen + share * (b.seen - a.seen);
-        corner.seen.z = plan_.near_depth;
-        corner.window = window_.to_window(corner.seen);
-        corner.values = a.values + share * (b.values - a.values);
-        return corner;
+TetGeometry::Written FanGeometry::write_pairs(std::int32_t index, const Corners& corners,
+                                              const Place& place) const {
+    const FacePairs pairs(
+        window_, plan_.near_depth, mesh_.mesh.tets()[static_cast<std::size_t>(index)],
+        {corners[0].seen, corners[1].seen, corners[2].seen, corners[3].seen}, fronts_of(index));
+    const auto point_of = [&](const FacePairs::Hit& hit) {
+        Point point{hit.inverse_z, hit.z, glm::dvec4(0)};
+        for (std::size_t i = 0; i < 4; ++i) point.values += hit.shares[i] * corners[i].values;
+        return point;
     };
-    std::array<Corner, 6> prism;
-    std::size_t parts = 3;
-    if (count == 1) {
-        prism[0] = corners[before[0]];
-        for (std::size_t i = 0; i < 3; ++i) prism[i + 1] = cut(before[0], behind[i]);
-        parts = 1;
-    } else if (count == 2) {
-        for (std::size_t i = 0; i < 2; ++i) {
-            prism[3 * i] = corners[before[i]];
-            for (std::size_t j = 0; j < 2; ++j) prism[3 * i + j + 1] = cut(before[i], behind[j]);
-        }
-    } else {
-        for (std::size_t i = 0; i < 3; ++i) {
-            prism[i] = corners[before[i]];
-            prism[i + 3] = cut(before[i], behind[0]);
-        }
-    }
     Written written;
-    for (std::size_t part = 0; part < parts; ++part) {
-        const auto& [a, b, c, d] = prism_tets[part];
-        const Corners piece{prism[a], prism[b], prism[c], prism[d]};
-        Fan fan;
-        if (make_fan(piece, fronts_of(piece), fan)) append(fan, index, place, written);
-    }
+    pairs.for_each([&](const FacePairs::Polygon& polygon, std::size_t front, std::size_t back) {
+        assert(written.indices + 3 * (polygon.count - 2) <= most_indices);
+        const auto first = place.first_vertex + static_cast<std::uint32_t>(written.vertices);
+        for (std::size_t i = 0; i < polygon.count; ++i) {
+            const Point at_front = point_of(pairs.hit(front, polygon.corners[i]));
+            const Point at_back = point_of(pairs.hit(back, polygon.corners[i]));
+            const double difference = window_.perspective() ? at_front.inverse_z - at_back.inverse_z
+                                                            : at_back.z - at_front.z;
+            append(thick_vertex(polygon.corners[i], at_front, at_back, difference), index, place,
+                   written);
+        }
+        for (std::uint32_t i = 2; i < polygon.count; ++i) {
+            for (const std::uint32_t corner : {0u, i - 1, i})
+                place.indices[written.indices++] = first + corner;
+        }
+    });
     return written;
 }
 

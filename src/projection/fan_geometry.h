@@ -9,6 +9,7 @@
 #include <span>
 
 #include "mesh/face_signs.h"
+#include "projection/face_pairs.h"
 #include "projection/tet_geometry.h"
 #include "projection/window_view.h"
 #include "scene/project_plan.h"
@@ -20,9 +21,10 @@ namespace lamina {
 // the back of the tet that are seen at one place.
 struct FanVertex {
     glm::vec2 position;  // window coordinates
-    // Perspective interpolation: 1/z at the front, and how much more that is than at the back (both
-    // linear in window coordinates). Linear: 0, and the thickness.
-    glm::vec2 inverse;
+    // Perspective interpolation: 1/z at the front and at the back, and the difference, of which
+    // theirs in float32 would say little (all linear in window coordinates). Linear: 0, 0, and the
+    // thickness.
+    glm::vec3 inverse;
     // The scalar (normalised) in x, or colour and extinction; over z for perspective interpolation.
     // Coloring `vertex`: in `front` the vertex's colour and opacity.
     glm::vec4 front, back;
@@ -30,12 +32,13 @@ struct FanVertex {
 };
 
 // Three or four triangles around a thick vertex for each tet: the projections of the smaller tets
-// of Kraus 2004, Figure 3. Tets that cross the near plane are cut first.
+// of Kraus 2004, Figure 3. Of tets that cross the near plane or, where pictures are exact, reach
+// far beyond the picture, the polygons of FacePairs.
 class FanGeometry : public TetGeometry {
   public:
-    // A tet is cut by the near plane into at most three, each with five vertices and four
-    // triangles.
-    static constexpr std::size_t most_vertices = 15, most_indices = 36;
+    // A polygon has two vertices more than triangles; of six polygons.
+    static constexpr std::size_t most_vertices = FacePairs::most_triangles + 12,
+                                 most_indices = 3 * FacePairs::most_triangles;
 
     // All must outlive it.
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
@@ -51,7 +54,7 @@ class FanGeometry : public TetGeometry {
         glm::dvec4 values;  // as in FanVertex, not divided
     };
     using Corners = std::array<Corner, 4>;
-    using Fronts = std::array<bool, 4>;  // of the faces opposite the corners
+    using Fronts = FacePairs::Fronts;
 
   private:
     struct Fan {
@@ -67,7 +70,6 @@ class FanGeometry : public TetGeometry {
 
     Corner corner_of(std::int32_t point) const;
     Fronts fronts_of(std::int32_t tet) const;
-    Fronts fronts_of(const Corners& corners) const;
     Point point_of(const Corner& corner) const;
     Point mix(std::span<const Point> points, std::span<const double> weights) const;
     bool make_fan(const Corners& corners, const Fronts& fronts, Fan& fan) const;
@@ -78,7 +80,8 @@ class FanGeometry : public TetGeometry {
     FanVertex thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
                            double inverse_difference) const;
     FanVertex thin_vertex(const Corner& corner) const;
-    Written write_clipped(std::int32_t tet, const Corners& corners, const Place& place) const;
+    Written write_pairs(std::int32_t tet, const Corners& corners, const Place& place) const;
+    static void append(FanVertex vertex, std::int32_t tet, const Place& place, Written& written);
     static void append(const Fan& fan, std::int32_t tet, const Place& place, Written& written);
 
     const SceneMesh& mesh_;

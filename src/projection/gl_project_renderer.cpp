@@ -14,6 +14,7 @@
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
+#include "scene/world_unit.h"
 #include "slicing/gl_compositing.h"
 
 namespace lamina {
@@ -26,7 +27,7 @@ constexpr std::array silhouette_attributes{
     GlTetStream::Attribute{2, offsetof(SilhouetteVertex, position), false},
     GlTetStream::Attribute{1, offsetof(SilhouetteVertex, record), true}};
 constexpr std::array fan_attributes{GlTetStream::Attribute{2, offsetof(FanVertex, position), false},
-                                    GlTetStream::Attribute{2, offsetof(FanVertex, inverse), false},
+                                    GlTetStream::Attribute{3, offsetof(FanVertex, inverse), false},
                                     GlTetStream::Attribute{4, offsetof(FanVertex, front), false},
                                     GlTetStream::Attribute{4, offsetof(FanVertex, back), false},
                                     GlTetStream::Attribute{1, offsetof(FanVertex, tet), true}};
@@ -75,14 +76,14 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
                                      const ProjectPlan& plan, const Capabilities& capabilities,
                                      int width, int height)
     : mesh_(mesh),
-      transfer_function_(transfer_function),
+      transfer_function_(in_units(transfer_function, plan.unit)),
       plan_(plan),
       margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)),
-      pieces_(transfer_function, plan.range),
+      pieces_(transfer_function_, plan.range),
       order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility) {
     if (plan_.nothing_visible) return;
-    tables_.emplace(transfer_function, plan_);
+    tables_.emplace(transfer_function_, plan_);
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
         const auto kind = static_cast<FragmentKind>(i);
         if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));
@@ -137,7 +138,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     for (auto& program : programs_) {
         if (program) set_view(*program, view);
     }
-    draw_parts(parts, view, progress);
+    draw_parts(parts, seeing_in_units(view, plan_.unit), progress);
     Stage finishing("finish");
     glFinish();
     finishing.end();
@@ -151,7 +152,7 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     const glm::vec2 size(view.width, view.height);
     program.set("image_size", size);
     program.set("image_middle", 0.5f * size);
-    program.set("pixel_size", static_cast<float>(view.pixel));
+    program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan_.unit).pixel));
     if (!is_fan(plan_)) {
         program.set("tie_shift", tie_shift(view));
         const double near =

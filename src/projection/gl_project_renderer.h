@@ -60,7 +60,7 @@ class GlProjectRenderer : public ProjectRenderer {
     void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
 
     const SceneMesh& mesh_;
-    const TransferFunction& transfer_function_;
+    TransferFunction transfer_function_;  // in the plan's units
     ProjectPlan plan_;
     double margin_;
     gl::Framebuffer target_;

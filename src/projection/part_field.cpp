@@ -24,9 +24,11 @@ PartField::PartField(const Corners& corners, const Values& values, const LinearP
                  (values[3] - values[0]) * glm::cross(e1, e2)) /
                 glm::dot(e1, n1);
     // A tet without volume shows nothing, whatever its scalar.
-    const double steepest =
-        std::max({std::abs(gradient_.x), std::abs(gradient_.y), std::abs(gradient_.z)});
-    if (!(steepest < 1e30 * (largest - least))) gradient_ = glm::dvec3(0);
+    const auto largest_of = [](const glm::dvec3& v) {
+        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    const double extent = std::max({largest_of(e1), largest_of(e2), largest_of(e3)});
+    if (!(largest_of(gradient_) * extent < 1e30 * (largest - least))) gradient_ = glm::dvec3(0);
 }
 
 PartField::Outline PartField::outline() const {

@@ -19,7 +19,7 @@ class ProjectRenderer : public FrameRenderer {
 };
 
 // Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
-// current OpenGL context, which must outlive it, as must mesh and transfer function.
+// current OpenGL context, which must outlive it, as must the mesh.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,

@@ -70,12 +70,11 @@ class TriangleDrawing {
             return vertex_color(front(0), front(1), front(2), front(3));
         Vector z_front = hn::Set(d_, 1.0f), z_back = z_front;
         Vector length =
-            hn::Max(interpolate(d_, weights, a.inverse.y, b.inverse.y, c.inverse.y), hn::Zero(d_));
+            hn::Max(interpolate(d_, weights, a.inverse.z, b.inverse.z, c.inverse.z), hn::Zero(d_));
         if (fragments_.divided) {
             const Vector one = hn::Set(d_, 1.0f);
-            const Vector inverse = interpolate(d_, weights, a.inverse.x, b.inverse.x, c.inverse.x);
-            z_front = hn::Div(one, inverse);
-            z_back = hn::Div(one, hn::Sub(inverse, length));
+            z_front = hn::Div(one, interpolate(d_, weights, a.inverse.x, b.inverse.x, c.inverse.x));
+            z_back = hn::Div(one, interpolate(d_, weights, a.inverse.y, b.inverse.y, c.inverse.y));
             length = hn::Max(hn::Mul(hn::Mul(length, z_front), z_back), hn::Zero(d_));
             if (tile_.slants != nullptr)
                 length = hn::Mul(length, hn::Load(d_, tile_.slants + place));

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "projection/tie_shift.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -41,14 +42,14 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
                                          const TransferFunction& transfer_function,
                                          const ProjectPlan& plan, int width, int height)
     : mesh_(mesh),
-      transfer_function_(transfer_function),
+      transfer_function_(in_units(transfer_function, plan.unit)),
       plan_(plan),
-      pieces_(transfer_function, plan.range),
+      pieces_(transfer_function_, plan.range),
       order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility),
       image_(width, height),
       fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
     if (plan_.nothing_visible) return;
-    tables_.emplace(transfer_function, plan_);
+    tables_.emplace(transfer_function_, plan_);
     tables_->set(fragments_);
     fragments_.perspective = !plan_.orthographic;
     fragments_.colored = !plan_.single_color;
@@ -116,10 +117,11 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = ordering.end();
     Stage drawing("draw");
     set_view(view);
+    const View seen = seeing_in_units(view, plan_.unit);
     const Projectors projectors{
-        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
-        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, view, plan_.near_depth, margin},
-        {mesh_, transfer_function_, plan_, view}};
+        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen, plan_.near_depth, margin},
+        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen, plan_.near_depth, margin},
+        {mesh_, transfer_function_, plan_, seen}};
     if (tree_) {
         draw_tree(projectors, parts, progress);
     } else {
@@ -164,12 +166,12 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 void TileProjectRenderer::set_view(const View& view) {
     fragments_.image_middle = 0.5f * glm::vec2(view.width, view.height);
     fragments_.image_rows = view.height;
-    fragments_.pixel_size = static_cast<float>(view.pixel);
+    fragments_.pixel_size = static_cast<float>(seeing_in_units(view, plan_.unit).pixel);
     fragments_.near_depth =
         static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
     fragments_.tie_shift = tie_shift(view);
     fragments_.one_division = !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 &&
-                              farthest_corner(mesh_.mesh, view.eye) < 1e18;
+                              plan_.unit * farthest_corner(mesh_.mesh, view.eye) < 1e18;
     if (!fragments_.perspective || plan_.thickness == Thickness::dz || slant_pixel_ == view.pixel)
         return;
     slant_pixel_ = view.pixel;

@@ -30,7 +30,7 @@ namespace lamina {
 // depend on the number of threads.
 class TileProjectRenderer : public ProjectRenderer {
   public:
-    // Builds order and tables. Mesh and transfer function must outlive it.
+    // Builds order and tables. The mesh must outlive it.
     TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                         const ProjectPlan& plan, int width, int height);
     TileProjectRenderer(const TileProjectRenderer&) = delete;
@@ -85,7 +85,7 @@ class TileProjectRenderer : public ProjectRenderer {
     void draw_tile(const Chunks& chunks, std::size_t tile, TileTetTree::Node* leaf);
 
     const SceneMesh& mesh_;
-    const TransferFunction& transfer_function_;
+    TransferFunction transfer_function_;  // in the plan's units
     ProjectPlan plan_;
     TetPieces pieces_;
     VisibilityOrder order_;

@@ -22,7 +22,7 @@ struct TriangleRecord {
         bool has_zeros;              // pixel centres on the edge are this triangle's
     };
     struct Corner {
-        glm::vec2 inverse;  // as in FanVertex
+        glm::vec3 inverse;  // as in FanVertex
         glm::vec4 front, back;
     };
     std::array<Edge, 3> edges;  // opposite the corners, which are rounded to the grid

@@ -13,6 +13,14 @@
 
 namespace lamina {
 
+// The view with axes as long as `unit`, so that what is seen of points of the world is in units
+// (scene/world_unit.h).
+inline View seeing_in_units(View view, double unit) {
+    for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
+    if (view.projection == Projection::orthographic) view.pixel *= unit;
+    return view;
+}
+
 // Where points lie in the eye's space and in the window: pixels to the right and upwards from the
 // picture's lower left corner.
 class WindowView {

@@ -15,15 +15,21 @@ std::uint64_t bytes_of_brick(const TextureBrick& brick, std::uint64_t texel) {
 
 }  // namespace
 
-std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_bytes,
+std::vector<TextureBrick> cut_into_bricks(const Grid& grid, bool bordered,
+                                          std::uint64_t texel_bytes,
                                           const Capabilities& capabilities) {
+    std::array<std::int64_t, 3> samples = grid.size, border{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        border[axis] = bordered && grid.index_min()[static_cast<int>(axis)] < 0 ? 1 : 0;
+        samples[axis] += 2 * border[axis];
+    }
     std::array<std::int64_t, 3> parts{1, 1, 1}, cells{};
     TextureBrick largest;
     while (true) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t all = std::max<std::int64_t>(grid.size[axis] - 1, 1);
+            const std::int64_t all = std::max<std::int64_t>(samples[axis] - 1, 1);
             cells[axis] = (all + parts[axis] - 1) / parts[axis];
-            largest.size[axis] = std::min(cells[axis] + 1, grid.size[axis]);
+            largest.size[axis] = std::min(cells[axis] + 1, samples[axis]);
         }
         const std::size_t longest = static_cast<std::size_t>(
             std::max_element(largest.size.begin(), largest.size.end()) - largest.size.begin());
@@ -41,14 +47,15 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, std::uint64_t texel_
     std::vector<TextureBrick> bricks;
     std::array<std::int64_t, 3> at{};
     const auto last_cell = [&](std::size_t axis) {
-        return std::max<std::int64_t>(grid.size[axis] - 1, 1);
+        return std::max<std::int64_t>(samples[axis] - 1, 1);
     };
     for (at[2] = 0; at[2] < last_cell(2); at[2] += cells[2]) {
         for (at[1] = 0; at[1] < last_cell(1); at[1] += cells[1]) {
             for (at[0] = 0; at[0] < last_cell(0); at[0] += cells[0]) {
-                TextureBrick brick{at, {}};
+                TextureBrick brick{at, {}, bordered};
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    brick.size[axis] = std::min(cells[axis] + 1, grid.size[axis] - at[axis]);
+                    brick.size[axis] = std::min(cells[axis] + 1, samples[axis] - at[axis]);
+                    brick.first[axis] -= border[axis];
                 }
                 bricks.push_back(brick);
             }

@@ -24,6 +24,7 @@ const char* name_of(Blending blending);
 
 // How fragments are put over one another.
 struct CompositingPlan {
+    double unit = 1;  // world lengths times this are in the units of renderers (world_unit.h)
     Target target = Target::float32;
     std::optional<Emulation> emulation;  // for Target::emulated
     Blending blending = Blending::native;

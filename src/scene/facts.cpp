@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -68,19 +69,20 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
                          Facts& facts) {
     const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;
     std::vector<float> extinctions(bricks.ranges.size());
+    const double unit = world_unit(box_diagonal(facts.grid));
     parallel_for(static_cast<std::int64_t>(extinctions.size()), 4096, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
         const MinMaxBricks::Range& range = bricks.ranges[i];
         if (distance[i] == 0)
             extinctions[i] =
-                static_cast<float>(transfer_function.max_extinction(range.lo, range.hi));
+                static_cast<float>(transfer_function.max_extinction(range.lo, range.hi) / unit);
     });
     const auto quantile = [&](double share) {
         const auto last = static_cast<double>(extinctions.size() - 1);
         const auto place =
             extinctions.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * last));
         std::nth_element(extinctions.begin(), place, extinctions.end());
-        return double{*place};
+        return *place * unit;
     };
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
@@ -91,10 +93,7 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
 constexpr double faint_depth = 1e-4;
 
 double faint_extinction(const Facts& facts) {
-    const Grid& grid = facts.grid;
-    const double diagonal =
-        glm::distance(grid.to_world(grid.index_min()), grid.to_world(grid.index_max()));
-    return faint_depth / (diagonal * std::max(facts.max_color, 1.0));
+    return faint_depth / (box_diagonal(facts.grid) * std::max(facts.max_color, 1.0));
 }
 
 void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,

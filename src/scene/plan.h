@@ -33,6 +33,8 @@ enum class VolumeSampling {
 struct TextureBrick {
     std::array<std::int64_t, 3> first{0, 0, 0};
     std::array<std::int64_t, 3> size{1, 1, 1};
+    // Samples reach as far as the volume's box: what lies one beyond its own repeats its border.
+    bool bordered = false;
 };
 
 struct SlicePlan : CompositingPlan {

@@ -43,7 +43,7 @@ struct ProjectPlan : CompositingPlan {
     bool draw_transparent = false;  // what shows nothing is drawn, too
     bool nothing_visible = false;   // no tet is drawn
     bool table_filtered = false;    // tables go through the texture unit's filter
-    double near_depth = 0;          // of the near plane
+    double near_depth = 0;          // of the near plane, in the plan's units, as in tables
     ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
     SegmentTableRequest table;      // for SegmentSource::table
     TablePlan aligned;              // for SegmentSource::cut_table

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/vec4.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -16,6 +17,7 @@
 #include "optics/preintegration_table.h"
 #include "scene/drawn_range.h"
 #include "scene/tree_check.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -49,7 +51,10 @@ class ProjectPlanner {
           facts_(facts),
           capabilities_(capabilities),
           omissions_(omissions),
-          omitted_(omitted) {}
+          omitted_(omitted) {
+        plan_.unit = world_unit(facts.diagonal);
+        transfer_function_ = in_units(scene.transfer_function, plan_.unit);
+    }
 
     ProjectPlan make() {
         plan_.target = scene_.target;
@@ -57,7 +62,7 @@ class ProjectPlanner {
         plan_.interpolation = settings_.interpolation;
         plan_.thickness = settings_.thickness;
         plan_.table_filtered = capabilities_.exact_float_filter;
-        plan_.near_depth = near_share * facts_.diagonal;
+        plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
         plan_.range = drawn_range(scene_.transfer_function, facts_.range);
         check_size();
         choose_geometry();
@@ -79,9 +84,9 @@ class ProjectPlanner {
         return true;
     }
 
-    // Shaders have float32.
+    // Products of four lengths decide the order of tets.
     void check_size() const {
-        constexpr double least = 1e-20, most = 1e20;
+        constexpr double least = 1e-60, most = 1e60;
         if (facts_.diagonal == 0 || (facts_.diagonal >= least && facts_.diagonal <= most)) return;
         fail("{}: the diagonal of the mesh is {}, expected {} to {} for method project",
              name_of_mesh(scene_), facts_.diagonal, least, most);
@@ -205,7 +210,7 @@ class ProjectPlanner {
     SegmentTableRequest request_of(const TableSettings& settings) const {
         return {.lo = plan_.range.lo,
                 .hi = plan_.range.hi,
-                .max_length = facts_.longest_edge,
+                .max_length = facts_.longest_edge * plan_.unit,
                 .scalar_nodes = settings.scalar,
                 .length_layers = settings.length,
                 .mapping = settings.mapping,
@@ -215,6 +220,7 @@ class ProjectPlanner {
                 .colored = !plan_.single_color};
     }
 
+    // Of a run whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
     // In 1/255: the largest difference in colour or opacity that a way of integrating tets makes on
@@ -224,9 +230,10 @@ class ProjectPlanner {
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
             const auto ray = static_cast<std::size_t>(index);
             glm::dvec4 exact(0), found(0);
-            for (const MeshFacts::Run& run : facts_.trial_rays[ray]) {
-                append(exact, integrate_segment(scene_.transfer_function, run.front, run.back,
-                                                run.length));
+            for (MeshFacts::Run run : facts_.trial_rays[ray]) {
+                run.length *= plan_.unit;
+                append(exact,
+                       integrate_segment(*transfer_function_, run.front, run.back, run.length));
                 append(found, lookup(run));
             }
             for (int channel = 0; channel < 4; ++channel)
@@ -241,7 +248,7 @@ class ProjectPlanner {
     }
 
     double error_of(const SegmentTableRequest& wanted) const {
-        const auto table = segment_table(scene_.transfer_function, wanted);
+        const auto table = segment_table(*transfer_function_, wanted);
         return error_of([&](const MeshFacts::Run& run) {
             return table->lookup(run.front, run.back, run.length);
         });
@@ -267,7 +274,7 @@ class ProjectPlanner {
         if (scene_.transfer_function.knots().size() > most_table_points) return false;
         const double depth = facts_.max_extinction * facts_.longest_edge;
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
-        plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge,
+        plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,
                          !plan_.single_color};
         plan_.segment_error = error_of_aligned();
         return plan_.segment_error <=
@@ -279,8 +286,7 @@ class ProjectPlanner {
         return error_of([&](const MeshFacts::Run& run) {
             SegmentIntegral segment;
             for_each_linear_piece(
-                scene_.transfer_function.knots(), run.front, run.back,
-                [&](const LinearPiece& piece) {
+                transfer_function_->knots(), run.front, run.back, [&](const LinearPiece& piece) {
                     const double share = run.front == run.back
                                              ? 1
                                              : (piece.to - piece.from) / (run.back - run.front);
@@ -299,8 +305,7 @@ class ProjectPlanner {
     }
 
     double error_of_aligned() const {
-        const auto table =
-            preintegration_table(scene_.transfer_function, request_of(plan_.aligned));
+        const auto table = preintegration_table(*transfer_function_, request_of(plan_.aligned));
         return error_of([&](const MeshFacts::Run& run) {
             return table->lookup(run.front, run.back, run.length);
         });
@@ -317,6 +322,7 @@ class ProjectPlanner {
     const Capabilities& capabilities_;
     const OmissionSwitch& omissions_;
     std::vector<Omission>& omitted_;
+    std::optional<TransferFunction> transfer_function_;  // in the plan's units
     ProjectPlan plan_;
 };
 

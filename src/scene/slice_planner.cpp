@@ -18,6 +18,7 @@
 #include "scene/table_choice.h"
 #include "scene/target_choice.h"
 #include "scene/tree_check.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -53,6 +54,7 @@ class SlicePlanner {
     Plan make() {
         check_limits(scene_, capabilities_);
         SlicePlan& slice = plan_.slice;
+        slice.unit = world_unit(box_diagonal(facts_.grid));
         slice.target = scene_.target;
         slice.classification = scene_.slice.classification;
         slice.order = scene_.slice.order;
@@ -234,9 +236,10 @@ class SlicePlanner {
         }
         TablePlan& table = slice.table;
         table.colored = !slice.single_color;
-        table.max_length =
+        const double longest =
             (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
-        const double depth = facts_.max_extinction * table.max_length;
+        table.max_length = longest * slice.unit;
+        const double depth = facts_.max_extinction * longest;
         if (leave_out(facts_.pieces == 1 && (!table.colored || depth <= thin_depth), "table",
                       table.colored
                           ? fmt::format("the transfer function is one linear piece and a "
@@ -263,8 +266,9 @@ class SlicePlanner {
             slice.bricks = {TextureBrick{{0, 0, 0}, facts_.grid.size}};
             return;
         }
-        slice.bricks = cut_into_bricks(facts_.grid, slice.float_texture ? 4 : bytes_of(facts_.type),
-                                       capabilities_);
+        slice.bricks =
+            cut_into_bricks(facts_.grid, slice.nan_transparent,
+                            slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
     }
 
     void choose_compositing() {

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "optics/preintegration_table.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -28,8 +29,8 @@ constexpr int finer_nodes = 4;
 
 class RayCutter {
   public:
-    RayCutter(const ScalarRays& rays, int slabs)
-        : slabs_(slabs), length_((rays.far - rays.near) / slabs) {}
+    RayCutter(const ScalarRays& rays, int slabs, double unit)
+        : slabs_(slabs), length_((rays.far - rays.near) / slabs * unit) {}
 
     struct Segment {
         double front, back, length;
@@ -51,7 +52,7 @@ class RayCutter {
     }
 
     int slabs_;
-    double length_;
+    double length_;  // in the units of the plan
 };
 
 double most_nodes_of(const TablePlan& table, double knots) {
@@ -75,7 +76,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
                                             {facts.range.lo, facts.range.hi, plan.max_length,
                                              plan.scalar_nodes, plan.length_layers, plan.colored});
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
-    const RayCutter cutter(facts.scalar_rays, slabs);
+    const RayCutter cutter(facts.scalar_rays, slabs, unit);
     const int stride = (slabs + most_tried - 1) / most_tried;
     std::vector<double> errors(rays.size());
     parallel_for(static_cast<std::int64_t>(rays.size()), 8, [&](std::int64_t number) {
@@ -86,9 +87,9 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
             if (!std::isfinite(segment.front + segment.back)) continue;
             const glm::dvec3 found =
                 table->lookup(segment.front, segment.back, segment.length).color;
-            const glm::dvec3 exact = integrate_segment(scene.transfer_function, segment.front,
-                                                       segment.back, segment.length)
-                                         .color;
+            const glm::dvec3 exact =
+                integrate_segment(transfer_function, segment.front, segment.back, segment.length)
+                    .color;
             error += stride * segment.transmittance * (found - exact);
         }
         errors[ray] = std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});

@@ -8,7 +8,7 @@ namespace lamina {
 struct TablePlan {
     int scalar_nodes = 256;
     int length_layers = 1;
-    double max_length = 0;  // world units
+    double max_length = 0;  // in the plan's units
     bool colored = true;
     double error = 0;  // that it was found to add to the picture's, in 1/255
 };

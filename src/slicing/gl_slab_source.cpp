@@ -11,6 +11,7 @@
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
+#include "scene/world_unit.h"
 #include "slicing/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
@@ -70,6 +71,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
       range_(drawn_range(transfer_function, facts.range)),
       single_color_(first_color(transfer_function, range_.lo, range_.hi)),
       constant_(transfer_function.at(range_.lo)) {
+    facts_.grid = in_units(facts.grid, plan.unit);
     Stage tables("tables");
     if (plan_.sampling != VolumeSampling::none) {
         tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,

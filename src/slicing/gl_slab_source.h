@@ -24,7 +24,8 @@ class GlSlabSource {
   public:
     static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;  // of textures
 
-    // Uploads the volume and builds the tables.
+    // Uploads the volume and builds the tables. The transfer function is in the plan's units, as
+    // views are; facts are the world's.
     GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                  const Facts& facts, const SlicePlan& plan);
 

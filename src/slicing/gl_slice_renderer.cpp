@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/stage.h"
 #include "gl/check.h"
+#include "scene/world_unit.h"
 #include "slicing/gl_compositing.h"
 
 namespace lamina {
@@ -14,10 +15,10 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
                                  const Facts& facts, const SlicePlan& plan,
                                  const Capabilities& capabilities, int width, int height)
     : plan_(plan),
-      grid_(facts.grid),
+      grid_(in_units(facts.grid, plan.unit)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)) {
     if (plan_.nothing_visible) return;
-    source_.emplace(volume, transfer_function, facts, plan_);
+    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_);
     if (plan_.has_tree(NodeArithmetic::shader)) {
         shader_tree_.emplace(*source_, plan_, capabilities, width, height);
         return;
@@ -35,7 +36,8 @@ int GlSliceRenderer::step_count() const {
     return slabs_ ? plan_.batches : 0;
 }
 
-void GlSliceRenderer::draw(const View& view, Progress* progress) {
+void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
+    const View view = in_units(world_view, plan_.unit);
     target_.bind();
     target_.clear(glm::vec4(0));
     geometry_ms_ = draw_ms_ = 0;

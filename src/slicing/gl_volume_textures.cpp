@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
@@ -16,12 +17,6 @@ gl::TexelBox layer_of(const TextureBrick& brick, std::int64_t z) {
         1};
 }
 
-std::size_t first_sample(const Grid& grid, const TextureBrick& brick, std::int64_t y,
-                         std::int64_t z) {
-    return static_cast<std::size_t>(
-        ((brick.first[2] + z) * grid.size[1] + brick.first[1] + y) * grid.size[0] + brick.first[0]);
-}
-
 // Uploads the brick layer by layer after converting each sample; the layer is the only copy in
 // memory.
 template <typename Texel, typename Sample, typename Convert>
@@ -30,9 +25,11 @@ void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample*
     std::vector<Texel> layer(static_cast<std::size_t>(brick.size[0] * brick.size[1]));
     for (std::int64_t z = 0; z < brick.size[2]; ++z) {
         parallel_for(brick.size[1], 64, [&](std::int64_t y) {
-            const Sample* const from = samples + first_sample(grid, brick, y, z);
+            const BrickRow own = row_of(brick, grid, y, z);
+            const Sample* const from = samples + own.first;
             Texel* const to = layer.data() + y * brick.size[0];
-            for (std::int64_t x = 0; x < brick.size[0]; ++x) to[x] = convert(from[x]);
+            for (std::int64_t x = own.begin; x < own.end; ++x) to[x] = convert(from[x - own.begin]);
+            own.repeat_ends(to, brick.size[0]);
         });
         texture.upload(layer_of(brick, z), std::span<const Texel>(layer));
         progress.advance();
@@ -49,7 +46,7 @@ void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* s
     for (std::int64_t z = 0; z < brick.size[2]; ++z) {
         check_interrupt();
         texture.upload(layer_of(brick, z),
-                       std::span<const Texel>(samples + first_sample(grid, brick, 0, z), count),
+                       std::span<const Texel>(samples + row_of(brick, grid, 0, z).first, count),
                        store);
         progress.advance();
     }

@@ -11,15 +11,31 @@ IndexBox box_of(const TextureBrick& brick, const Grid& grid) {
     IndexBox box{grid.index_min(), grid.index_max()};
     for (int axis = 0; axis < 3; ++axis) {
         const std::int64_t first = brick.first[axis], last = first + brick.size[axis] - 1;
+        if (brick.bordered) {
+            box.min[axis] = std::max(box.min[axis], static_cast<double>(first));
+            box.max[axis] = std::min(box.max[axis], static_cast<double>(last));
+            continue;
+        }
         if (first > 0) box.min[axis] = static_cast<double>(first);
         if (last < grid.size[axis] - 1) box.max[axis] = static_cast<double>(last);
     }
     return box;
 }
 
+BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z) {
+    const auto own = [&](std::size_t axis, std::int64_t place) {
+        return std::clamp<std::int64_t>(brick.first[axis] + place, 0, grid.size[axis] - 1);
+    };
+    const std::int64_t begin = std::max<std::int64_t>(-brick.first[0], 0);
+    const std::int64_t end = std::min(brick.size[0], grid.size[0] - brick.first[0]);
+    const std::int64_t first = (own(2, z) * grid.size[1] + own(1, y)) * grid.size[0] + own(0, 0);
+    return {static_cast<std::size_t>(first), begin, end};
+}
+
 void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
                           const View& view, Order order, std::vector<std::size_t>& numbers) {
-    const glm::dvec3 eye = grid.to_index(view.eye);
+    const auto& first = bricks.front().first;  // of all
+    const glm::dvec3 eye = grid.to_index(view.eye) - glm::dvec3(first[0], first[1], first[2]);
     const glm::dvec3 forward = grid.direction_to_index(view.forward);
     // Along a ray no brick number ever goes back towards the eye's own on any axis, and each step
     // into another brick changes one of them: so the sum over the axes of the distances in bricks
@@ -31,7 +47,7 @@ void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& g
             // The first brick has the full size; all begin at multiples of its cells.
             const double cells =
                 std::max<double>(1, static_cast<double>(bricks.front().size[axis] - 1));
-            const double number = static_cast<double>(bricks[i].first[axis]) / cells;
+            const double number = static_cast<double>(bricks[i].first[axis] - first[axis]) / cells;
             if (view.projection == Projection::perspective) {
                 distance += std::abs(number - std::floor(eye[axis] / cells));
             } else {

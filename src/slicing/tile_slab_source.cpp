@@ -8,6 +8,7 @@
 #include "base/stage.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
+#include "scene/world_unit.h"
 #include "slicing/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
@@ -29,7 +30,7 @@ double point_margin(const TextureBrick& part) {
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                                const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
                                std::shared_ptr<const TileVolume> ready)
-    : plan_(plan), grid_(facts.grid), volume_(std::move(ready)) {
+    : plan_(plan), grid_(in_units(facts.grid, plan.unit)), volume_(std::move(ready)) {
     const ValueRange range = drawn_range(transfer_function, facts.range);
     const glm::dvec3 single = first_color(transfer_function, range.lo, range.hi);
     const OpticalProperties constant = transfer_function.at(range.lo);
@@ -46,7 +47,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     if (plan_.constant_regions) {
         constant_ = facts.constant_bricks;
         for (OpticalProperties& kind : constant_.kinds)
-            kind.extinction = std::min(kind.extinction, max_shader_extinction);
+            kind.extinction = std::min(kind.extinction / plan_.unit, max_shader_extinction);
         slabs_.constant = &constant_;
     }
     slabs_.bricks.reserve(plan_.bricks.size());

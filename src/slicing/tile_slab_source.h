@@ -12,7 +12,8 @@ namespace lamina {
 // rays of a view.
 class TileSlabSource {
   public:
-    // `plan` must outlive it. `largest_copy`: see TileVolume. `ready`: volume() of a source of the
+    // `plan` must outlive it. The transfer function is in its units, as views are; facts are the
+    // world's. `largest_copy`: see TileVolume. `ready`: volume() of a source of the
     // same volume, range and bricks, which need not be copied again.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                    const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "scene/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -31,15 +32,20 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
                                      const SlicePlan& plan, int width, int height,
                                      std::int64_t largest_copy,
                                      std::shared_ptr<const TileVolume> ready)
-    : plan_(plan), grid_(facts.grid), target_(width, height), blend_(target_blend(plan)) {
+    : plan_(plan),
+      grid_(in_units(facts.grid, plan.unit)),
+      target_(width, height),
+      blend_(target_blend(plan)) {
     if (plan_.nothing_visible) return;
-    source_.emplace(volume, transfer_function, facts, plan_, largest_copy, std::move(ready));
+    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_, largest_copy,
+                    std::move(ready));
     if (plan_.tree) shape_.emplace(plan_.tree->factors, plan_.slabs);
     if (plan_.has_tree(NodeArithmetic::fixed))
         fixed_tree_.emplace(plan_, *shape_, source_->slabs().single_color);
 }
 
-void TileSliceRenderer::draw(const View& view, Progress* progress) {
+void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
+    const View view = in_units(world_view, plan_.unit);
     samples_ = 0;
     geometry_ms_ = draw_ms_ = 0;
     const DepthRange depth = depth_range(grid_, view);

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "slicing/texture_bricks.h"
 
 namespace lamina {
 namespace {
@@ -16,28 +17,19 @@ std::int64_t samples_of(const TextureBrick& part) {
     return part.size[0] * part.size[1] * part.size[2];
 }
 
-template <typename Sample>
-const Sample* row_of(const Grid& grid, const TextureBrick& part, const Sample* samples,
-                     std::int64_t y, std::int64_t z) {
-    return samples + ((part.first[2] + z) * grid.size[1] + part.first[1] + y) * grid.size[0] +
-           part.first[0];
-}
-
-// Calls visit(y, z, first sample of the row), for all rows, in parallel.
-template <typename Sample, typename Visit>
-void for_each_row(const Grid& grid, const TextureBrick& part, const Sample* samples,
-                  const Visit& visit) {
-    parallel_for(part.size[1] * part.size[2], 64, [&](std::int64_t number) {
-        const std::int64_t y = number % part.size[1], z = number / part.size[1];
-        visit(y, z, row_of(grid, part, samples, y, z));
-    });
+// Calls visit(y, z), for all rows, in parallel.
+template <typename Visit>
+void for_each_row(const TextureBrick& part, const Visit& visit) {
+    parallel_for(part.size[1] * part.size[2], 64,
+                 [&](std::int64_t number) { visit(number % part.size[1], number / part.size[1]); });
 }
 
 void fill_quads(const Grid& grid, const TextureBrick& part, const std::uint8_t* samples,
                 std::uint32_t* quads) {
-    for_each_row(grid, part, samples, [&](std::int64_t y, std::int64_t z, const auto* row) {
+    for_each_row(part, [&](std::int64_t y, std::int64_t z) {
+        const std::uint8_t* const row = samples + row_of(part, grid, y, z).first;
         const std::uint8_t* const below =
-            row_of(grid, part, samples, std::min(y + 1, part.size[1] - 1), z);
+            samples + row_of(part, grid, std::min(y + 1, part.size[1] - 1), z).first;
         std::uint32_t* const to = quads + (z * part.size[1] + y) * part.size[0];
         for (std::int64_t x = 0; x < part.size[0]; ++x) {
             const std::int64_t next = std::min(x + 1, part.size[0] - 1);
@@ -113,7 +105,9 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
     volume_.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
         const double scale = 1 / (range_.hi - range_.lo);
-        for_each_row(grid, part, samples, [&](std::int64_t y, std::int64_t z, const Sample* row) {
+        for_each_row(part, [&](std::int64_t y, std::int64_t z) {
+            const BrickRow own = row_of(part, grid, y, z);
+            const Sample* const row = samples + own.first;
             const std::int64_t place = (z * part.size[1] + y) * part.size[0];
             if (brick.layout != TileLayout::floats) {
                 std::memcpy(reinterpret_cast<std::byte*>(copy.data()) +
@@ -121,14 +115,15 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
                             row, static_cast<std::size_t>(part.size[0]) * sizeof(Sample));
                 return;
             }
-            for (std::int64_t x = 0; x < part.size[0]; ++x) {
-                const double value = row[x];
+            for (std::int64_t x = own.begin; x < own.end; ++x) {
+                const double value = row[x - own.begin];
                 const float normalised = std::isfinite(value)
                                              ? static_cast<float>((value - range_.lo) * scale)
                                              : std::numeric_limits<float>::quiet_NaN();
                 copy[static_cast<std::size_t>(place + x)] =
                     std::bit_cast<std::uint32_t>(normalised);
             }
+            own.repeat_ends(copy.data() + place, part.size[0]);
         });
     });
 }

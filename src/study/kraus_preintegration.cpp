@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "optics/segment_table.h"
+#include "scene/world_unit.h"
 #include "study/compared_pictures.h"
 #include "study/findings.h"
 #include "study/kraus.h"
@@ -48,7 +49,9 @@ std::vector<Variant> ways(const Scene& scene) {
 Json build_ms(const DrawnMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
     const Plan plan = make_plan(scene, mesh.measure_for(scene), capabilities, {});
     if (plan.project.source != SegmentSource::table) return nullptr;
-    return build_segment_table(scene.transfer_function, plan.project.table).build_ms;
+    return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
+                               plan.project.table)
+        .build_ms;
 }
 
 Json measured_rows(KrausSubject& subject, const char* transfer_function, const Scene& scene,

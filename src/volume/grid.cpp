@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/grid.h"
 
+#include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -38,10 +40,15 @@ glm::dvec3 Grid::to_index(const glm::dvec3& world) const {
 }
 
 glm::dvec3 Grid::direction_to_index(const glm::dvec3& world) const {
-    // The inverse of a matrix with orthogonal columns: project on each.
+    // The inverse of a matrix with orthogonal columns: project on each, which is first scaled by a
+    // power of two, so that its square neither vanishes nor overflows.
     glm::dvec3 index{0};
     for (int axis = 0; axis < 3; ++axis) {
-        index[axis] = glm::dot(world, step[axis]) / glm::dot(step[axis], step[axis]);
+        const glm::dvec3& along = step[axis];
+        const double largest = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
+        const double scale = std::scalbn(1.0, -std::ilogb(largest));
+        const glm::dvec3 scaled = scale * along;
+        index[axis] = glm::dot(world, scaled) / glm::dot(scaled, scaled) * scale;
     }
     return index;
 }

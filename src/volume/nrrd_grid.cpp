@@ -104,17 +104,14 @@ void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, 
 
 void check_steps(const std::string& file, const Grid& grid) {
     for (std::size_t i = 0; i < 3; ++i) {
-        const double length = glm::length(grid.step[i]);
+        const double length = std::hypot(grid.step[i].x, grid.step[i].y, grid.step[i].z);
         if (!(length >= shortest_step && length <= longest_step)) {
-            fail(
-                "{}: axis {}: found a distance of {} between samples, expected a finite one that "
-                "is "
-                "not 0",
-                file, i, length);
+            fail("{}: axis {}: found a distance of {} between samples, expected one from {} to {}",
+                 file, i, length, shortest_step, longest_step);
         }
-        if (!std::isfinite(grid.origin[static_cast<int>(i)])) {
-            fail("{}: space origin: found {}, expected finite numbers", file,
-                 grid.origin[static_cast<int>(i)]);
+        if (!(std::abs(grid.origin[static_cast<int>(i)]) <= longest_step)) {
+            fail("{}: space origin: found {}, expected finite numbers up to {}", file,
+                 grid.origin[static_cast<int>(i)], longest_step);
         }
     }
     for (std::size_t i = 0; i < 3; ++i) {

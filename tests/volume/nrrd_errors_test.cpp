@@ -113,7 +113,11 @@ TEST_F(NrrdErrors, DirectionsThatMakeNoGrid) {
     expect_says(directions("(1,0,0) (0,1,0) (0,0.001,1)"), {"axes 1 and 2 meet at 89.94"});
     expect_says(directions("(1,0,0) (0,1,0) none"), {"axis 2"});
     expect_says(directions("(1,0,0) (0,0,0) (0,0,1)"), {"axis 1"});
-    expect_says(directions("(1,0,0) (0,1e300,0) (0,0,1)"), {"axis 1"});
+    expect_says(directions("(1,0,0) (0,1e300,0) (0,0,1)"),
+                {"axis 1", "distance of 1e+300", "expected one from 1e-100 to 1e+100"});
+    expect_says(directions("(1,0,0) (0,1e-200,0) (0,0,1)"), {"axis 1", "distance of 1e-200"});
+    expect_says(directions("(1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,1e150,0)"),
+                {"space origin", "found 1e+150", "up to 1e+100"});
     expect_says(directions("(1,0,0) (0,inf,0) (0,0,1)"), {"a.nrrd"});
 }
 

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+
+#include "mesh/tet.h"
+#include "projection/window_view.h"
+
+namespace lamina {
+
+// A tet in one view, cut into the convex parts of the picture on which rays enter it by one face,
+// or at the near plane, and leave it by one other. Unlike the fans of Kraus 2004 these are right
+// where a corner lies behind the eye, and no part of them lies far beyond the picture, where window
+// coordinates of float32 are whole pixels.
+class FacePairs {
+  public:
+    using Fronts = std::array<bool, 4>;  // of the faces opposite the corners
+
+    // `seen`: the corners from the eye, along right, up and forward.
+    FacePairs(const WindowView& window, double near_depth, const Tet& tet,
+              const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
+
+    // The rectangle cut with at most three edges of either face, and with the near plane.
+    static constexpr std::size_t most_corners = 12;
+    struct Polygon {
+        std::size_t count = 0;
+        std::array<glm::dvec2, most_corners> corners;  // window coordinates
+    };
+
+    // Where a ray meets a face or the near plane: the shares of the tet's corners there, over z
+    // where rays meet in the eye, so that they are linear in the picture.
+    using Shares = std::array<double, 4>;
+    struct Hit {
+        double inverse_z;  // 1 where rays are parallel
+        double z;
+        Shares shares;
+    };
+    static constexpr std::size_t near_plane = 4;  // instead of a face
+    Hit hit(std::size_t face, const glm::dvec2& place) const;
+
+    // Calls visit(polygon, front face or near_plane, back face).
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t back = 0; back < 4; ++back) {
+            if (fronts_[back]) continue;
+            const Polygon behind = limited(part_of(back, picture_), back, true);
+            if (behind.count == 0) continue;
+            for (std::size_t front = 0; front < 4; ++front) {
+                if (!fronts_[front]) continue;
+                const Polygon both = part_of(front, behind);
+                if (const Polygon part = limited(both, front, true); part.count > 0)
+                    visit(part, front, back);
+                if (!cut_) continue;
+                if (const Polygon part = limited(both, front, false); part.count > 0)
+                    visit(part, near_plane, back);
+            }
+            if (!any_front_) visit(behind, near_plane, back);
+        }
+    }
+
+    // Polygons that are visited do not overlap and together are convex; triangulated they have at
+    // most two triangles for each corner inside, and one for each but two on the border. Inside lie
+    // at most 4: a corner of the tet or the crossing of two edges, and where edges meet the near
+    // plane. On the border: 4 corners of the picture, 6 of what is cut by the near plane, and 12
+    // ends of at most 6 lines that cross. There are at most 6 polygons.
+    static constexpr std::size_t most_triangles = 28;
+
+  private:
+    // a.x + b.y + c of a ray's place at depth 1 (parallel rays: of its place).
+    using Linear = glm::dvec3;
+
+    glm::dvec3 ray_at(const glm::dvec2& place) const;
+    Polygon cut(const Polygon& polygon, const Linear& function) const;
+    Polygon part_of(std::size_t face, const Polygon& polygon) const;
+    Polygon limited(const Polygon& polygon, std::size_t face, bool behind_near) const;
+    Linear depth_of(std::size_t face) const;
+
+    const WindowView& window_;
+    double near_depth_;
+    bool cut_ = false, any_front_ = false;
+    std::array<glm::dvec3, 4> seen_;
+    Fronts fronts_;
+    std::array<std::array<Linear, 3>, 4> shares_;  // of each face's corners
+    // Shares of the corners in space: so much per x, y, z, and at the eye.
+    std::array<glm::dvec3, 4> inside_;
+    std::array<double, 4> inside_at_eye_;
+    Polygon picture_;
+};
+
+}  // namespace lamina

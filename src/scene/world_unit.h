@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "optics/transfer_function.h"
+#include "scene/camera.h"
+#include "volume/grid.h"
+
+namespace lamina {
+
+// Worlds may be as small as atoms and as large as galaxies, and float32 overflows at the square of
+// 1e20: renderers measure lengths in units in which what they draw has about size 1. They are
+// powers of two, so that no digit changes: a world twice as large, with half the extinction, gives
+// the same picture bit for bit.
+
+// Lengths times this are in those units: `diagonal` becomes 1 to 2. 1 where that is 0.
+double world_unit(double diagonal);
+double box_diagonal(const Grid& grid);
+
+Grid in_units(Grid grid, double unit);
+View in_units(View view, double unit);
+// Extinctions, which are per length.
+TransferFunction in_units(const TransferFunction& transfer_function, double unit);
+
+}  // namespace lamina

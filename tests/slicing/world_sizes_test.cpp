@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Worlds as small as atoms and as large as galaxies give the picture of one of size 1.
+#include "support/volume_of.h"
+#include "tile_fixture.h"
+
+namespace lamina {
+namespace {
+
+struct World {
+    Volume volume;
+    Scene scene;
+};
+
+// Everything `size` times as large, with as much opacity.
+World resized(const World& world, double size) {
+    Grid grid = world.volume.grid();
+    grid.origin *= size;
+    for (glm::dvec3& step : grid.step) step *= size;
+    const std::shared_ptr<const void> samples(world.volume.data(), [](const void*) {});
+    Scene scene = world.scene;
+    scene.transfer_function = scene.transfer_function.attenuated(1 / size);
+    scene.camera.eye *= size;
+    scene.camera.center *= size;
+    scene.camera.height *= size;
+    return {Volume(grid, world.volume.type(), samples), scene};
+}
+
+enum class Place { outside, inside };
+
+World world_of(Projection projection, Place place, Classification classification) {
+    World world{gaussians(20), unit_box_scene(smooth_transfer_function(), projection, 40, 30)};
+    if (place == Place::inside) {
+        world.scene.camera.eye = {.3, .45, .6};
+        world.scene.camera.fov_y = 90;
+    }
+    world.scene.slice.classification = classification;
+    world.scene.slice.samples = 150;
+    return world;
+}
+
+std::vector<World> worlds() {
+    std::vector<World> all;
+    for (const auto way : {Classification::post, Classification::preintegrated}) {
+        for (const auto projection : {Projection::perspective, Projection::orthographic})
+            all.push_back(world_of(projection, Place::outside, way));
+        all.push_back(world_of(Projection::perspective, Place::inside, way));
+    }
+    return all;
+}
+
+// Powers of two change no digit.
+constexpr std::array exponents{-300, -110, 70, 300};
+
+TEST(TileWorldSizes, PowersOfTwoChangeNoBit) {
+    for (const World& world : worlds()) {
+        const Image picture = render_tiles(world.volume, world.scene);
+        World coded = world;
+        coded.scene.target = Target::emulated;
+        coded.scene.slice.dither = DitherSettings{.period = 7};
+        const Image codes = render_tiles(coded.volume, coded.scene);
+        for (const int exponent : exponents) {
+            const World other = resized(world, std::ldexp(1., exponent));
+            EXPECT_EQ(render_tiles(other.volume, other.scene).rgba, picture.rgba) << exponent;
+            const World other_coded = resized(coded, std::ldexp(1., exponent));
+            EXPECT_EQ(render_tiles(other_coded.volume, other_coded.scene).rgba, codes.rgba)
+                << exponent;
+        }
+    }
+}
+
+TEST_F(SlicingTest, WorldsOfPowersOfTwoChangeNoBit) {
+    for (const World& world : worlds()) {
+        const Image picture = render(world.volume, world.scene, capabilities());
+        for (const int exponent : exponents) {
+            const World other = resized(world, std::ldexp(1., exponent));
+            EXPECT_EQ(render(other.volume, other.scene, capabilities()).rgba, picture.rgba)
+                << exponent;
+        }
+    }
+}
+
+// Coordinates that are no powers of two are rounded once: some 1e-16 of a picture that is good to
+// far less. The tracer knows nothing of units.
+TEST(TileWorldSizes, EverySizeIsTheTracers) {
+    for (const World& world : worlds()) {
+        const Image reference = trace(world.volume, world.scene, 1e-6);
+        const double error =
+            image_error(render_tiles(world.volume, world.scene), reference).all.linf;
+        for (const double size : {1e-90, 1e-31, 3e20, 1e21, 1e90}) {
+            const World other = resized(world, size);
+            const Image picture = render_tiles(other.volume, other.scene);
+            const Image traced = trace(other.volume, other.scene, 1e-6);
+            // Both within their own 1e-6 of full scale, and roundings of float32.
+            EXPECT_LE(image_error(traced, reference).all.linf, 255 * 2e-6) << size;
+            EXPECT_LE(image_error(picture, traced).all.linf, error + 255 * 1e-5) << size;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina
