@@ -72,9 +72,11 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 }  // namespace
 
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
-    const auto table = preintegration_table(scene.transfer_function,
-                                            {facts.range.lo, facts.range.hi, plan.max_length,
-                                             plan.scalar_nodes, plan.length_layers, plan.colored});
+    const double unit = world_unit(box_diagonal(facts.grid));
+    const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
+    const auto table = preintegration_table(
+        transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
+                            plan.length_layers, plan.colored});
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
     const RayCutter cutter(facts.scalar_rays, slabs, unit);
     const int stride = (slabs + most_tried - 1) / most_tried;

@@ -32,7 +32,8 @@ class StudyDataSets : public StudyTestCase {
     }
     // What the list says of data of that name.
     std::string content_of(const std::string& output, const std::string& name) const {
-        for (const json& data : document(output, "runs.json")["data"]) {
+        const json list = document(output, "runs.json");
+        for (const json& data : list["data"]) {
             if (data["name"].get<std::string>().ends_with(name)) return data["content"];
         }
         ADD_FAILURE() << name;
@@ -91,7 +92,7 @@ TEST_F(StudyDataSets, AMeshOrAColormapThatChangedIsNotGoneOnWith) {
         make_volume("marschner-lobb", "4,4,4");
         make_mesh();
     });
-    expect_refused_after("colors.json", [&] { write_colors(".9"); });
+    expect_refused_after("colors.json", [&] { write_colors("0.9"); });
 }
 
 // It is the same data, written in another way.
