@@ -164,8 +164,8 @@ class SlabTrials {
             return trial_of(slabs, truth_.error_of(draw(slabs, filter, {})));
         }
         draw_fine(slabs);
-        if (truth_.empty()) truth_.trace_some(traced_rays, *fine_);
         const Image picture = draw(slabs, filter, {});
+        if (truth_.empty()) truth_.trace_some(traced_rays, picture, *fine_);
         // Of the error, (slabs / fine_slabs_)^2 is that of the finer picture, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);

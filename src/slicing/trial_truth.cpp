@@ -58,17 +58,27 @@ std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     return pixels;
 }
 
-void append_edges(std::size_t count, const Image& picture, std::vector<glm::ivec2>& pixels) {
-    const std::vector<float> contrasts = contrasts_of(picture);
-    std::vector<std::size_t> order(contrasts.size());
+// Of each pixel, the largest difference of a channel.
+std::vector<float> differences_of(const Image& a, const Image& b) {
+    std::vector<float> differences;
+    differences.reserve(a.rgba.size() / 4);
+    for (std::size_t i = 0; i < a.rgba.size(); i += 4)
+        differences.push_back(static_cast<float>(difference_of(&a.rgba[i], &b.rgba[i])));
+    return differences;
+}
+
+// The `count` pixels of the largest values.
+void append_largest(std::size_t count, int picture_width, const std::vector<float>& values,
+                    std::vector<glm::ivec2>& pixels) {
+    std::vector<std::size_t> order(values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto sharper = [&](std::size_t a, std::size_t b) {
-        return contrasts[a] != contrasts[b] ? contrasts[a] > contrasts[b] : a < b;
+    const auto larger = [&](std::size_t a, std::size_t b) {
+        return values[a] != values[b] ? values[a] > values[b] : a < b;
     };
     count = std::min(count, order.size());
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                     sharper);
-    const auto width = static_cast<std::size_t>(picture.width);
+                     larger);
+    const auto width = static_cast<std::size_t>(picture_width);
     for (std::size_t i = 0; i < count; ++i)
         pixels.emplace_back(static_cast<int>(order[i] % width), static_cast<int>(order[i] / width));
 }
@@ -84,11 +94,16 @@ void TrialTruth::trace_all() {
     trace();
 }
 
-void TrialTruth::trace_some(std::size_t count, const Image& picture) {
+void TrialTruth::trace_some(std::size_t count, const Image& picture, const Image& finer) {
     const double pixels = static_cast<double>(view_.width) * view_.height;
-    const double edge = std::ceil(std::sqrt(pixels / (static_cast<double>(count) / 2)));
+    const double edge = std::ceil(std::sqrt(pixels / (static_cast<double>(count) / 4)));
     pixels_ = pixels_all_over(view_.width, view_.height, static_cast<int>(edge));
-    append_edges(count / 2, picture, pixels_);
+    append_largest(count / 4, view_.width, differences_of(picture, finer), pixels_);
+    std::vector<float> contrasts = contrasts_of(finer);
+    for (const glm::ivec2& pixel : pixels_)  // not twice
+        contrasts[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(view_.width) +
+                  static_cast<std::size_t>(pixel.x)] = -1;
+    append_largest(count / 2, view_.width, contrasts, pixels_);
     trace();
 }
 

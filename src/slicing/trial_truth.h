@@ -22,11 +22,11 @@ class TrialTruth {
                double tolerance);
 
     void trace_all();
-    // Traces at most `count` pixels of a picture that is too large for trace_all(). Half of them
-    // lie all over the picture, one at a place of its own in each of equal cells. The others are
-    // those that differ most from a neighbour in `picture`: a ray that grazes what its neighbours
-    // hit is at such an edge, and that is where segments miss most.
-    void trace_some(std::size_t count, const Image& picture);
+    // Traces at most `count` pixels of a picture that is too large for trace_all(): a quarter all
+    // over the picture, one at a place of its own in each of equal cells; a quarter where `picture`
+    // and `finer` differ most; and half where a pixel of `finer` differs most from a neighbour: a
+    // ray that grazes what its neighbours hit is at such an edge, and there segments miss most.
+    void trace_some(std::size_t count, const Image& picture, const Image& finer);
 
     bool empty() const { return pixels_.empty(); }
     std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
