@@ -27,12 +27,13 @@ class SliceMethod : public FrameMethod {
         const double error = found + slice.error_bound.value_or(0);
         if (error <= request_.scene.max_error) return plan;
         const std::string why =
-            slice.slab_trial ? fmt::format(
-                                   "of the numbers of slabs that were tried, {} are taken, with an "
-                                   "error of {:.2g} (render.slice.samples sets another)",
-                                   slice.slabs, error)
-                             : fmt::format("{} slabs composited in {} are off by up to {:.2g}",
-                                           slice.slabs, name_of(slice.target), error);
+            slice.slab_trial
+                ? fmt::format(
+                      "of the numbers of slabs that were tried, {} are taken, with an "
+                      "error of {:.2g} / 255 (render.slice.samples sets another)",
+                      slice.slabs, error)
+                : fmt::format("{} slabs composited in {} are off by up to {:.2g} / 255",
+                              slice.slabs, name_of(slice.target), error);
         request_.message(
             fmt::format("render.max_error: {:.4g} is not kept: {}", request_.scene.max_error, why));
         return plan;
