@@ -108,12 +108,12 @@ bool more_bits_keep(TreeQuestion question) {
                                  ? fmt::format(" of {} bits", question.emulation.bits)
                                  : "";
     const std::string clamping =
-        clamps ? fmt::format(" and clamps colours (up to {:.4g}) to 1", question.largest_color)
+        clamps ? fmt::format(", and clamps colours (up to {:.4g}) to 1", question.largest_color)
                : "";
     fail(
-        "render.max_error: {:.4g} cannot be kept: the target {}{} rounds {} visible slabs by up "
-        "to {:.4g} / 255 at best{}: take {}",
-        question.max_error, name_of(question.target), bits, question.visible_slabs,
+        "render.max_error: {:.4g} cannot be kept: over {} visible slabs the target {}{} is off by "
+        "up to {:.4g} / 255 at best{}: take {}",
+        question.max_error, question.visible_slabs, name_of(question.target), bits,
         best_error_bound(question), clamping, fmt::join(remedies, ", or "));
 }
 

@@ -47,11 +47,11 @@ class Messages : public testing::Test {
 };
 
 TEST_F(Messages, NamesAreEscaped) {
-    for (const std::string verb : {"render", "study", "mesh", "order", "crosscheck"}) {
+    for (const char* const verb : {"render", "study", "mesh", "crosscheck"}) {
         const ProgramResult result =
-            lamina_run({verb, folder / (hostile + ".json"), "-o", folder / (verb + ".out")});
+            lamina_run({verb, folder / (hostile + ".json"), "-o", folder / "out.vtu"});
         EXPECT_NE(result.exit_code, 0);
-        expect_line(result.err, {verb == "order" ? "" : escaped});
+        expect_line(result.err, {escaped + ".json: no such file"});
     }
     const ProgramResult missing = lamina_run({"info", folder / (hostile + ".nrrd")});
     EXPECT_EQ(missing.exit_code, 1);
@@ -70,7 +70,7 @@ TEST_F(Messages, NamesOfWhatIsWrittenAreEscaped) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     expect_line(result.err, {"wrote ", escaped + "/a.exr"});
     for (const char* const file : {"s.json", "p.json"})
-        EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / file))) << file;
+        EXPECT_TRUE(json::accept(read_bytes_of(home / file))) << file;
 }
 
 TEST_F(Messages, StudiesAndCrosschecksOfAnyName) {
@@ -83,11 +83,11 @@ TEST_F(Messages, StudiesAndCrosschecksOfAnyName) {
     const ProgramResult study =
         lamina_run({"study", home / "study.json", "-o", home / "out", "--yes", "--quiet"});
     EXPECT_EQ(study.exit_code, 0) << study.err;
-    EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / "out" / "results.json")));
+    EXPECT_TRUE(json::accept(read_bytes_of(home / "out" / "results.json")));
     const ProgramResult check = lamina_run(
         {"crosscheck", home / "scene.json", "-o", home / "check", "--quiet", "--context", "cpu"});
     EXPECT_EQ(check.exit_code, 0) << check.err;
-    EXPECT_NO_THROW((void)json::parse(read_bytes_of(home / "check" / "budget.json")));
+    EXPECT_TRUE(json::accept(read_bytes_of(home / "check" / "budget.json")));
 }
 
 // A mesh's arrays have names, too.
@@ -102,9 +102,9 @@ TEST_F(Messages, NamesInFilesAreEscaped) {
     EXPECT_EQ(table.out.find('\x1b'), std::string::npos) << table.out;
     EXPECT_EQ(table.out.find('\xff'), std::string::npos) << table.out;
     const ProgramResult report = lamina_run({"info", folder / "a.vtk", "--json"});
-    EXPECT_NO_THROW((void)json::parse(report.out)) << report.out;
+    EXPECT_TRUE(json::accept(report.out)) << report.out;
     const ProgramResult order = lamina_run({"order", folder / "a.vtk", "--json"});
-    EXPECT_NO_THROW((void)json::parse(order.out)) << order.out << order.err;
+    EXPECT_TRUE(json::accept(order.out)) << order.out << order.err;
 }
 
 TEST_F(Messages, DataThatAreNotUsedAreSaidOnce) {

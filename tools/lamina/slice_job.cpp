@@ -49,21 +49,21 @@ class SliceMethod : public FrameMethod {
             const std::string why =
                 trial ? fmt::format(
                             "of the numbers of slabs that were tried, {} are taken, with an error "
-                            "of {:.2g} (render.slice.samples sets another)",
+                            "of {:.2g} / 255 (render.slice.samples sets another)",
                             plan.slabs, error)
                 : plan.table.error > wanted
                     ? fmt::format(
-                          "the pre-integration table is off by {:.2g} "
+                          "the pre-integration table is off by {:.2g} / 255 "
                           "(render.slice.classification \"post\" does without)",
                           plan.table.error)
-                    : fmt::format("{} slabs composited in {} are off by up to {:.2g}", plan.slabs,
-                                  name_of(plan.target), error);
+                    : fmt::format("{} slabs composited in {} are off by up to {:.2g} / 255",
+                                  plan.slabs, name_of(plan.target), error);
             request_.message(fmt::format("render.max_error: {:.4g} is not kept: {}", wanted, why));
         } else if (trial && trial->doubtful) {
-            request_.message(fmt::format(
-                "render.max_error: {:.4g} is not sure to be kept: {} slabs are off by {:.2g} on "
-                "{} traced rays of {}, and others may be off by more",
-                wanted, plan.slabs, error, trial->traced, trial->rays));
+            request_.message(
+                fmt::format("render.max_error: {:.4g} is not sure to be kept: {} slabs are off by "
+                            "{:.2g} / 255 on {} traced rays of {}, and others may be off by more",
+                            wanted, plan.slabs, error, trial->traced, trial->rays));
         }
     }
 
