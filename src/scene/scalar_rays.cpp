@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 
 #include "base/parallel.h"
@@ -14,7 +15,9 @@
 namespace lamina {
 namespace {
 
-constexpr int rays_along_side = 16;
+// Of so many places along each side of the picture some at which the ray meets the box are taken.
+constexpr int places_along_side = 64;
+constexpr std::size_t most_rays = 256;
 constexpr double scalars_per_voxel = 2, most_scalars = 1024;
 
 class RaySampler {
@@ -29,8 +32,23 @@ class RaySampler {
                                              2.0, most_scalars))),
           step_((facts.far_depth - facts.near_depth) / (count_ - 1)) {}
 
-    ScalarRays::Ray sample(int column, int row) const {
-        const View::Ray ray = view_.ray(column, row);
+    bool meets_box(const glm::ivec2& pixel) const {
+        const View::Ray ray = view_.ray(pixel.x, pixel.y);
+        const glm::dvec3 origin = grid_.to_index(ray.origin);
+        const glm::dvec3 direction = grid_.direction_to_index(ray.direction);
+        double from = 0, to = std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double a = (grid_.index_min()[axis] - origin[axis]) / direction[axis];
+            const double b = (grid_.index_max()[axis] - origin[axis]) / direction[axis];
+            if (!std::isfinite(a) || !std::isfinite(b)) continue;  // perpendicular: all or nothing
+            from = std::max(from, std::min(a, b));
+            to = std::min(to, std::max(a, b));
+        }
+        return from < to;
+    }
+
+    ScalarRays::Ray sample(const glm::ivec2& pixel) const {
+        const View::Ray ray = view_.ray(pixel.x, pixel.y);
         const glm::dvec3 origin = grid_.to_index(ray.origin);
         const glm::dvec3 direction = grid_.direction_to_index(ray.direction);
         ScalarRays::Ray result{glm::length(ray.direction), {}, {}};
@@ -88,18 +106,21 @@ ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& fa
     ScalarRays found{facts.near_depth, facts.far_depth, {}};
     if (facts.far_depth <= facts.near_depth) return found;
     const RaySampler sampler(scene, volume, facts);
-    const int columns = std::min(rays_along_side, scene.width);
-    const int rows = std::min(rays_along_side, scene.height);
-    found.rays.resize(static_cast<std::size_t>(columns * rows));
-    parallel_for(rows, 1, [&](std::int64_t row) {
+    const int columns = std::min(places_along_side, scene.width);
+    const int rows = std::min(places_along_side, scene.height);
+    std::vector<glm::ivec2> pixels;
+    for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            found.rays[static_cast<std::size_t>(row * columns + column)] =
-                sampler.sample((2 * column + 1) * scene.width / (2 * columns),
-                               static_cast<int>((2 * row + 1) * scene.height / (2 * rows)));
+            const glm::ivec2 pixel((2 * column + 1) * scene.width / (2 * columns),
+                                   (2 * row + 1) * scene.height / (2 * rows));
+            if (sampler.meets_box(pixel)) pixels.push_back(pixel);
         }
-    });
-    std::erase_if(found.rays, [](const ScalarRays::Ray& ray) {
-        return std::ranges::none_of(ray.scalars, [](float s) { return std::isfinite(s); });
+    }
+    const std::size_t step = (pixels.size() + most_rays - 1) / most_rays;
+    found.rays.resize(step > 0 ? (pixels.size() + step - 1) / step : 0);
+    parallel_for(static_cast<std::int64_t>(found.rays.size()), 4, [&](std::int64_t number) {
+        const auto ray = static_cast<std::size_t>(number);
+        found.rays[ray] = sampler.sample(pixels[ray * step]);
     });
     return found;
 }

@@ -12,8 +12,8 @@ struct SlabTrial {
     std::int64_t rays = 0;    // that were tried
     double goal = 0;          // what the error may be: slab_error_goal(), in 1/255
     std::int64_t traced = 0;  // of the rays, held against the reference tracer
-    // The tracer found more than pictures of other numbers of slabs show, and did not see all rays:
-    // the others may be off by more, too.
+    // The picture may be off by more: the rays are those of a smaller one, or not all of them were
+    // traced, and the tracer found more than pictures of other numbers of slabs show.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 };

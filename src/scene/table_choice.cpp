@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "optics/linear_pieces.h"
 #include "optics/preintegration_table.h"
+#include "optics/segment_integral.h"
 #include "scene/world_unit.h"
 
 namespace lamina {
@@ -13,6 +15,9 @@ namespace {
 
 // Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
 constexpr int most_tried = 64;
+
+// So many of the linear pieces are tried one by one, from all over the range.
+constexpr std::size_t most_pieces_tried = 64;
 
 // A table's colours cost this many pieces of segment integrals at most, some .2 s on two cores, and
 // these bytes: choosing the number of slabs takes several tables.
@@ -27,15 +32,16 @@ constexpr double usual_length_layers = 9, most_length_layers = 33;
 // Another table is tried with so many times the nodes.
 constexpr int finer_nodes = 4;
 
+struct Segment {
+    double front = 0, back = 0, length = 0;
+    double transmittance = 1;  // of what lies in front
+};
+
 class RayCutter {
   public:
     RayCutter(const ScalarRays& rays, int slabs, double unit)
         : slabs_(slabs), length_((rays.far - rays.near) / slabs * unit) {}
 
-    struct Segment {
-        double front, back, length;
-        double transmittance;  // of what lies in front
-    };
     // Of slab i.
     Segment segment(const ScalarRays::Ray& ray, int i) const {
         return {at(ray.scalars, i), at(ray.scalars, i + 1), length_ * ray.length_per_depth,
@@ -54,6 +60,35 @@ class RayCutter {
     int slabs_;
     double length_;  // in the units of the plan
 };
+
+double largest(const glm::dvec3& error) {
+    return std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
+}
+
+// Segments around places of every linear piece, of three widths up to `widest`: few rays meet what
+// is narrow.
+std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
+                                        const ValueRange& range, double widest) {
+    std::vector<LinearPiece> pieces;
+    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
+                          [&](const LinearPiece& piece) { pieces.push_back(piece); });
+    std::vector<Segment> segments;
+    const std::size_t step = pieces.size() / most_pieces_tried + 1;
+    for (std::size_t i = 0; i < pieces.size(); i += step) {
+        const LinearPiece& piece = pieces[i];
+        for (const double place : {.03, .3, .7, .97}) {
+            const double middle = piece.from + place * (piece.to - piece.from);
+            for (const double width :
+                 {std::min(widest, .1 * (piece.to - piece.from)), .1 * widest, widest}) {
+                const double lower = std::max(middle - width / 2, range.lo);
+                const double upper = std::min(middle + width / 2, range.hi);
+                segments.push_back({lower, upper});
+                segments.push_back({upper, lower});
+            }
+        }
+    }
+    return segments;
+}
 
 double most_nodes_of(const TablePlan& table, double knots) {
     return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // optics/preintegration_table.h
@@ -77,26 +112,43 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     const auto table = preintegration_table(
         transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
                             plan.length_layers, plan.colored});
+    const auto error_of = [&](const Segment& segment) {
+        return table->lookup(segment.front, segment.back, segment.length).color -
+               integrate_segment(transfer_function, segment.front, segment.back, segment.length)
+                   .color;
+    };
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
     const RayCutter cutter(facts.scalar_rays, slabs, unit);
     const int stride = (slabs + most_tried - 1) / most_tried;
-    std::vector<double> errors(rays.size());
+    struct Found {
+        double error = 0, widest = 0;  // of its segments, in scalars
+    };
+    std::vector<Found> found(rays.size());
     parallel_for(static_cast<std::int64_t>(rays.size()), 8, [&](std::int64_t number) {
-        const auto ray = static_cast<std::size_t>(number);
+        Found& of_ray = found[static_cast<std::size_t>(number)];
+        const ScalarRays::Ray& ray = rays[static_cast<std::size_t>(number)];
         glm::dvec3 error(0);
         for (int i = stride / 2; i < slabs; i += stride) {
-            const auto segment = cutter.segment(rays[ray], i);
+            const Segment segment = cutter.segment(ray, i);
             if (!std::isfinite(segment.front + segment.back)) continue;
-            const glm::dvec3 found =
-                table->lookup(segment.front, segment.back, segment.length).color;
-            const glm::dvec3 exact =
-                integrate_segment(transfer_function, segment.front, segment.back, segment.length)
-                    .color;
-            error += stride * segment.transmittance * (found - exact);
+            error += stride * segment.transmittance * error_of(segment);
+            of_ray.widest = std::max(of_ray.widest, std::abs(segment.back - segment.front));
         }
-        errors[ray] = std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
+        of_ray.error = largest(error);
     });
-    return errors.empty() ? 0 : 255 * std::ranges::max(errors);
+    Found all;
+    for (const Found& of_ray : found) {
+        all.error = std::max(all.error, of_ray.error);
+        all.widest = std::max(all.widest, of_ray.widest);
+    }
+    std::vector<Segment> single = segments_of_pieces(transfer_function, facts.range, all.widest);
+    std::vector<double> errors(single.size());
+    parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        single[i].length = plan.max_length;
+        errors[i] = largest(error_of(single[i]));
+    });
+    return 255 * std::max(all.error, errors.empty() ? 0 : std::ranges::max(errors));
 }
 
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,

@@ -155,7 +155,7 @@ class SlabTrials {
         const double rays = rays_of(scene_);
         return {slabs, error, static_cast<std::int64_t>(rays),
                 slab_error_goal(asked_, facts_.max_color, slabs, last_ ? rays : rays_of(asked_)),
-                truth_.rays()};
+                truth_.rays(), !last_};
     }
 
     SlabTrial try_slabs(int slabs, Filter filter) {
