@@ -159,7 +159,7 @@ TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
         EXPECT_EQ(result.exit_code, 1);
         expect_line(result.err, {"scene.json: mesh: " + message});
     };
-    expect_of("type: uint8\nspacings: 1e30 1e30 1e30\nencoding: raw\n\n01234567",
+    expect_of("type: uint8\nspacings: 1e70 1e70 1e70\nencoding: raw\n\n01234567",
               "the diagonal of the mesh is ");
     expect_of("type: float\nencoding: ascii\n\n1 2 3 4 5 6 7 nan\n",
               "1 of 8 samples are NaN or infinite");
