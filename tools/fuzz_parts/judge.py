@@ -141,11 +141,12 @@ class Judge:
         same bounds for what is automatic, which max_error counts); None where nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")
-        if tree and tree["nodes"] == "shader" and tree["code"] != "minimax" and len(tree["factors"]) > 1:
+        levels = tree and (len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"])
+        if levels and tree["nodes"] == "shader" and tree["code"] != "minimax":
             return None  # the other codes are there to be compared with
         if target == "auto" or asked_tree == "auto" or plan["target"] == "float32":
             return 3 * 2.0 ** -24 * plan["slabs"] * self.optics.brightest if plan["target"] == "float32" else 0.0
-        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]):
+        if levels or tree and tree["nodes"] == "fixed":
             return None
         code = CODES.get(target) or 0.5 / (2 ** self.render["emulate"]["bits"] - 1)
         dither = plan.get("dither")
