@@ -141,11 +141,12 @@ class Judge:
         same bounds for what is automatic, which max_error counts); None where nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")
-        if tree and tree["nodes"] == "shader" and tree["code"] != "minimax" and len(tree["factors"]) > 1:
+        levels = tree and (len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"])
+        if levels and tree["nodes"] == "shader" and tree["code"] != "minimax":
             return None  # the other codes are there to be compared with
         if target == "auto" or asked_tree == "auto" or plan["target"] == "float32":
             return 3 * 2.0 ** -24 * plan["slabs"] * self.optics.brightest if plan["target"] == "float32" else 0.0
-        if tree and (tree["nodes"] == "fixed" or len(tree["factors"]) > 1 or tree["factors"][0] < plan["slabs"]):
+        if levels or tree and tree["nodes"] == "fixed":
             return None
         code = CODES.get(target) or 0.5 / (2 ** self.render["emulate"]["bits"] - 1)
         dither = plan.get("dither")
@@ -227,20 +228,22 @@ class Judge:
         if plan["source"] == "table":
             claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
         # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).
-        self.check("tets", numpy.abs(drawn.picture - traced).max(2),
-                   claimed + self.optics.brightest * 5e-4 + self.placed(traced, plan["geometry"] == "triangles"),
+        error = numpy.abs(drawn.picture - traced).max(2)
+        claimed += self.optics.brightest * 5e-4
+        self.check("tets", error, claimed + self.placed(traced, plan["geometry"] == "triangles", error - claimed),
                    f" by {plan['source']}, {plan['geometry']}")
 
-    def placed(self, traced, on_grid):
+    def placed(self, traced, on_grid, wanted):
         """Faces are placed to 9e-6 of a tet's longest edge (docs/stability.md), at both ends of each tet. Where that is
         much, what it does is seen from eyes that are moved by some of it, in this pixel and its neighbours. Corners of
-        triangles lie on a rasteriser's grid of 1/256 pixel."""
+        triangles lie on a rasteriser's grid of 1/256 pixel. Beside a face that is seen edge-on, a small move is
+        much."""
         edge = self.longest_edge()
         off = 9e-6 * edge
         if on_grid:
             off += self.rays.pixel / 256 * (1 if self.rays.parallel else self.farthest())
         most = min(1.0, 2 * off * self.optics.densest) * self.optics.brightest
-        if most < 1e-3 * self.optics.brightest:
+        if most < 1e-3 * self.optics.brightest and (wanted <= most).all():
             return most
         change = numpy.zeros(traced.shape[:2])
         for number, (a, b, c) in enumerate(((1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))):
@@ -249,7 +252,7 @@ class Judge:
         height, width = change.shape
         wide = numpy.pad(change, 1)
         near = numpy.max([wide[i:i + height, j:j + width] for i in range(3) for j in range(3)], axis=0)
-        return numpy.minimum(most, 4 * near + 1e-3 * self.optics.brightest)
+        return numpy.where(near > most, 4 * near, numpy.minimum(most, 4 * near + 1e-3 * self.optics.brightest))
 
     def longest_edge(self):
         if self.made.volume:  # no longer than its box
