@@ -36,11 +36,12 @@ FacePairs::FacePairs(const WindowView& window, double near_depth, const Tet& tet
         return sign * glm::dvec3(p.y - q.y, q.x - p.x, p.x * q.y - p.y * q.x);
     };
     for (std::size_t face = 0; face < 4; ++face) {
-        any_front_ = any_front_ || fronts[face];
         const auto& [a, b, c] = face_corners[face];
         const std::array<Linear, 3> opposite{edge(b, c), edge(c, a), edge(a, b)};
         const glm::dvec3 at = perspective ? seen[a] : glm::dvec3(seen[a].x, seen[a].y, 1);
         const double sign = fronts[face] ? 1 : -1, volume = sign * glm::dot(opposite[0], at);
+        // A face through the eye is met nowhere: rays begin inside.
+        any_front_ = any_front_ || (fronts[face] && volume > 0);
         for (std::size_t i = 0; i < 3; ++i) {
             shares_[face][i] = volume > 0 ? opposite[i] / volume * sign : nowhere;
         }

@@ -58,7 +58,7 @@ class FacePairs {
                 if (const Polygon part = limited(both, front, false); part.count > 0)
                     visit(part, near_plane, back);
             }
-            if (!any_front_) visit(behind, near_plane, back);
+            if (cut_ && !any_front_) visit(behind, near_plane, back);
         }
     }
 
