@@ -47,15 +47,16 @@ class SliceMethod : public FrameMethod {
         const auto& trial = plan.slab_trial;
         if (error > wanted) {
             const std::string why =
-                trial ? fmt::format(
-                            "of the numbers of slabs that were tried, {} are taken, with an error "
-                            "of {:.2g} / 255 (render.slice.samples sets another)",
-                            plan.slabs, error)
-                : plan.table.error > wanted
+                plan.table.error > wanted
                     ? fmt::format(
-                          "the pre-integration table is off by {:.2g} / 255 "
+                          "the pre-integration table is off by up to {:.2g} / 255 "
                           "(render.slice.classification \"post\" does without)",
                           plan.table.error)
+                : trial
+                    ? fmt::format(
+                          "of the numbers of slabs that were tried, {} are taken, with an error "
+                          "of {:.2g} / 255 (render.slice.samples sets another)",
+                          plan.slabs, error)
                     : fmt::format("{} slabs composited in {} are off by up to {:.2g} / 255",
                                   plan.slabs, name_of(plan.target), error);
             request_.message(fmt::format("render.max_error: {:.4g} is not kept: {}", wanted, why));
