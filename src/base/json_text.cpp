@@ -112,7 +112,7 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     [[noreturn]] void stop(const std::string& problem) const { fail("{}: {}", place(), problem); }
-    // Of the byte that was read last.
+    // The place of the byte that was read last.
     std::string place() const {
         const auto done = static_cast<std::size_t>(farthest_ - text_.data());
         const std::string_view read = text_.substr(0, done);

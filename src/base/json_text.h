@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-// What every JSON text is held to while it is parsed.
+// Limits that every JSON text is held to while it is parsed.
 inline constexpr std::uintmax_t most_json_bytes = 64u << 20;
 inline constexpr std::size_t most_json_depth = 64;  // lists and objects in each other
 inline constexpr std::size_t most_json_values = 10'000'000;
@@ -28,7 +28,7 @@ class JsonSyntaxError : public Error {
 // line and column.
 nlohmann::json parse_json(std::string_view text);
 
-// Of a file; errors begin with its name.
+// The document of a file; errors begin with its name.
 nlohmann::json load_json(const std::filesystem::path& file);
 
 // `json` as a file or a message has it. Names of files and of what is in them, and words of the

@@ -46,7 +46,8 @@ std::string last_line(const std::string& text) {
     return one_line(last);
 }
 
-// What a child says: a pipe, as a full disk has no room for the reason why it failed.
+// The child's messages come through a pipe, as a full disk has no room for the reason why it
+// failed.
 class Messages {
   public:
     Messages() {
@@ -61,7 +62,7 @@ class Messages {
     Messages& operator=(const Messages&) = delete;
 
     int writing_end() const { return ends_[1]; }
-    // What came since; without waiting for more.
+    // Returns what has come since, without waiting for more.
     void collect() {
         char block[4096];
         for (ssize_t count; (count = read(ends_[0], block, sizeof block)) > 0;) {

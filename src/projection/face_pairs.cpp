@@ -14,7 +14,7 @@ constexpr double guard = 2;  // pixels
 // Corners nearer to each other than this are one.
 constexpr double same = 1e-9;  // pixels
 
-// Of a face that is seen edge-on.
+// The share of each corner of a face that is seen edge-on.
 constexpr glm::dvec3 nowhere(0, 0, -1);
 
 }  // namespace

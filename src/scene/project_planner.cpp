@@ -220,7 +220,7 @@ class ProjectPlanner {
                 .colored = !plan_.single_color};
     }
 
-    // Of a run whose length is in the plan's units.
+    // The exact integral of a run whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
     // In 1/255: the largest difference in colour or opacity that a way of integrating tets makes on

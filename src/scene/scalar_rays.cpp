@@ -15,7 +15,8 @@
 namespace lamina {
 namespace {
 
-// Of so many places along each side of the picture some at which the ray meets the box are taken.
+// Rays are those that meet the box, of pixels on a grid with this many along each side of the
+// picture.
 constexpr int places_along_side = 64;
 constexpr std::size_t most_rays = 256;
 constexpr double scalars_per_voxel = 2, most_scalars = 1024;

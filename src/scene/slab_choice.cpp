@@ -11,7 +11,8 @@
 namespace lamina {
 namespace {
 
-// Of the goal what is used: the picture that trials are compared with has an error, too.
+// Of the goal what is used: the pictures and rays that trials are compared with have errors, too,
+// and the context that draws the picture rounds otherwise than the trials'.
 constexpr double used_share = 0.96;
 
 // The largest error on a quarter of a picture's rays was up to 1.37 times below that on all
