@@ -123,6 +123,10 @@ ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& fa
         const auto ray = static_cast<std::size_t>(number);
         found.rays[ray] = sampler.sample(pixels[ray * step]);
     });
+    // Short chords may lie between the scalars.
+    std::erase_if(found.rays, [](const ScalarRays::Ray& ray) {
+        return std::ranges::none_of(ray.scalars, [](float s) { return std::isfinite(s); });
+    });
     return found;
 }
 

@@ -20,7 +20,7 @@ struct ScalarRays {
         std::vector<float> optical_depths;
     };
     double near = 0, far = 0;  // eye-space depths of the first and the last scalar
-    std::vector<Ray> rays;     // all over the picture, of those that meet the box
+    std::vector<Ray> rays;     // all over the picture, each with some scalar inside the box
 };
 
 // Takes its grid and view from the facts.

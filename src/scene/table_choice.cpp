@@ -37,28 +37,39 @@ struct Segment {
     double transmittance = 1;  // of what lies in front
 };
 
+// Cuts a ray at the boundaries of slabs, and where it enters and leaves the box.
 class RayCutter {
   public:
-    RayCutter(const ScalarRays& rays, int slabs, double unit)
-        : slabs_(slabs), length_((rays.far - rays.near) / slabs * unit) {}
+    RayCutter(const ScalarRays& rays, const ScalarRays::Ray& ray, int slabs, double unit)
+        : ray_(ray), slabs_(slabs), length_((rays.far - rays.near) * unit * ray.length_per_depth) {
+        const auto inside = [](float scalar) { return std::isfinite(scalar); };
+        const auto first = std::ranges::find_if(ray.scalars, inside);
+        const auto end = std::find_if(ray.scalars.rbegin(), ray.scalars.rend(), inside).base();
+        first_ = static_cast<double>(first - ray.scalars.begin());
+        last_ = std::max(first_, static_cast<double>(end - ray.scalars.begin()) - 1);
+    }
 
-    // Of slab i.
-    Segment segment(const ScalarRays::Ray& ray, int i) const {
-        return {at(ray.scalars, i), at(ray.scalars, i + 1), length_ * ray.length_per_depth,
-                std::exp(-at(ray.optical_depths, i))};
+    // In slab i; of length 0 outside of the box.
+    Segment segment(int i) const {
+        const auto steps = static_cast<double>(ray_.scalars.size() - 1);
+        const double from = std::clamp(steps * i / slabs_, first_, last_);
+        const double to = std::clamp(steps * (i + 1) / slabs_, first_, last_);
+        return {at(ray_.scalars, from), at(ray_.scalars, to), length_ * (to - from) / steps,
+                std::exp(-at(ray_.optical_depths, from))};
     }
 
   private:
-    double at(const std::vector<float>& values, int boundary) const {
-        const auto last = static_cast<double>(values.size() - 1);
-        const double place = last * boundary / slabs_;
-        const auto first = std::min(static_cast<std::size_t>(place), values.size() - 2);
-        const double weight = place - static_cast<double>(first);
-        return (1 - weight) * values[first] + weight * values[first + 1];
+    static double at(const std::vector<float>& values, double place) {
+        const auto before = static_cast<std::size_t>(place);
+        const double weight = place - static_cast<double>(before);
+        if (weight == 0) return values[before];
+        return (1 - weight) * values[before] + weight * values[before + 1];
     }
 
+    const ScalarRays::Ray& ray_;
     int slabs_;
-    double length_;  // in the units of the plan
+    double length_;  // of the whole ray, in the units of the plan
+    double first_, last_;
 };
 
 double largest(const glm::dvec3& error) {
@@ -118,7 +129,6 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
                    .color;
     };
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
-    const RayCutter cutter(facts.scalar_rays, slabs, unit);
     const int stride = (slabs + most_tried - 1) / most_tried;
     struct Found {
         double error = 0, widest = 0;  // of its segments, in scalars
@@ -127,10 +137,11 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     parallel_for(static_cast<std::int64_t>(rays.size()), 8, [&](std::int64_t number) {
         Found& of_ray = found[static_cast<std::size_t>(number)];
         const ScalarRays::Ray& ray = rays[static_cast<std::size_t>(number)];
+        const RayCutter cutter(facts.scalar_rays, ray, slabs, unit);
         glm::dvec3 error(0);
         for (int i = stride / 2; i < slabs; i += stride) {
-            const Segment segment = cutter.segment(ray, i);
-            if (!std::isfinite(segment.front + segment.back)) continue;
+            const Segment segment = cutter.segment(i);
+            if (!(segment.length > 0) || !std::isfinite(segment.front + segment.back)) continue;
             error += stride * segment.transmittance * error_of(segment);
             of_ray.widest = std::max(of_ray.widest, std::abs(segment.back - segment.front));
         }

@@ -28,15 +28,20 @@ class Verdict:
     commands: list = field(default_factory=list)
 
 
+# A run's seconds are for a picture of so many pixels; larger ones get more.
+MANY_PIXELS = 64 * 64
+
+
 class Judge:
     def __init__(self, made, lamina, folder, seconds):
         self.made, self.folder = made, folder
-        self.program = Program(lamina, folder, seconds)
+        size = made.scene["image"]
+        pixels = size["width"] * size["height"]
+        self.program = Program(lamina, folder, seconds * max(1, pixels / MANY_PIXELS))
         self.verdict = Verdict(made.seed, made.labels, self.program.findings, commands=self.program.commands)
         self.optics = transfer.Optics(made.scene["transfer_function"])
         self.render = made.scene["render"]
         self.max_error = self.render.get("max_error", 1)
-        size = made.scene["image"]
         self.rays = cameras.Rays(made.scene["camera"], size["width"], size["height"])
 
     def check(self, name, error, bound, text=""):
