@@ -29,8 +29,9 @@ constexpr int most_trials = 8;
 constexpr double aim = 0.9;
 
 // Pictures of at most so many rays are held against the tracer on each of them; of larger ones so
-// many are traced.
-constexpr std::size_t traced_rays = std::size_t{1} << 15;
+// many are traced, for a fifth of the time that the pictures of a usual search take.
+constexpr double all_traced_rays = 1 << 15;
+constexpr std::size_t some_traced_rays = 3 << 12;
 // Larger pictures are first looked at in one of so many rays.
 constexpr double first_rays = 1 << 13;
 constexpr double most_rays = 1 << 20, filter_rays = 1 << 17;
@@ -79,7 +80,7 @@ class SlabTrials {
           ready_(std::move(ready)),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
                            max_slabs / finer)),
-          all_traced_(rays_of(scene_) <= traced_rays),
+          all_traced_(rays_of(scene_) <= all_traced_rays),
           truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
                  std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
                             coarsest_tolerance)) {}
@@ -153,9 +154,12 @@ class SlabTrials {
 
     SlabTrial trial_of(int slabs, double error) const {
         const double rays = rays_of(scene_);
-        return {slabs, error, static_cast<std::int64_t>(rays),
+        return {slabs,
+                error,
+                static_cast<std::int64_t>(rays),
                 slab_error_goal(asked_, facts_.max_color, slabs, last_ ? rays : rays_of(asked_)),
-                truth_.rays(), !last_};
+                truth_.rays(),
+                !last_};
     }
 
     SlabTrial try_slabs(int slabs, Filter filter) {
@@ -165,7 +169,7 @@ class SlabTrials {
         }
         draw_fine(slabs);
         const Image picture = draw(slabs, filter, {});
-        if (truth_.empty()) truth_.trace_some(traced_rays, picture, *fine_);
+        if (truth_.empty()) truth_.trace_some(some_traced_rays, picture, *fine_);
         // Of the error, (slabs / fine_slabs_)^2 is that of the finer picture, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
@@ -216,8 +220,8 @@ bool shows_something(const Facts& facts) {
 // What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
 // alone.
 void try_numbers(const Scene& scene, const Volume& volume, Facts& facts) {
-    const bool small = rays_of(scene) <= traced_rays;
-    SlabTrials first(scene, volume, facts, small ? double{traced_rays} : first_rays, small);
+    const bool small = rays_of(scene) <= all_traced_rays;
+    SlabTrials first(scene, volume, facts, small ? all_traced_rays : first_rays, small);
     facts.slab_trials = first.run(slabs_per_voxel(facts, 1));
     const SlabTrial found = chosen_slabs(facts);
     if (!found.keeps_goal()) return;

@@ -15,7 +15,7 @@ namespace lamina {
 //
 // Pictures of at most 2^15 pixels are traced on each of them. Larger ones are searched in 2^13
 // pixels first, and from what was found on in a picture of at most 2^20: there trials are compared
-// with pictures of more slabs, and with the tracer on 2^15 pixels.
+// with pictures of more slabs, and with the tracer on 12288 pixels.
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
 // For "filter": "auto" in a context whose texture units' weights are worth it, the same with such
