@@ -30,7 +30,7 @@ constexpr double aim = 0.9;
 
 // Pictures of at most so many rays are held against the tracer on each of them; of larger ones so
 // many are traced, for a fifth of the time that the pictures of a usual search take.
-constexpr double all_traced_rays = 1 << 15;
+constexpr double all_traced_rays = 5 << 14;  // 330 x 248
 constexpr std::size_t some_traced_rays = 3 << 12;
 // Larger pictures are first looked at in one of so many rays.
 constexpr double first_rays = 1 << 13;
@@ -175,7 +175,7 @@ class SlabTrials {
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
         const double traced = truth_.error_of(picture);
         SlabTrial trial = trial_of(slabs, std::max(shown, traced));
-        trial.doubtful = traced > most_doubt * shown;
+        trial.doubtful = traced > most_doubt * shown || shows_too_little(trial);
         return trial;
     }
 

@@ -13,7 +13,7 @@ namespace lamina {
 // 10 %, or more of them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too.
 // Where errors are not of second order, some fewer slabs are tried after that.
 //
-// Pictures of at most 2^15 pixels are traced on each of them. Larger ones are searched in 2^13
+// Pictures of at most 81,920 pixels are traced on each of them. Larger ones are searched in 2^13
 // pixels first, and from what was found on in a picture of at most 2^20: there trials are compared
 // with pictures of more slabs, and with the tracer on 12288 pixels.
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);

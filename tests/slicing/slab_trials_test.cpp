@@ -124,13 +124,14 @@ void expect_claim_kept(const Volume& volume, const Scene& scene, const char* nam
 
 // The peak lies between values that N and 3 N slabs meet, whatever N.
 TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
-    const Volume ramp = generate({"ramp", std::array<std::int64_t, 3>{256, 4, 1}, SampleType::uint8});
+    const Volume ramp =
+        generate({"ramp", std::array<std::int64_t, 3>{256, 4, 1}, SampleType::uint8});
     Scene scene;
     scene.width = 64;
     scene.height = 48;
-    scene.transfer_function = TransferFunction::linear(
-        {knot(100, {1, 1, 1}, 0), knot(100.1, {1, 1, 1}, 0), knot(100.2, {1, 1, 1}, 1e4),
-         knot(100.3, {1, 1, 1}, 0)});
+    scene.transfer_function =
+        TransferFunction::linear({knot(100, {1, 1, 1}, 0), knot(100.1, {1, 1, 1}, 0),
+                                  knot(100.2, {1, 1, 1}, 1e4), knot(100.3, {1, 1, 1}, 0)});
     scene.camera.projection = Projection::orthographic;
     scene.camera.eye = {-10, 1.5, 0};
     scene.camera.center = {128, 1.5, 0};
@@ -152,8 +153,8 @@ TEST(SlabTrials, SmallThingsAreNotMissedByAllPictures) {
             static_cast<float>(random.uniform(.5, 1));
     const Volume volume = reference_test::make_volume(grid, samples);
     Scene scene = unit_box_scene(
-        TransferFunction::linear({knot(.4, {1, 1, 1}, 0), knot(.41, {1, .8, .2}, 2000),
-                                  knot(.42, {1, 1, 1}, 0)}),
+        TransferFunction::linear(
+            {knot(.4, {1, 1, 1}, 0), knot(.41, {1, .8, .2}, 2000), knot(.42, {1, 1, 1}, 0)}),
         Projection::perspective, 160, 120);
     expect_claim_kept(volume, scene, "sparse");
 }
@@ -171,10 +172,9 @@ TEST(SlabTrials, ThinSilhouettesOfLabelsAreNotMissedByAllPictures) {
 // Of a larger picture not all rays are traced: the edges are, and some all over it.
 TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
     const Volume volume = mixing(16);
-    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 320, 240);
-    const SlabTrial chosen =
-        chosen_slabs(measure_slicing(scene, volume, measure_bricks(volume)));
-    EXPECT_EQ(chosen.rays, 320 * 240);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
+    const SlabTrial chosen = chosen_slabs(measure_slicing(scene, volume, measure_bricks(volume)));
+    EXPECT_EQ(chosen.rays, 480 * 360);
     EXPECT_LE(chosen.traced, 12288);
     EXPECT_GE(chosen.traced, 12288 / 2);
 }
