@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// What a table may add to the picture's error, as a share of max_error.
+// A table may add this share of max_error to the picture's error.
 inline constexpr double table_share = 0.1;
 
 // In 1/255: the largest error of a ray's colour that the table makes on Facts::scalar_rays, cut

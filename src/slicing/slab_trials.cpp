@@ -40,7 +40,8 @@ constexpr double most_rays = 1 << 20, filter_rays = 1 << 17;
 // some slabs gain.
 constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
 
-// Of the wanted error, what the tracer's own may be; and its tolerances that are worth their time.
+// The tracer's tolerance is this share of the wanted error, within limits that are worth their
+// time.
 constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
 // From one trial to the next at most so many times the slabs; where twice as many and more leave
@@ -170,7 +171,7 @@ class SlabTrials {
         draw_fine(slabs);
         const Image picture = draw(slabs, filter, {});
         if (truth_.empty()) truth_.trace_some(some_traced_rays, picture, *fine_);
-        // Of the error, (slabs / fine_slabs_)^2 is that of the finer picture, too.
+        // The finer picture has the share (slabs / fine_slabs_)^2 of the error, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
         const double traced = truth_.error_of(picture);

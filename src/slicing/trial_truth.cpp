@@ -18,7 +18,7 @@ double difference_of(const float* a, const float* b) {
     return largest;
 }
 
-// Of each pixel, the largest difference of a channel from one of its four neighbours.
+// The largest difference of a channel from one of the four neighbours, for each pixel.
 std::vector<float> contrasts_of(const Image& picture) {
     std::vector<float> contrasts(static_cast<std::size_t>(picture.width) *
                                  static_cast<std::size_t>(picture.height));
@@ -58,7 +58,7 @@ std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     return pixels;
 }
 
-// Of each pixel, the largest difference of a channel.
+// The largest difference of a channel, for each pixel.
 std::vector<float> differences_of(const Image& a, const Image& b) {
     std::vector<float> differences;
     differences.reserve(a.rgba.size() / 4);

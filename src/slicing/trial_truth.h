@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the reference tracer says of pixels that trial pictures are held against.
+// The reference tracer's colours of pixels that trial pictures are held against.
 #pragma once
 
 #include <cstddef>

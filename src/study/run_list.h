@@ -45,7 +45,7 @@ struct RunList {
     int rounds = 0, frames = 0;
     std::vector<Data> data;  // in the order of the runs
 
-    // Of all that decides what is measured, but for what the data hold.
+    // A hash of all that decides what is measured, but for what the data hold.
     std::string id() const;
 };
 
