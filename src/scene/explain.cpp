@@ -180,9 +180,9 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                 fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
                             slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
             row("table error",
-                fmt::format("{:.2g} / 255 at most on {} rays of this view and segments of "
+                fmt::format("{:.2g} / 255 at most on rays all over this view and on segments of "
                             "all pieces",
-                            slice.table.error, facts.scalar_rays.rays.size()));
+                            slice.table.error));
         }
     }
     return text + work_and_left_out(plan);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
 #include "scene/world_unit.h"
@@ -152,6 +153,15 @@ void measure_occupied(const TransferFunction& transfer_function, const MinMaxBri
     if (seen > 0) facts.occupied = box_of_bricks(facts.grid, bricks.count, first, last);
 }
 
+// Of one linear piece the planner needs no table where segments are short; the whole view is the
+// longest of them.
+bool may_need_table(const Scene& scene, const Facts& facts) {
+    const double depth =
+        facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;
+    return scene.slice.classification == Classification::preintegrated && !facts.constant &&
+           !facts.single_color && (facts.pieces > 1 || depth > thin_depth);
+}
+
 }  // namespace
 
 DepthRange depth_range(const Grid& grid, const View& view) {
@@ -218,9 +228,7 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
                                                      facts.occupied_bricks, margin_of(facts));
     measure_view(scene, facts);
     facts.ray_shares = measure_ray_shares(scene, volume, facts);
-    if (scene.slice.classification == Classification::preintegrated && facts.pieces > 1 &&
-        !facts.single_color)
-        facts.scalar_rays = sample_rays(scene, volume, facts);
+    if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
     return facts;
 }
 

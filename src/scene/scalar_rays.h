@@ -14,13 +14,13 @@ struct Facts;
 struct ScalarRays {
     struct Ray {
         double length_per_depth = 1;  // world length per unit of eye-space depth
-        // At depths evenly from `near` to `far`: the scalar, NaN outside of the box, and the
-        // optical depth in front of it.
+        double near = 0, far = 0;     // eye-space depths where it enters and leaves the box
+        // At depths evenly from `near` to `far`, two or more: the scalar, and the optical depth in
+        // front of it.
         std::vector<float> scalars;
         std::vector<float> optical_depths;
     };
-    double near = 0, far = 0;  // eye-space depths of the first and the last scalar
-    std::vector<Ray> rays;     // all over the picture, each with some scalar inside the box
+    std::vector<Ray> rays;  // all over the picture, each through the box
 };
 
 // Takes its grid and view from the facts.

@@ -14,7 +14,8 @@ namespace lamina {
 namespace {
 
 // Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
-constexpr int most_tried = 64;
+// Of fewer segments more rays are tried.
+constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
 // So many of the linear pieces are tried one by one, from all over the range.
 constexpr std::size_t most_pieces_tried = 64;
@@ -34,42 +35,46 @@ constexpr int finer_nodes = 4;
 
 struct Segment {
     double front = 0, back = 0, length = 0;
-    double transmittance = 1;  // of what lies in front
+    double transmittance = 1;  // of what the volume has in front
 };
 
 // Cuts a ray at the boundaries of slabs, and where it enters and leaves the box.
 class RayCutter {
   public:
-    RayCutter(const ScalarRays& rays, const ScalarRays::Ray& ray, int slabs, double unit)
-        : ray_(ray), slabs_(slabs), length_((rays.far - rays.near) * unit * ray.length_per_depth) {
-        const auto inside = [](float scalar) { return std::isfinite(scalar); };
-        const auto first = std::ranges::find_if(ray.scalars, inside);
-        const auto end = std::find_if(ray.scalars.rbegin(), ray.scalars.rend(), inside).base();
-        first_ = static_cast<double>(first - ray.scalars.begin());
-        last_ = std::max(first_, static_cast<double>(end - ray.scalars.begin()) - 1);
-    }
+    RayCutter(const ScalarRays::Ray& ray, const Facts& facts, int slabs)
+        : ray_(ray),
+          near_(facts.near_depth),
+          thickness_((facts.far_depth - facts.near_depth) / slabs),
+          range_(facts.range) {}
 
-    // In slab i; of length 0 outside of the box.
+    // In slab i; of length <= 0 outside of the box. Its ends are moved as renderers move them: to
+    // the mean of the parabola through both and the middle (docs/precision.md).
     Segment segment(int i) const {
-        const auto steps = static_cast<double>(ray_.scalars.size() - 1);
-        const double from = std::clamp(steps * i / slabs_, first_, last_);
-        const double to = std::clamp(steps * (i + 1) / slabs_, first_, last_);
-        return {at(ray_.scalars, from), at(ray_.scalars, to), length_ * (to - from) / steps,
+        const double from = std::max(near_ + i * thickness_, ray_.near);
+        const double to = std::min(near_ + (i + 1) * thickness_, ray_.far);
+        if (!(from < to)) return {};
+        const double front = at(ray_.scalars, from), back = at(ray_.scalars, to);
+        const double bend = (2 * at(ray_.scalars, (from + to) / 2) - front - back) / 3;
+        return {std::clamp(front + bend, range_.lo, range_.hi),
+                std::clamp(back + bend, range_.lo, range_.hi), (to - from) * ray_.length_per_depth,
                 std::exp(-at(ray_.optical_depths, from))};
     }
 
   private:
-    static double at(const std::vector<float>& values, double place) {
-        const auto before = static_cast<std::size_t>(place);
+    double at(const std::vector<float>& values, double depth) const {
+        const auto steps = static_cast<double>(values.size() - 1);
+        const double place =
+            std::clamp((depth - ray_.near) / (ray_.far - ray_.near), 0.0, 1.0) * steps;
+        const auto before = std::min(static_cast<std::size_t>(place), values.size() - 2);
         const double weight = place - static_cast<double>(before);
         if (weight == 0) return values[before];
+        if (weight == 1) return values[before + 1];
         return (1 - weight) * values[before] + weight * values[before + 1];
     }
 
     const ScalarRays::Ray& ray_;
-    int slabs_;
-    double length_;  // of the whole ray, in the units of the plan
-    double first_, last_;
+    double near_, thickness_;  // of the slabs
+    ValueRange range_;
 };
 
 double largest(const glm::dvec3& error) {
@@ -123,26 +128,35 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     const auto table = preintegration_table(
         transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
                             plan.length_layers, plan.colored});
-    const auto error_of = [&](const Segment& segment) {
-        return table->lookup(segment.front, segment.back, segment.length).color -
-               integrate_segment(transfer_function, segment.front, segment.back, segment.length)
-                   .color;
+    const auto looked_up = [&](const Segment& segment) {
+        return table->lookup(segment.front, segment.back, segment.length).color;
+    };
+    const auto integrated = [&](const Segment& segment) {
+        return integrate_segment(transfer_function, segment.front, segment.back, segment.length);
     };
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
     const int stride = (slabs + most_tried - 1) / most_tried;
+    const auto tried_rays =
+        static_cast<std::size_t>(most_tried_of_all_rays / std::min(slabs, most_tried));
+    const std::size_t ray_stride = (rays.size() + tried_rays - 1) / tried_rays;
     struct Found {
         double error = 0, widest = 0;  // of its segments, in scalars
     };
-    std::vector<Found> found(rays.size());
-    parallel_for(static_cast<std::int64_t>(rays.size()), 8, [&](std::int64_t number) {
+    std::vector<Found> found(rays.empty() ? 0 : (rays.size() - 1) / ray_stride + 1);
+    parallel_for(static_cast<std::int64_t>(found.size()), 8, [&](std::int64_t number) {
         Found& of_ray = found[static_cast<std::size_t>(number)];
-        const ScalarRays::Ray& ray = rays[static_cast<std::size_t>(number)];
-        const RayCutter cutter(facts.scalar_rays, ray, slabs, unit);
+        const ScalarRays::Ray& ray = rays[ray_stride * static_cast<std::size_t>(number)];
+        const RayCutter cutter(ray, facts, slabs);
         glm::dvec3 error(0);
+        double transmittance = 1;  // of the segments before, as they are drawn
         for (int i = stride / 2; i < slabs; i += stride) {
-            const Segment segment = cutter.segment(i);
+            Segment segment = cutter.segment(i);
+            segment.length *= unit;
             if (!(segment.length > 0) || !std::isfinite(segment.front + segment.back)) continue;
-            error += stride * segment.transmittance * error_of(segment);
+            const SegmentIntegral integral = integrated(segment);
+            if (stride > 1) transmittance = segment.transmittance;
+            error += stride * transmittance * (looked_up(segment) - integral.color);
+            transmittance *= 1 - integral.alpha;
             of_ray.widest = std::max(of_ray.widest, std::abs(segment.back - segment.front));
         }
         of_ray.error = largest(error);
@@ -157,7 +171,7 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
         single[i].length = plan.max_length;
-        errors[i] = largest(error_of(single[i]));
+        errors[i] = largest(looked_up(single[i]) - integrated(single[i]).color);
     });
     return 255 * std::max(all.error, errors.empty() ? 0 : std::ranges::max(errors));
 }
