@@ -3,6 +3,7 @@
 in vec3 inverse;
 in vec4 front_values;
 in vec4 back_values;
+flat in vec2 scalars;
 flat in uint tet;
 
 uint part_number() { return tet; }
@@ -46,5 +47,6 @@ struct TetRun {
 
 TetRun find_run() {
     TetOptics optics = find_optics();
-    return TetRun(optics.front.x, optics.back.x, optics.world_length);
+    vec2 ends = clamp(vec2(optics.front.x, optics.back.x), scalars.x, scalars.y);
+    return TetRun(ends.x, ends.y, optics.world_length);
 }

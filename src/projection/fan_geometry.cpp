@@ -191,15 +191,17 @@ bool FanGeometry::make_around_crossing(const Corners& corners,
     return true;
 }
 
-void FanGeometry::append(FanVertex vertex, std::int32_t tet, const Place& place, Written& written) {
-    vertex.tet = static_cast<std::uint32_t>(tet);
+void FanGeometry::append(FanVertex vertex, const Owner& owner, const Place& place,
+                         Written& written) {
+    vertex.tet = static_cast<std::uint32_t>(owner.tet);
+    vertex.scalars = owner.scalars;
     std::memcpy(place.vertices + written.vertices++ * sizeof(vertex), &vertex, sizeof(vertex));
 }
 
-void FanGeometry::append(const Fan& fan, std::int32_t tet, const Place& place, Written& written) {
+void FanGeometry::append(const Fan& fan, const Owner& owner, const Place& place, Written& written) {
     const auto first = place.first_vertex + static_cast<std::uint32_t>(written.vertices);
     for (int i = 0; i <= fan.rim; ++i)
-        append(fan.vertices[static_cast<std::size_t>(i)], tet, place, written);
+        append(fan.vertices[static_cast<std::size_t>(i)], owner, place, written);
     for (int i = 0; i < fan.rim; ++i) {
         place.indices[written.indices++] = first;
         place.indices[written.indices++] = first + 1 + static_cast<std::uint32_t>(i);
@@ -213,6 +215,9 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
     const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(index)];
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = corner_of(tet[i]);
+    const auto [least, largest] =
+        std::ranges::minmax(corners, {}, [](const Corner& corner) { return corner.values.x; });
+    const Owner owner{index, {least.values.x, largest.values.x}};
     std::size_t behind = 0;
     glm::dvec2 lo(INFINITY), hi(-INFINITY);
     for (const Corner& corner : corners) {
@@ -221,25 +226,25 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
         hi = glm::max(hi, corner.window);
     }
     if (behind == 4) return {};
-    if (behind > 0) return write_pairs(index, corners, place);
+    if (behind > 0) return write_pairs(owner, corners, place);
     const glm::dvec2 size = 2.0 * window_.middle();
     if (hi.x < 0 || hi.y < 0 || lo.x > size.x || lo.y > size.y) return {};
     // Linear interpolation is the paper's between the corners of whole tets alone.
     const glm::dvec2 beyond = glm::max(-lo, hi - size);
     const bool exact = divided_ || !window_.perspective();
     if (exact && std::max(beyond.x, beyond.y) > farthest_beyond)
-        return write_pairs(index, corners, place);
+        return write_pairs(owner, corners, place);
     Written written;
     Fan fan;
-    if (make_fan(corners, fronts_of(index), fan)) append(fan, index, place, written);
+    if (make_fan(corners, fronts_of(index), fan)) append(fan, owner, place, written);
     return written;
 }
 
-TetGeometry::Written FanGeometry::write_pairs(std::int32_t index, const Corners& corners,
+TetGeometry::Written FanGeometry::write_pairs(const Owner& owner, const Corners& corners,
                                               const Place& place) const {
     const FacePairs pairs(
-        window_, plan_.near_depth, mesh_.mesh.tets()[static_cast<std::size_t>(index)],
-        {corners[0].seen, corners[1].seen, corners[2].seen, corners[3].seen}, fronts_of(index));
+        window_, plan_.near_depth, mesh_.mesh.tets()[static_cast<std::size_t>(owner.tet)],
+        {corners[0].seen, corners[1].seen, corners[2].seen, corners[3].seen}, fronts_of(owner.tet));
     const auto point_of = [&](const FacePairs::Hit& hit) {
         Point point{hit.inverse_z, hit.z, glm::dvec4(0)};
         for (std::size_t i = 0; i < 4; ++i) point.values += hit.shares[i] * corners[i].values;
@@ -254,7 +259,7 @@ TetGeometry::Written FanGeometry::write_pairs(std::int32_t index, const Corners&
             const Point at_back = point_of(pairs.hit(back, polygon.corners[i]));
             const double difference = window_.perspective() ? at_front.inverse_z - at_back.inverse_z
                                                             : at_back.z - at_front.z;
-            append(thick_vertex(polygon.corners[i], at_front, at_back, difference), index, place,
+            append(thick_vertex(polygon.corners[i], at_front, at_back, difference), owner, place,
                    written);
         }
         for (std::uint32_t i = 2; i < polygon.count; ++i) {

@@ -28,6 +28,9 @@ struct FanVertex {
     // The scalar (normalised) in x, or colour and extinction; over z for perspective interpolation.
     // Coloring `vertex`: in `front` the vertex's colour and opacity.
     glm::vec4 front, back;
+    // The tet's least and largest scalar (normalised): what is interpolated is rounded, and a tet
+    // of one scalar may lie just at a step.
+    glm::vec2 scalars;
     std::uint32_t tet;
 };
 
@@ -54,6 +57,11 @@ class FanGeometry : public TetGeometry {
         glm::dvec4 values;  // as in FanVertex, not divided
     };
     using Corners = std::array<Corner, 4>;
+    // What all vertices of a tet have alike.
+    struct Owner {
+        std::int32_t tet;
+        glm::vec2 scalars;
+    };
     using Fronts = FacePairs::Fronts;
 
   private:
@@ -80,9 +88,9 @@ class FanGeometry : public TetGeometry {
     FanVertex thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
                            double inverse_difference) const;
     FanVertex thin_vertex(const Corner& corner) const;
-    Written write_pairs(std::int32_t tet, const Corners& corners, const Place& place) const;
-    static void append(FanVertex vertex, std::int32_t tet, const Place& place, Written& written);
-    static void append(const Fan& fan, std::int32_t tet, const Place& place, Written& written);
+    Written write_pairs(const Owner& owner, const Corners& corners, const Place& place) const;
+    static void append(FanVertex vertex, const Owner& owner, const Place& place, Written& written);
+    static void append(const Fan& fan, const Owner& owner, const Place& place, Written& written);
 
     const SceneMesh& mesh_;
     const TransferFunction& transfer_function_;

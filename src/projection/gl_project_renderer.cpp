@@ -30,6 +30,7 @@ constexpr std::array fan_attributes{GlTetStream::Attribute{2, offsetof(FanVertex
                                     GlTetStream::Attribute{3, offsetof(FanVertex, inverse), false},
                                     GlTetStream::Attribute{4, offsetof(FanVertex, front), false},
                                     GlTetStream::Attribute{4, offsetof(FanVertex, back), false},
+                                    GlTetStream::Attribute{2, offsetof(FanVertex, scalars), false},
                                     GlTetStream::Attribute{1, offsetof(FanVertex, tet), true}};
 
 bool is_fan(const ProjectPlan& plan) {

@@ -81,8 +81,13 @@ class TriangleDrawing {
         }
         if (fragments_.opacity_only) length = hn::Mul(length, hn::Set(d_, fragments_.depth_scale));
         if (fragments_.source != SegmentSource::mean) {
-            return segment_color(d_, fragments_,
-                                 {hn::Mul(front(0), z_front), hn::Mul(back(0), z_back), length});
+            const auto within = [&](Vector scalar) HWY_ATTR {
+                return hn::Clamp(scalar, hn::Set(d_, triangle.scalars.x),
+                                 hn::Set(d_, triangle.scalars.y));
+            };
+            return segment_color(
+                d_, fragments_,
+                {within(hn::Mul(front(0), z_front)), within(hn::Mul(back(0), z_back)), length});
         }
         const auto mean = [&](int channel) HWY_ATTR {
             return hn::Mul(hn::Set(d_, 0.5f), hn::Add(hn::Mul(front(channel), z_front),

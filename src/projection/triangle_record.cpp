@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-constexpr double grid_steps = 256;  // a pixel: GL_SUBPIXEL_BITS of 8, as most rasterisers have
+constexpr double grid_steps = 4096;  // a pixel; sixteen times as many as most rasterisers have
 
 // From its lesser corner on, for both triangles alike. The top-left rule of rasterisers whose rows
 // run upwards: what lies on an edge is of the triangle to the right, on horizontal ones above.
@@ -57,6 +57,7 @@ bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleReco
         record.shares[i] = share_of(between[(i + 1) % 3], between[(i + 2) % 3], area);
         record.corners[i] = {vertices[i]->inverse, vertices[i]->front, vertices[i]->back};
     }
+    record.scalars = vertices[0]->scalars;
     record.number = vertices[0]->tet;
     return true;
 }

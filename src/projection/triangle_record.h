@@ -34,6 +34,7 @@ struct TriangleRecord {
     };
     std::array<Share, 3> shares;
     std::array<Corner, 3> corners;
+    glm::vec2 scalars;     // as in FanVertex
     std::uint32_t number;  // of the tet, for dithering
 };
 

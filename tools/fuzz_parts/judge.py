@@ -186,6 +186,7 @@ class Judge:
         wanted, doubt = (volume_oracle.preintegrated if straight else volume_oracle.post_classified)(cut, self.optics)
         bound = doubt + self.left_out(plan)
         error = numpy.abs(drawn.picture[rows, columns] - wanted)
+        error[cut.chord.tied] = 0
         by = f" by {plan['slabs']} slabs"
         table = plan.get("table", {}) if straight else {}
         # Tables hold opacity exactly, and colour as well as is found on some rays, which is no bound.

@@ -44,6 +44,10 @@ class IndexRays:
         far = numpy.where(flat, numpy.inf, numpy.maximum(a, b)).min(1)
         self.near = numpy.maximum(near, 0)
         self.far = numpy.where(outside.any(1), self.near, numpy.maximum(far, self.near))
+        # Rays along a face, within roundings of it: nothing says on which side they are.
+        beside = numpy.minimum(numpy.abs(self.origin - low), numpy.abs(self.origin - high)) < 1e-12 * (1 + high)
+        along = numpy.abs(self.slope) * self.far[:, None] < 1e-12 * (1 + high)
+        self.tied = (beside & along).any(1)
 
 
 def pieces(volume, origins, directions):
