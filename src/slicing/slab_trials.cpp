@@ -14,6 +14,7 @@
 #include "image/metrics.h"
 #include "scene/slab_choice.h"
 #include "scene/slice_planner.h"
+#include "slicing/point_cover.h"
 #include "slicing/tile_slice_renderer.h"
 #include "slicing/trial_truth.h"
 #include "tiles/tile_capabilities.h"
@@ -71,12 +72,15 @@ double rays_of(const Scene& scene) {
 // Pictures of numbers of slabs, in at most `rays` rays. `last`: no search with more rays follows.
 class SlabTrials {
   public:
-    SlabTrials(const Scene& scene, const Volume& volume, const Facts& facts, double rays, bool last,
+    // `bricks` may be null: then no rays are chosen by them.
+    SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks* bricks,
+               const Facts& facts, double rays, bool last,
                std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
           last_(last),
           scene_(trial_scene(scene, rays)),
           volume_(volume),
+          bricks_(bricks),
           facts_(seen_by(scene_, facts)),
           ready_(std::move(ready)),
           most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
@@ -170,7 +174,7 @@ class SlabTrials {
         }
         draw_fine(slabs);
         const Image picture = draw(slabs, filter, {});
-        if (truth_.empty()) truth_.trace_some(some_traced_rays, picture, *fine_);
+        if (truth_.empty()) truth_.trace_some(some_traced_rays, picture, *fine_, points_cover());
         // The finer picture has the share (slabs / fine_slabs_)^2 of the error, too.
         const double share = static_cast<double>(slabs) / fine_slabs_;
         const double shown = image_error(picture, *fine_).all.linf / (1 - share * share);
@@ -178,6 +182,12 @@ class SlabTrials {
         SlabTrial trial = trial_of(slabs, std::max(shown, traced));
         trial.doubtful = traced > most_doubt * shown || shows_too_little(trial);
         return trial;
+    }
+
+    std::vector<float> points_cover() const {
+        if (bricks_ == nullptr || facts_.knots == 0) return {};
+        return cover_of_points(*bricks_, facts_.grid, scene_.transfer_function,
+                               View(scene_.camera, scene_.width, scene_.height));
     }
 
     void draw_fine(int slabs) {
@@ -205,6 +215,7 @@ class SlabTrials {
     bool last_;
     Scene scene_;
     const Volume& volume_;
+    const MinMaxBricks* bricks_;
     Facts facts_;
     std::shared_ptr<const TileVolume> ready_;  // of the pictures before
     int most_;
@@ -220,14 +231,15 @@ bool shows_something(const Facts& facts) {
 
 // What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
 // alone.
-void try_numbers(const Scene& scene, const Volume& volume, Facts& facts) {
+void try_numbers(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
+                 Facts& facts) {
     const bool small = rays_of(scene) <= all_traced_rays;
-    SlabTrials first(scene, volume, facts, small ? all_traced_rays : first_rays, small);
+    SlabTrials first(scene, volume, &bricks, facts, small ? all_traced_rays : first_rays, small);
     facts.slab_trials = first.run(slabs_per_voxel(facts, 1));
     const SlabTrial found = chosen_slabs(facts);
     if (!found.keeps_goal()) return;
     if (!small) {
-        SlabTrials second(scene, volume, facts, most_rays, true, first.ready());
+        SlabTrials second(scene, volume, &bricks, facts, most_rays, true, first.ready());
         facts.slab_trials = second.run(found.slabs);
     } else if (!are_of_second_order(facts.slab_trials)) {
         first.try_fewer(found.slabs, facts.slab_trials);
@@ -246,14 +258,14 @@ bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capa
 Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure(scene, volume, bricks);
     if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
-        try_numbers(scene, volume, facts);
+        try_numbers(scene, volume, bricks, facts);
     return facts;
 }
 
 void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
                 Facts& facts) {
     if (!may_filter(scene, facts, capabilities)) return;
-    SlabTrials trials(scene, volume, facts, filter_rays, true);
+    SlabTrials trials(scene, volume, nullptr, facts, filter_rays, true);
     if (scene.slice.samples) {
         facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {

@@ -67,7 +67,21 @@ std::vector<float> differences_of(const Image& a, const Image& b) {
     return differences;
 }
 
-// The `count` pixels of the largest values.
+// Large where a pixel is covered, and rarely; at random among equals. Not covered: 0.
+std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
+    std::vector<float> rarity;
+    rarity.reserve(cover.size());
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+        const auto pixel = static_cast<std::uint32_t>(i);
+        const auto columns = static_cast<std::uint32_t>(width);
+        const std::uint32_t bits = random_bits(pixel % columns, pixel / columns, 1, 0);
+        const float share = static_cast<float>(bits) * 0x1p-32f;
+        rarity.push_back(cover[i] > 0 ? 1 / (cover[i] * (1 + share)) : 0);
+    }
+    return rarity;
+}
+
+// The `count` pixels of the largest values above 0.
 void append_largest(std::size_t count, int picture_width, const std::vector<float>& values,
                     std::vector<glm::ivec2>& pixels) {
     std::vector<std::size_t> order(values.size());
@@ -75,7 +89,8 @@ void append_largest(std::size_t count, int picture_width, const std::vector<floa
     const auto larger = [&](std::size_t a, std::size_t b) {
         return values[a] != values[b] ? values[a] > values[b] : a < b;
     };
-    count = std::min(count, order.size());
+    count = std::min(count, static_cast<std::size_t>(
+                                std::ranges::count_if(values, [](float v) { return v > 0; })));
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                      larger);
     const auto width = static_cast<std::size_t>(picture_width);
@@ -94,17 +109,24 @@ void TrialTruth::trace_all() {
     trace();
 }
 
-void TrialTruth::trace_some(std::size_t count, const Image& picture, const Image& finer) {
+void TrialTruth::trace_some(std::size_t count, const Image& picture, const Image& finer,
+                            const std::vector<float>& cover) {
     const double pixels = static_cast<double>(view_.width) * view_.height;
     const double edge = std::ceil(std::sqrt(pixels / (static_cast<double>(count) / 4)));
     pixels_ = pixels_all_over(view_.width, view_.height, static_cast<int>(edge));
-    append_largest(count / 4, view_.width, differences_of(picture, finer), pixels_);
-    std::vector<float> contrasts = contrasts_of(finer);
-    for (const glm::ivec2& pixel : pixels_)  // not twice
-        contrasts[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(view_.width) +
-                  static_cast<std::size_t>(pixel.x)] = -1;
-    append_largest(count / 2, view_.width, contrasts, pixels_);
+    append_unknown(count / 4, differences_of(picture, finer));
+    append_unknown(count / 4, rarity_of(cover, view_.width));
+    append_unknown(count - std::min(count, pixels_.size()), contrasts_of(finer));
     trace();
+}
+
+void TrialTruth::append_unknown(std::size_t count, std::vector<float> values) {
+    if (values.empty()) return;
+    for (const glm::ivec2& pixel : pixels_) {
+        values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(view_.width) +
+               static_cast<std::size_t>(pixel.x)] = 0;
+    }
+    append_largest(count, view_.width, values, pixels_);
 }
 
 void TrialTruth::trace() {

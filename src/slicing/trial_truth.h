@@ -24,9 +24,12 @@ class TrialTruth {
     void trace_all();
     // Traces at most `count` pixels of a picture that is too large for trace_all(): a quarter all
     // over the picture, one at a place of its own in each of equal cells; a quarter where `picture`
-    // and `finer` differ most; and half where a pixel of `finer` differs most from a neighbour: a
-    // ray that grazes what its neighbours hit is at such an edge, and there segments miss most.
-    void trace_some(std::size_t count, const Image& picture, const Image& finer);
+    // and `finer` differ most; a quarter where `cover` (slicing/point_cover.h; may be empty) says
+    // that there are fewest, but some, points of the transfer function: what is rare both pictures
+    // may miss; and the rest where a pixel of `finer` differs most from a neighbour: a ray that
+    // grazes what its neighbours hit is at such an edge, and there segments miss most.
+    void trace_some(std::size_t count, const Image& picture, const Image& finer,
+                    const std::vector<float>& cover);
 
     bool empty() const { return pixels_.empty(); }
     std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
@@ -35,6 +38,8 @@ class TrialTruth {
     double error_of(const Image& picture) const;
 
   private:
+    // Of the pixels that are not there yet, those of the largest values above 0.
+    void append_unknown(std::size_t count, std::vector<float> values);
     void trace();
 
     const Volume& volume_;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "optics/preintegration_table.h"
 #include "optics/segment_integral.h"
 #include "scene/plan.h"
 #include "support/transfer_functions.h"
@@ -68,6 +72,34 @@ TEST(TableChoice, FewPointsKeepTheCoarsestTable) {
     EXPECT_EQ(chosen.scalar_nodes, TablePlan().scalar_nodes);
     EXPECT_GT(chosen.error, 0);
     EXPECT_LE(chosen.error, table_share * scene.max_error);
+}
+
+// Long segments of a single linear piece need a table, too, and its layers are far apart.
+TEST(TableChoice, OfOnePieceTheErrorOfLongSegmentsIsFoundOnRays) {
+    Scene scene =
+        scene_of(TransferFunction::linear({knot(0, {1, .2, 0}, 0), knot(1, {0, .9, 1}, 40)}));
+    scene.slice.samples = 2;
+    const Volume volume = blobs();
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    ASSERT_EQ(facts.pieces, 1);
+    ASSERT_FALSE(facts.scalar_rays.rays.empty());
+    for (const ScalarRays::Ray& ray : facts.scalar_rays.rays) {
+        EXPECT_LT(ray.near, ray.far);
+        EXPECT_GE(ray.near, facts.near_depth - 1e-12);
+        EXPECT_LE(ray.far, facts.far_depth + 1e-12);
+        EXPECT_TRUE(std::ranges::all_of(ray.scalars, [](float s) { return std::isfinite(s); }));
+    }
+    TablePlan table;
+    table.max_length = (facts.far_depth - facts.near_depth) / 2 * facts.max_length_per_depth;
+    refine_table(scene, facts, 2, facts.max_extinction * table.max_length, table);
+    // Segments of the largest length lie on a layer: they alone would find next to nothing.
+    const TransferFunction& optics = scene.transfer_function;
+    const auto built = build_preintegration_table(
+        optics, {0, 1, table.max_length, table.scalar_nodes, table.length_layers, true});
+    const double middle = table.max_length * 1.5 / (table.length_layers - 1);
+    const auto error =
+        built.lookup(.9, .1, middle).color - integrate_segment(optics, .9, .1, middle).color;
+    EXPECT_GT(table.error, 255 * std::abs(error.r) / 10);
 }
 
 }  // namespace
