@@ -15,16 +15,19 @@
 namespace lamina {
 
 // Calls body(i) for every i in [0, count) on all cores, in no particular order; an exception of one
-// call ends the loop and is rethrown, and so does Ctrl-C. `grain`: how many calls make one task
+// call ends the loop and is rethrown, and so does Ctrl-C
+// or a stop that is requested. `grain`: how many calls make one task
 // (make a task at least some 10 us long).
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;
+    const std::stop_token stop = StopScope::current();
     using Range = tbb::blocked_range<std::int64_t>;
     tbb::parallel_for(Range(0, count, static_cast<std::size_t>(grain)),
                       [&](const Range& range) LAMINA_UNSEEN_BY_THREAD_SANITIZER {
                           const std::int64_t first = range.begin(), end = range.end();
                           hand_over.task([&] {
+                              const StopScope scope(stop);
                               check_interrupt();
                               for (std::int64_t i = first; i != end; ++i) body(i);
                           });
@@ -35,8 +38,15 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
-    tbb::parallel_invoke([&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { hand_over.task(first); },
-                         [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { hand_over.task(second); });
+    const std::stop_token stop = StopScope::current();
+    const auto task = [&](const auto& work) {
+        hand_over.task([&] {
+            const StopScope scope(stop);
+            work();
+        });
+    };
+    tbb::parallel_invoke([&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { task(first); },
+                         [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { task(second); });
 }
 
 // Sorts on all cores; elements that `less` does not tell apart come in any order. Under the thread

@@ -20,6 +20,8 @@ struct Dither {
     std::uint32_t seed = 1;  // of the permutation
     bool color = false;      // colour codes too, by a permutation of their own (seed + 1)
     int increment = 1;       // between the two codes (section 5.2); codes are multiples of it
+
+    friend bool operator==(const Dither&, const Dither&) = default;
 };
 
 // The order in which a period's slabs round up: 0..period-1, shuffled by Fisher and Yates from the

@@ -14,6 +14,8 @@ struct Emulation {
     AlphaRounding alpha = AlphaRounding::truncate;
     OverRounding over = OverRounding::separate;
     std::uint32_t seed = 1;  // of stochastic rounding
+
+    friend bool operator==(const Emulation&, const Emulation&) = default;
 };
 
 }  // namespace lamina

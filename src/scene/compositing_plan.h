@@ -34,6 +34,8 @@ struct CompositingPlan {
     int code_bits() const {
         return emulation ? emulation->bits : target == Target::fixed16 ? 16 : 8;
     }
+
+    friend bool operator==(const CompositingPlan&, const CompositingPlan&) = default;
 };
 
 }  // namespace lamina

@@ -194,6 +194,7 @@ void measure_view(const Scene& scene, Facts& facts) {
     const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
     facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
     facts.occupied_depth = depth_range(facts.grid, facts.occupied, view);
+    facts.max_length_per_depth = 1;
     if (!facts.orthographic) {
         const double x = view.x(scene.width - 1), y = view.y(0);
         facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
@@ -201,6 +202,13 @@ void measure_view(const Scene& scene, Facts& facts) {
 }
 
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
+    Facts facts = measure_data(scene, volume, bricks);
+    measure_view(scene, facts);
+    measure_rays(scene, volume, facts);
+    return facts;
+}
+
+Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts;
     facts.grid = volume.grid();
     facts.type = volume.type();
@@ -226,10 +234,13 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
     if (facts.non_finite == 0)
         facts.constant_bricks = find_constant_bricks(transfer_function, bricks,
                                                      facts.occupied_bricks, margin_of(facts));
-    measure_view(scene, facts);
-    facts.ray_shares = measure_ray_shares(scene, volume, facts);
-    if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
     return facts;
+}
+
+void measure_rays(const Scene& scene, const Volume& volume, Facts& facts) {
+    facts.ray_shares = measure_ray_shares(scene, volume, facts);
+    facts.scalar_rays = {};
+    if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
 }
 
 }  // namespace lamina

@@ -13,7 +13,6 @@
 #include "scene/ray_shares.h"
 #include "scene/scalar_rays.h"
 #include "scene/scene.h"
-#include "scene/slab_trial.h"
 #include "volume/min_max_bricks.h"
 #include "volume/volume.h"
 
@@ -23,6 +22,8 @@ namespace lamina {
 struct IndexBox {
     glm::dvec3 min{0}, max{0};
     bool empty() const { return !(min.x < max.x && min.y < max.y && min.z < max.z); }
+
+    friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
 // Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all
@@ -72,20 +73,16 @@ struct Facts {
 
     RayShares ray_shares;
     ScalarRays scalar_rays;  // where segments are pre-integrated and a table may be needed
-
-    // For "samples": "auto" (slicing/slab_trials.h); else none.
-    std::vector<SlabTrial> slab_trials;
-    // For "filter": "auto": with weights rounded to 8 bits, as texture units have them. Where the
-    // number of slabs was given, the error is that of the weights alone.
-    std::vector<SlabTrial> filter_trials;
 };
 
 // Throws Error when the volume has samples that are no finite numbers and the scene does not say
 // what to do with them, or has none but such.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// Of facts of the same volume and transfer function, those of the view anew, but for
-// ray_shares and scalar_rays.
+// The same in parts, each of which needs those before: what the volume and the transfer function
+// say; what the view says, but for rays; what rays of the view meet.
+Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
+void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
 
 }  // namespace lamina

@@ -40,17 +40,16 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
     }
 }
 
-void measure_view(const Scene& scene, const TetMesh& mesh, MeshFacts& facts) {
-    const View view(scene.camera, scene.width, scene.height);
-    facts.orthographic = view.projection == Projection::orthographic;
-    facts.in_front = std::ranges::any_of(mesh.points(), [&](const glm::dvec3& point) {
-        return glm::dot(point - view.eye, view.forward) > 0;
-    });
-}
-
 }  // namespace
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
+    MeshFacts facts = measure_data(scene, mesh);
+    measure_view(scene, mesh, facts);
+    measure_rays(scene, mesh, facts);
+    return facts;
+}
+
+MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts;
     facts.points = static_cast<std::int64_t>(mesh.mesh.points().size());
     facts.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
@@ -74,11 +73,25 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     const TetPieces pieces(scene.transfer_function,
                            drawn_range(scene.transfer_function, facts.range));
     measure_transfer_function(scene, mesh, pieces, facts);
-    measure_view(scene, mesh.mesh, facts);
+    return facts;
+}
+
+void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+    const View view(scene.camera, scene.width, scene.height);
+    facts.orthographic = view.projection == Projection::orthographic;
+    facts.in_front = std::ranges::any_of(mesh.mesh.points(), [&](const glm::dvec3& point) {
+        return glm::dot(point - view.eye, view.forward) > 0;
+    });
+}
+
+void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
+    facts.trial_rays.clear();
     const bool integrated = scene.method == Method::project && facts.parts > 0 &&
                             scene.project.coloring == Coloring::preintegrated && !facts.constant;
-    if (integrated) facts.trial_rays = find_trial_rays(scene, mesh, pieces);
-    return facts;
+    if (!integrated) return;
+    const TetPieces pieces(scene.transfer_function,
+                           drawn_range(scene.transfer_function, facts.range));
+    facts.trial_rays = find_trial_rays(scene, mesh, pieces);
 }
 
 }  // namespace lamina

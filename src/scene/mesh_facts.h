@@ -58,4 +58,10 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, con
 // what to do with them, or has none but such.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
+// The same in parts: what the mesh and the transfer function say; what the view says, but for rays;
+// trial_rays.
+MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
+void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
+void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
+
 }  // namespace lamina

@@ -15,20 +15,27 @@ const Omission no_context{"context", "the tracer runs on the processor: no OpenG
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions) {
+               const OmissionSwitch& omissions, const SampleTrials& trials) {
     Plan plan;
     if (scene.method == Method::slice) {
-        const TargetChoice choice = choose_target(scene, facts);
-        const Scene chosen = with_target(scene, choice.target);
-        plan = plan_slicing(chosen, facts, capabilities, omissions);
-        plan.slice.target_reason = choice.reason;
-        add_savings(plan, chosen, facts, capabilities, omissions);
+        plan = plan_alone(scene, facts, capabilities, omissions, trials);
+        add_savings(plan, with_target(scene, plan.slice.target), facts, capabilities, omissions,
+                    trials);
         return plan;
     }
     plan.method = scene.method;
     plan.omitted.push_back(no_context);
     if (scene.has_mesh())
         plan.omitted.push_back({"mesh", "the volume is traced: the mesh is not read"});
+    return plan;
+}
+
+Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                const OmissionSwitch& omissions, const SampleTrials& trials) {
+    const TargetChoice choice = choose_target(scene, facts, trials);
+    Plan plan =
+        plan_slicing(with_target(scene, choice.target), facts, capabilities, omissions, trials);
+    plan.slice.target_reason = choice.reason;
     return plan;
 }
 

@@ -15,6 +15,7 @@
 #include "scene/mesh_facts.h"
 #include "scene/omission.h"
 #include "scene/project_plan.h"
+#include "scene/sample_trials.h"
 #include "scene/scene.h"
 #include "scene/tree_choice.h"
 
@@ -35,6 +36,8 @@ struct TextureBrick {
     std::array<std::int64_t, 3> size{1, 1, 1};
     // Samples reach as far as the volume's box: what lies one beyond its own repeats its border.
     bool bordered = false;
+
+    friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
 };
 
 struct SlicePlan : CompositingPlan {
@@ -77,6 +80,8 @@ struct SlicePlan : CompositingPlan {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
     bool uses_table() const { return integrates_runs() && !linear; }
+
+    friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
 // What will run: a pure function of scene, facts and capabilities, printable.
@@ -88,9 +93,13 @@ struct Plan {
     std::vector<Omission> omitted;
 };
 
-// Throws Error when the context cannot do what the scene asks for, naming the limit.
+// Throws Error when the context cannot do what the scene asks for, naming the limit. `trials`: for
+// what is automatic.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-               const OmissionSwitch& omissions);
+               const OmissionSwitch& omissions, const SampleTrials& trials = {});
+// The same of Method::slice, without what omissions save: for frames.
+Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                const OmissionSwitch& omissions, const SampleTrials& trials = {});
 // For methods that draw a mesh (Scene::draws_mesh).
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions);

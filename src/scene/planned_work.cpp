@@ -115,7 +115,8 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
 }
 
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
-                 const Capabilities& capabilities, const OmissionSwitch& omissions) {
+                 const Capabilities& capabilities, const OmissionSwitch& omissions,
+                 const SampleTrials& trials) {
     plan.work = planned_work(plan.slice, facts, scene, capabilities.tiles);
     const std::vector<std::string> names = omission_names();
     for (Omission& omission : plan.omitted) {
@@ -123,7 +124,7 @@ void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
         OmissionSwitch kept = omissions;
         kept.kept.insert(omission.name);
         try {
-            const Plan other = plan_slicing(scene, facts, capabilities, kept);
+            const Plan other = plan_slicing(scene, facts, capabilities, kept, trials);
             omission.saves =
                 planned_work(other.slice, facts, scene, capabilities.tiles) - plan.work;
         } catch (const Error&) {

@@ -11,7 +11,8 @@ Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& 
 
 // What each omission of a plan saves: the work of the plan without it, less that of the plan.
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
-                 const Capabilities& capabilities, const OmissionSwitch& omissions);
+                 const Capabilities& capabilities, const OmissionSwitch& omissions,
+                 const SampleTrials& trials = {});
 void add_savings(Plan& plan, const Scene& scene, const MeshFacts& facts);
 
 }  // namespace lamina

@@ -52,6 +52,8 @@ struct ProjectPlan : CompositingPlan {
 
     // Opacity is rounded to codes in the program, not by the blending unit.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
+
+    friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
 };
 
 const char* name_of(SegmentSource source);

@@ -35,6 +35,13 @@ struct DitherSettings {
 
 inline constexpr int max_slabs = 65536;
 
+// A pre-integration table whose nodes lie on the transfer function's points.
+struct SliceTableSettings {
+    int scalars = 256;      // about so many nodes
+    int lengths = 1;        // layers
+    double max_length = 0;  // world units: of the longest segment
+};
+
 struct SliceSettings {
     std::optional<int> samples;  // slabs N; none: "auto"
     Classification classification = Classification::post;
@@ -42,6 +49,7 @@ struct SliceSettings {
     Filter filter = Filter::exact;
     std::optional<DitherSettings> dither;
     std::optional<TreeSettings> tree;
+    std::optional<SliceTableSettings> table;  // none: "auto"
 };
 
 // A scene file as read (DESIGN section 4): what to draw and how, nothing measured yet.

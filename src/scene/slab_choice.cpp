@@ -49,21 +49,21 @@ double slab_error_goal(const Scene& scene, double max_color, int slabs, double r
     return share * std::max(scene.max_error - root, scene.max_error * target_share);
 }
 
-SlabTrial chosen_slabs(const Facts& facts) {
+SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials) {
     const SlabTrial two_per_voxel{slabs_per_voxel(facts, 2), NAN};
-    if (facts.slab_trials.empty()) return two_per_voxel;
-    const double least = std::ranges::min(facts.slab_trials, {}, &SlabTrial::error).error;
-    const bool kept = std::ranges::any_of(facts.slab_trials, &SlabTrial::keeps_goal);
+    if (trials.exact.empty()) return two_per_voxel;
+    const double least = std::ranges::min(trials.exact, {}, &SlabTrial::error).error;
+    const bool kept = std::ranges::any_of(trials.exact, &SlabTrial::keeps_goal);
     const auto unwanted = [&](const SlabTrial& trial) {
         if (kept) return !trial.keeps_goal();
         return trial.error > near_least * least || trial.slabs < two_per_voxel.slabs;
     };
     SlabTrial chosen{std::numeric_limits<int>::max()};
-    for (const SlabTrial& trial : facts.slab_trials) {
+    for (const SlabTrial& trial : trials.exact) {
         if (!unwanted(trial) && trial.slabs < chosen.slabs) chosen = trial;
     }
     if (chosen.rays > 0) return chosen;
-    return std::ranges::min(facts.slab_trials, {}, &SlabTrial::error);
+    return std::ranges::min(trials.exact, {}, &SlabTrial::error);
 }
 
 bool are_of_second_order(std::vector<SlabTrial> trials) {
@@ -75,9 +75,9 @@ bool are_of_second_order(std::vector<SlabTrial> trials) {
     return std::ranges::adjacent_find(trials, odd) == trials.end();
 }
 
-std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts) {
+std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials) {
     std::optional<SlabTrial> fewest;
-    for (const SlabTrial& trial : facts.filter_trials) {
+    for (const SlabTrial& trial : trials.hardware) {
         if (trial.keeps_goal() && (!fewest || trial.slabs < fewest->slabs)) fewest = trial;
     }
     return fewest;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scene/facts.h"
+#include "scene/sample_trials.h"
 #include "scene/scene.h"
-#include "scene/slab_trial.h"
 
 namespace lamina {
 
@@ -22,13 +22,13 @@ double slab_error_goal(const Scene& scene, double max_color, int slabs, double r
 // of slabs. Else fewer slabs may by chance be nearer to the truth than more.
 bool are_of_second_order(std::vector<SlabTrial> trials);
 
-// "samples": "auto": of what was tried (Facts::slab_trials) the fewest slabs that keep their goal;
+// "samples": "auto": of what was tried the fewest slabs that keep their goal;
 // where none does, of two a voxel and more the fewest whose error is near the least. Where nothing
 // was tried, two a voxel, of an error that is not known (NaN).
-SlabTrial chosen_slabs(const Facts& facts);
+SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 
-// "filter": "auto": of what was tried with the weights of texture units (Facts::filter_trials) the
-// fewest slabs that keep their goal, if any do.
-std::optional<SlabTrial> slabs_of_hardware_filter(const Facts& facts);
+// "filter": "auto": of what was tried with the weights of texture units the fewest slabs that keep
+// their goal, if any do.
+std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials);
 
 }  // namespace lamina

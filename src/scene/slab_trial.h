@@ -16,6 +16,8 @@ struct SlabTrial {
     // traced, and the tracer found more than pictures of other numbers of slabs show.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
+
+    friend bool operator==(const SlabTrial&, const SlabTrial&) = default;
 };
 
 }  // namespace lamina

@@ -41,6 +41,12 @@ constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
 
+// Of a table that grows.
+constexpr double most_grown_layers = 33;
+int layers_of_steps(double steps) {
+    return static_cast<int>(std::min(std::ceil(steps) + 1, most_grown_layers));
+}
+
 std::string percent(double share) {
     return fmt::format("{:.3g} %", 100 * share);
 }
@@ -48,8 +54,12 @@ std::string percent(double share) {
 class SlicePlanner {
   public:
     SlicePlanner(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                 const OmissionSwitch& omissions)
-        : scene_(scene), facts_(facts), capabilities_(capabilities), omissions_(omissions) {}
+                 const OmissionSwitch& omissions, const SampleTrials& trials)
+        : scene_(scene),
+          facts_(facts),
+          trials_(trials),
+          capabilities_(capabilities),
+          omissions_(omissions) {}
 
     Plan make() {
         check_limits(scene_, capabilities_);
@@ -89,9 +99,9 @@ class SlicePlanner {
             slice.slabs = *scene_.slice.samples;
             return;
         }
-        const SlabTrial chosen = chosen_slabs(facts_);
+        const SlabTrial chosen = chosen_slabs(facts_, trials_);
         slice.slabs = chosen.slabs;
-        if (!facts_.slab_trials.empty()) slice.slab_trial = chosen;
+        if (!trials_.exact.empty()) slice.slab_trial = chosen;
     }
 
     // Where the texture unit was measured to be no worse than what was tried. (Of tables nothing
@@ -99,7 +109,7 @@ class SlicePlanner {
     void choose_filter() {
         SlicePlan& slice = plan_.slice;
         if (scene_.slice.filter == Filter::hardware) slice.sampling = VolumeSampling::hardware;
-        const std::optional<SlabTrial> trial = slabs_of_hardware_filter(facts_);
+        const std::optional<SlabTrial> trial = slabs_of_hardware_filter(trials_);
         if (scene_.slice.filter != Filter::automatic || !trial || !capabilities_.eight_bit_filter)
             return;
         slice.filter_reason = fmt::format(
@@ -252,12 +262,38 @@ class SlicePlanner {
             return;
         }
         if (!table.colored) return;
+        if (scene_.slice.table) {
+            take_table(*scene_.slice.table, longest);
+            return;
+        }
         const bool limit_alone =
             leave_out(depth < short_depth, "length_layers",
                       fmt::format("a segment's optical depth is at most {:.3g}: its colour does "
                                   "not depend on its length",
                                   depth));
         refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table);
+    }
+
+    // As the scene asks; where this view's segments are longer than that table knows, one that
+    // serves all views of such a camera, with layers as close.
+    void take_table(const SliceTableSettings& asked, double longest) {
+        TablePlan& table = plan_.slice.table;
+        table.scalar_nodes = asked.scalars;
+        table.length_layers = asked.lengths;
+        double most = asked.max_length;
+        const bool short_alone =
+            asked.lengths == 1 && facts_.max_extinction * longest >= short_depth;
+        if (longest > most || short_alone) {
+            most = std::max(longest, box_diagonal(facts_.grid) / plan_.slice.slabs *
+                                         facts_.max_length_per_depth);
+            const double as_close =
+                asked.lengths > 1 ? (asked.lengths - 1) * most / asked.max_length : 0;
+            const double needed = std::ceil(facts_.max_extinction * most);
+            table.length_layers = layers_of_steps(std::max(as_close, needed));
+        }
+        table.max_length = most * plan_.slice.unit;
+        if (!facts_.scalar_rays.rays.empty())
+            table.error = table_error(scene_, facts_, plan_.slice.slabs, table);
     }
 
     void choose_bricks() {
@@ -364,6 +400,7 @@ class SlicePlanner {
 
     const Scene& scene_;
     const Facts& facts_;
+    const SampleTrials& trials_;
     const Capabilities& capabilities_;
     const OmissionSwitch& omissions_;
     Plan plan_;
@@ -372,8 +409,8 @@ class SlicePlanner {
 }  // namespace
 
 Plan plan_slicing(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
-                  const OmissionSwitch& omissions) {
-    return SlicePlanner(scene, facts, capabilities, omissions).make();
+                  const OmissionSwitch& omissions, const SampleTrials& trials) {
+    return SlicePlanner(scene, facts, capabilities, omissions, trials).make();
 }
 
 }  // namespace lamina

@@ -33,6 +33,16 @@ DitherSettings read_dither(JsonReader reader) {
     return dither;
 }
 
+SliceTableSettings read_table(JsonReader reader) {
+    SliceTableSettings table;
+    if (reader.has("scalar")) table.scalars = static_cast<int>(reader.whole("scalar", 2, 4096));
+    if (reader.has("length")) table.lengths = static_cast<int>(reader.whole("length", 1, 64));
+    table.max_length = reader.number_or("max_length", table.max_length);
+    if (!(table.max_length >= 0)) reader.reject("max_length", "a length of 0 or more");
+    reader.close();
+    return table;
+}
+
 }  // namespace
 
 SliceSettings read_slice(JsonReader reader) {
@@ -54,6 +64,11 @@ SliceSettings read_slice(JsonReader reader) {
         {{"exact", Filter::exact}, {"hardware", Filter::hardware}, {"auto", Filter::automatic}});
     if (reader.has("dither")) slice.dither = read_dither(reader.object("dither"));
     slice.tree = read_tree(reader);
+    if (reader.has("table") && reader.value("table") != "auto") {
+        if (!reader.value("table").is_object())
+            reader.reject("table", "an object {\"scalar\": ...}, or \"auto\"");
+        slice.table = read_table(reader.object("table"));
+    }
     reader.close();
     return slice;
 }

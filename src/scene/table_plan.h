@@ -11,6 +11,8 @@ struct TablePlan {
     double max_length = 0;  // in the plan's units
     bool colored = true;
     double error = 0;  // that it was found to add to the picture's, in 1/255
+
+    friend bool operator==(const TablePlan&, const TablePlan&) = default;
 };
 
 }  // namespace lamina

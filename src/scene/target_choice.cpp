@@ -50,10 +50,10 @@ TargetChoice choose_target(const Scene& scene, double max_color, int slabs) {
     return smallest_target(question, one_level_error_bound);
 }
 
-TargetChoice choose_target(const Scene& scene, const Facts& facts) {
-    const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(facts);
+TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials) {
+    const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(trials);
     const int slabs = scene.slice.samples.value_or(
-        std::max(chosen_slabs(facts).slabs, filtered ? filtered->slabs : 0));
+        std::max(chosen_slabs(facts, trials).slabs, filtered ? filtered->slabs : 0));
     return choose_target(scene, facts.max_color, slabs);
 }
 

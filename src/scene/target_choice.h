@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scene/facts.h"
+#include "scene/sample_trials.h"
 #include "scene/scene.h"
 
 namespace lamina {
@@ -20,7 +21,7 @@ struct TargetChoice {
 
 // "target": "auto", of slicing: the fewest bytes a pixel with which compositing keeps its share of
 // max_error.
-TargetChoice choose_target(const Scene& scene, const Facts& facts);
+TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials);
 TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
 // Of projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);

@@ -17,6 +17,8 @@ struct TreePlan {
     NodeCode code = NodeCode::minimax;
     int alpha_bits = 8;
     double largest_color = 1;  // that the images of shader nodes stand for as 1
+
+    friend bool operator==(const TreePlan&, const TreePlan&) = default;
 };
 
 // What "tree": "auto" decides from.

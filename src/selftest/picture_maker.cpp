@@ -14,8 +14,7 @@
 #include "projection/project_renderer.h"
 #include "reference/mesh_tracer.h"
 #include "reference/volume_tracer.h"
-#include "slicing/slab_trials.h"
-#include "slicing/slice_renderer.h"
+#include "render/session.h"
 
 namespace lamina {
 namespace {
@@ -71,13 +70,8 @@ PreciseImage PictureMaker::draw(const Scene& asked, const Volume& volume) const 
     const View view(scene.camera, scene.width, scene.height);
     if (scene.method == Method::trace)
         return trace_volume(volume, scene.transfer_function, view, {scene.trace_tolerance}).image;
-    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    try_filter(scene, volume, capabilities_, facts);
-    const Plan plan = make_plan(scene, facts, capabilities_, {});
-    const auto renderer = make_slice_renderer(volume, scene.transfer_function, facts, plan.slice,
-                                              capabilities_, scene.width, scene.height);
-    renderer->draw(view);
-    return to_precise(renderer->read());
+    Session session(scene, std::make_shared<const VolumeData>(volume), capabilities_);
+    return to_precise(session.draw_picture());
 }
 
 PreciseImage PictureMaker::draw(const Scene& asked, const SceneMesh& mesh,
@@ -89,12 +83,12 @@ PreciseImage PictureMaker::draw(const Scene& asked, const SceneMesh& mesh,
         return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function, view)
             .image;
     }
-    const Plan plan = make_plan(scene, measure(scene, mesh), capabilities_, {});
-    const auto renderer = make_project_renderer(mesh, scene.transfer_function, plan.project,
-                                                capabilities_, scene.width, scene.height);
-    renderer->draw(view);
-    if (order) *order = renderer->order_report();
-    return to_precise(renderer->read());
+    // The mesh is the caller's, and outlives the session.
+    Session session(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
+                    capabilities_);
+    session.draw();
+    if (order) *order = dynamic_cast<const ProjectRenderer&>(session.renderer()).order_report();
+    return to_precise(session.picture());
 }
 
 }  // namespace lamina

@@ -72,8 +72,7 @@ double rays_of(const Scene& scene) {
 // Pictures of numbers of slabs, in at most `rays` rays. `last`: no search with more rays follows.
 class SlabTrials {
   public:
-    // `bricks` may be null: then no rays are chosen by them.
-    SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks* bricks,
+    SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
                const Facts& facts, double rays, bool last,
                std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
@@ -185,8 +184,8 @@ class SlabTrials {
     }
 
     std::vector<float> points_cover() const {
-        if (bricks_ == nullptr || facts_.knots == 0) return {};
-        return cover_of_points(*bricks_, facts_.grid, scene_.transfer_function,
+        if (facts_.knots == 0) return {};
+        return cover_of_points(bricks_, facts_.grid, scene_.transfer_function,
                                View(scene_.camera, scene_.width, scene_.height));
     }
 
@@ -215,7 +214,7 @@ class SlabTrials {
     bool last_;
     Scene scene_;
     const Volume& volume_;
-    const MinMaxBricks* bricks_;
+    const MinMaxBricks& bricks_;
     Facts facts_;
     std::shared_ptr<const TileVolume> ready_;  // of the pictures before
     int most_;
@@ -231,46 +230,42 @@ bool shows_something(const Facts& facts) {
 
 // What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
 // alone.
-void try_numbers(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
-                 Facts& facts) {
+std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
+                                   const MinMaxBricks& bricks, const Facts& facts) {
     const bool small = rays_of(scene) <= all_traced_rays;
-    SlabTrials first(scene, volume, &bricks, facts, small ? all_traced_rays : first_rays, small);
-    facts.slab_trials = first.run(slabs_per_voxel(facts, 1));
-    const SlabTrial found = chosen_slabs(facts);
-    if (!found.keeps_goal()) return;
+    SlabTrials first(scene, volume, bricks, facts, small ? all_traced_rays : first_rays, small);
+    SampleTrials trials{first.run(slabs_per_voxel(facts, 1)), {}};
+    const SlabTrial found = chosen_slabs(facts, trials);
+    if (!found.keeps_goal()) return trials.exact;
     if (!small) {
-        SlabTrials second(scene, volume, &bricks, facts, most_rays, true, first.ready());
-        facts.slab_trials = second.run(found.slabs);
-    } else if (!are_of_second_order(facts.slab_trials)) {
-        first.try_fewer(found.slabs, facts.slab_trials);
+        SlabTrials second(scene, volume, bricks, facts, most_rays, true, first.ready());
+        return second.run(found.slabs);
     }
+    if (!are_of_second_order(trials.exact)) first.try_fewer(found.slabs, trials.exact);
+    return trials.exact;
 }
 
 // What texture units make of NaN is their own.
 bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
-    return scene.method == Method::slice && scene.slice.filter == Filter::automatic &&
-           capabilities.eight_bit_filter && facts.non_finite == 0 && !facts.constant &&
-           shows_something(facts);
+    return scene.slice.filter == Filter::automatic && capabilities.eight_bit_filter &&
+           facts.non_finite == 0 && !facts.constant;
 }
 
 }  // namespace
 
-Facts measure_slicing(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
-    Facts facts = measure(scene, volume, bricks);
-    if (scene.method == Method::slice && !scene.slice.samples && shows_something(facts))
-        try_numbers(scene, volume, bricks, facts);
-    return facts;
-}
-
-void try_filter(const Scene& scene, const Volume& volume, const Capabilities& capabilities,
-                Facts& facts) {
-    if (!may_filter(scene, facts, capabilities)) return;
-    SlabTrials trials(scene, volume, nullptr, facts, filter_rays, true);
+SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
+                         const Facts& facts, const Capabilities& capabilities) {
+    SampleTrials trials;
+    if (scene.method != Method::slice || !shows_something(facts)) return trials;
+    if (!scene.slice.samples) trials.exact = try_numbers(scene, volume, bricks, facts);
+    if (!may_filter(scene, facts, capabilities)) return trials;
+    SlabTrials filtered(scene, volume, bricks, facts, filter_rays, true);
     if (scene.slice.samples) {
-        facts.filter_trials = {trials.try_filter(*scene.slice.samples)};
-    } else if (const SlabTrial exact = chosen_slabs(facts); exact.keeps_goal()) {
-        facts.filter_trials = trials.run_filter(exact.slabs);
+        trials.hardware = {filtered.try_filter(*scene.slice.samples)};
+    } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {
+        trials.hardware = filtered.run_filter(exact.slabs);
     }
+    return trials;
 }
 
 }  // namespace lamina

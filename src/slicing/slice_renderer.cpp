@@ -10,10 +10,12 @@ std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,
                                                    const Capabilities& capabilities, int width,
-                                                   int height) {
+                                                   int height, const FrameRenderer* before) {
     if (capabilities.tiles) {
+        const auto* const tiles = dynamic_cast<const TileSliceRenderer*>(before);
         return std::make_unique<TileSliceRenderer>(volume, transfer_function, facts, plan, width,
-                                                   height);
+                                                   height, TileVolume::largest_copy,
+                                                   tiles ? tiles->volume() : nullptr);
     }
     return std::make_unique<GlSliceRenderer>(volume, transfer_function, facts, plan, capabilities,
                                              width, height);

@@ -62,7 +62,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
                       sampled_step_advance);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
-    if (volume_) return;
+    if (volume_ && volume_->serves(volume, range, plan_)) return;
     Stage upload("upload");
     volume_ = std::make_shared<TileVolume>(volume, range, plan_, largest_copy);
     upload_ms_ = upload.end();

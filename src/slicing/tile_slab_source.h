@@ -13,8 +13,8 @@ namespace lamina {
 class TileSlabSource {
   public:
     // `plan` must outlive it. The transfer function is in its units, as views are; facts are the
-    // world's. `largest_copy`: see TileVolume. `ready`: volume() of a source of the
-    // same volume, range and bricks, which need not be copied again.
+    // world's. `largest_copy`: see TileVolume. `ready`: volume() of another
+    // source, which is taken over where it serves.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                    const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
                    std::shared_ptr<const TileVolume> ready);

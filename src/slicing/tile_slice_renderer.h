@@ -19,8 +19,7 @@ namespace lamina {
 class TileSliceRenderer : public FrameRenderer {
   public:
     // Prepares the volume and the tables. Copies of the volume that only save time take at most
-    // `largest_copy` bytes. `ready`: volume() of another renderer of the same volume with a plan of
-    // the same bricks and transfer function.
+    // `largest_copy` bytes. `ready`: volume() of another renderer, taken over where it serves.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                       const Facts& facts, const SlicePlan& plan, int width, int height,
                       std::int64_t largest_copy = TileVolume::largest_copy,

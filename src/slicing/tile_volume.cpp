@@ -43,7 +43,7 @@ void fill_quads(const Grid& grid, const TextureBrick& part, const std::uint8_t* 
 
 TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
                        std::int64_t most_bytes)
-    : volume_(volume), range_(range) {
+    : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
     const bool quads = volume.type() == SampleType::uint8 && !plan.float_texture &&
                        (4 * volume.grid().sample_count() <= most_bytes || volume.byte_count() < 4);
     const bool whole = plan.bricks.size() == 1;
@@ -126,6 +126,12 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
             own.repeat_ends(copy.data() + place, part.size[0]);
         });
     });
+}
+
+bool TileVolume::serves(const Volume& volume, const ValueRange& range,
+                        const SlicePlan& plan) const {
+    return volume.data() == volume_.data() && range == range_ && plan.bricks == parts_ &&
+           plan.float_texture == float_texture_;
 }
 
 std::int64_t TileVolume::byte_count() const {

@@ -43,6 +43,9 @@ class TileVolume {
     TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
                std::int64_t most_bytes);
 
+    // Whether it is what the constructor would make.
+    bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
+
     const std::vector<TileBrick>& bricks() const { return bricks_; }
     std::int64_t byte_count() const;  // beyond the volume's own
 
@@ -53,6 +56,8 @@ class TileVolume {
 
     Volume volume_;
     ValueRange range_;
+    std::vector<TextureBrick> parts_;
+    bool float_texture_;
     std::vector<std::vector<std::uint32_t>> copies_;
     std::vector<TileBrick> bricks_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "image/metrics.h"
+#include "render/session.h"
 #include "study/kraus_subject.h"
 
 namespace lamina {

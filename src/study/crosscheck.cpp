@@ -77,8 +77,7 @@ class Crosschecker {
     int automatic_samples() {
         Scene sliced = scene_;
         sliced.method = Method::slice;
-        const Facts facts = data_.volume(sliced).data.measure_for(sliced, capabilities_);
-        return make_plan(sliced, facts, capabilities_, {}).slice.slabs;
+        return Session(sliced, data_.volume(sliced).data, capabilities_).plan().slice.slabs;
     }
     std::vector<double> all_tolerances() {
         if (!scene_.mesh_file.empty()) return {0.0};
@@ -104,7 +103,7 @@ class Crosschecker {
             std::make_unique<StudyFrames>(slicing_scene(scene_, samples), data_, capabilities_));
         Crosscheck::Slicing& made = made_.slicings.emplace_back();
         made.samples = samples;
-        made.picture = frames.renderer().read();
+        made.picture = frames.picture();
         made.error = image_error(made.picture, made_.pictures.traced_volume);
         made.bytes = frames.bytes();
     }
@@ -113,7 +112,7 @@ class Crosschecker {
         check_interrupt();
         const Scene scene = projection_scene(scene_, tolerance);
         const Stopwatch watch;
-        const SceneMesh& mesh = data_.mesh(scene).data.data();
+        const SceneMesh& mesh = *data_.mesh(scene).data.data();
         Crosscheck::Projection& made = made_.projections.emplace_back();
         made.mesh_ms = watch.milliseconds();
         made.tolerance = tolerance;
@@ -124,7 +123,7 @@ class Crosschecker {
         }
         StudyFrames& frames =
             *frames_.emplace_back(std::make_unique<StudyFrames>(scene, data_, capabilities_));
-        made.picture = frames.renderer().read();
+        made.picture = frames.picture();
         made.traced = to_float(references_.get(scene, TraceOf::mesh, data_).image);
         made.mesh_part = image_error(made.traced, made_.pictures.traced_volume);
         made.method_part = image_error(made.picture, made.traced);

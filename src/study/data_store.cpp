@@ -33,8 +33,8 @@ const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
     if (!stored) {
         Volume volume = load_volume(scene);
         std::string content = content_of(volume);
-        stored = std::make_unique<StoredVolume>(
-            StoredVolume{DrawnVolume(std::move(volume)), std::move(content)});
+        stored = std::make_unique<StoredVolume>(StoredVolume{
+            std::make_shared<const VolumeData>(std::move(volume)), std::move(content)});
     }
     return *stored;
 }
@@ -45,7 +45,7 @@ const DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
         SceneMesh mesh = load_mesh(scene);
         std::string content = content_of(mesh);
         stored = std::make_unique<StoredMesh>(
-            StoredMesh{DrawnMesh(std::move(mesh)), std::move(content)});
+            StoredMesh{TracedMesh(std::move(mesh)), std::move(content)});
     }
     return *stored;
 }

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "study/drawn_mesh.h"
-#include "study/drawn_scene.h"
+#include "render/volume_data.h"
+#include "study/traced_mesh.h"
 
 namespace lamina {
 
@@ -19,11 +19,11 @@ std::string mesh_name(const Scene& scene);
 class DataStore {
   public:
     struct StoredVolume {
-        DrawnVolume data;
+        std::shared_ptr<const VolumeData> data;
         std::string content;  // content_of()
     };
     struct StoredMesh {
-        DrawnMesh data;
+        TracedMesh data;
         std::string content;
     };
     const StoredVolume& volume(const Scene& scene);

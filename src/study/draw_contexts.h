@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "study/draw_context.h"
+#include "render/draw_context.h"
 
 namespace lamina {
 

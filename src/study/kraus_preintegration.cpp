@@ -46,8 +46,9 @@ std::vector<Variant> ways(const Scene& scene) {
 }
 
 // Milliseconds to build the table that the scene asks for; null where it has none of its own.
-Json build_ms(const DrawnMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
-    const Plan plan = make_plan(scene, mesh.measure_for(scene), capabilities, {});
+Json build_ms(const TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
+    Session session(scene, mesh.data(), capabilities);
+    const Plan& plan = session.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
     return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
                                plan.project.table)
@@ -61,8 +62,8 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
     for (const Variant& variant : variants) {
         frames.emplace_back(variant.name, subject.mesh, variant.scene, stage.capabilities());
         frames.back().draw();
-        errors.push_back(errors_of(
-            variant.name, difference(frames.back().renderer().read(), subject.mesh.exact(scene))));
+        errors.push_back(errors_of(variant.name,
+                                   difference(frames.back().picture(), subject.mesh.exact(scene))));
     }
     const auto to_time = timed(frames);
     const Json times = time_rows(

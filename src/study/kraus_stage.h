@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/capabilities.h"
 #include "study/kraus_subject.h"
 
 namespace lamina {

@@ -50,7 +50,7 @@ TransferFunction scaled(std::span<const TransferKnot> knots, double factor) {
 }
 
 // Of all rays of a coarse picture, with extinctions `thin` times those of `knots`.
-double largest_depth(DrawnMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
+double largest_depth(TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
                      double thin) {
     scene.width = std::max(1, scene.width / coarse);
     scene.height = std::max(1, scene.height / coarse);
@@ -107,7 +107,7 @@ KrausView kraus_view(const std::string& name) {
 
 KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height) {
-    KrausSubject subject{view.name, measured_data, DrawnMesh(std::move(mesh)), {}, {}, {}, {}};
+    KrausSubject subject{view.name, measured_data, TracedMesh(std::move(mesh)), {}, {}, {}, {}};
     Scene scene;
     scene.method = Method::project;
     scene.camera = view.camera;

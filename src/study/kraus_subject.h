@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "study/drawn_mesh.h"
+#include "study/traced_mesh.h"
 
 namespace lamina {
 
@@ -12,7 +12,7 @@ namespace lamina {
 struct KrausSubject {
     std::string name;
     bool measured_data;  // read from a file, not generated
-    DrawnMesh mesh;
+    TracedMesh mesh;
     Scene smooth;      // total opacity up to .5
     Scene faint;       // the same, up to .1
     Scene dense;       // the same up to .95

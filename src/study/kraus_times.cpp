@@ -60,10 +60,8 @@ Scene timed_scene(Scene scene, const KrausSizes& sizes) {
     return scene;
 }
 
-void add_stages(Json& row, const GlProjectRenderer& renderer) {
-    row["order_ms"] = renderer.order_ms();
-    row["geometry_ms"] = renderer.geometry_ms();
-    row["draw_ms"] = renderer.draw_ms();
+void add_stages(Json& row, const ProjectRenderer& renderer) {
+    for (const auto& [stage, ms] : renderer.stages_ms()) row[stage + "_ms"] = ms;
     row["tets_drawn"] = renderer.tets_drawn();
 }
 
@@ -108,7 +106,7 @@ constexpr int coarse_width = 160, coarse_height = 120;
 // A mesh of Table 2.
 struct TimedMesh {
     std::string name;
-    const DrawnMesh* mesh;
+    const TracedMesh* mesh;
     Scene scene;
 };
 
@@ -134,7 +132,7 @@ Json printed_table2() {
 }
 
 // Boxes first, from small to large; then data sets.
-std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<DrawnMesh>& boxes) {
+std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
         timed_scene(make_kraus_subject(make_box_mesh({8, 8, 8}), kraus_view("box"), false,
@@ -196,7 +194,7 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
 }
 
 Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
-    std::deque<DrawnMesh> boxes;
+    std::deque<TracedMesh> boxes;
     const std::vector<TimedMesh> meshes = meshes_of_table2(stage, boxes);
     std::vector<MeshFrame> frames;
     for (const TimedMesh& mesh : meshes) {

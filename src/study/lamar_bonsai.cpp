@@ -55,14 +55,14 @@ Scene bonsai_scene() {
 Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const std::filesystem::path file = bonsai_file();
     if (!std::filesystem::exists(file)) return skipped();
-    const DrawnVolume bonsai(read_nrrd(file));
+    const auto bonsai = std::make_shared<const VolumeData>(read_nrrd(file));
     const Scene scene = bonsai_scene();
-    const Image exact = bonsai.draw(scene, stage.capabilities());
+    const Image exact = Session(scene, bonsai, stage.capabilities()).draw_picture();
     std::vector<Image> pictures{exact};
     Json rows = Json::array();
     std::vector<ErrorNorms> errors;
     const auto add = [&](const char* name, const Scene& approximate) {
-        pictures.push_back(bonsai.draw(approximate, stage.capabilities()));
+        pictures.push_back(Session(approximate, bonsai, stage.capabilities()).draw_picture());
         const ErrorNorms e = image_error(pictures.back(), exact).all;
         errors.push_back(e);
         rows.push_back({{"picture", name}, {"linf", e.linf}, {"l1", e.l1}, {"l2", e.l2}});

@@ -78,7 +78,7 @@ ErrorNorms shader_tree_error(LamarStage& stage, const Scene& exact_scene, const 
     Scene scene = exact_scene;
     scene.target = Target::fixed8;
     scene.slice.tree = TreeSettings{.factors = {32, 32}};
-    image = stage.mixing().draw(scene, stage.capabilities());
+    image = stage.draw_mixing(scene);
     return image_error(image, exact).all;
 }
 
@@ -89,7 +89,7 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     Progress progress("figure 10", 2 * static_cast<std::int64_t>(std::size(trees)) + 4);
     const auto draw = [&](const Scene& scene) {
         progress.advance();
-        return stage.mixing().draw(scene, stage.capabilities());
+        return stage.draw_mixing(scene);
     };
     const Image exact = draw(white), colored_exact = draw(colored);
     std::vector<Image> pictures{exact};

@@ -132,21 +132,21 @@ void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
 
 }  // namespace
 
-const DrawnVolume& LamarStage::mixing() {
-    if (!mixing_) mixing_.emplace(mixing_volume());
-    return *mixing_;
+Image LamarStage::draw_mixing(const Scene& scene) {
+    if (!mixing_) mixing_ = std::make_shared<const VolumeData>(mixing_volume());
+    return Session(scene, mixing_, capabilities_).draw_picture();
 }
 
 const DitheredMixing& LamarStage::dithered_mixing() {
     if (dithered_mixing_) return *dithered_mixing_;
     DitheredMixing made{mixing_scene(pixels_), {}, {1, 4, 16, 64, 256}, {}};
     Progress progress("mixing liquids", 1 + static_cast<std::int64_t>(made.periods.size()));
-    made.exact = mixing().draw(made.scene, capabilities_);
+    made.exact = draw_mixing(made.scene);
     progress.advance();
     for (const int period : made.periods) {
         Scene scene = with_paper_hardware(made.scene);
         if (period > 1) scene.slice.dither = DitherSettings{.period = period, .color = true};
-        made.dithered.push_back(mixing().draw(scene, capabilities_));
+        made.dithered.push_back(draw_mixing(scene));
         progress.advance();
     }
     dithered_mixing_ = std::move(made);
@@ -194,7 +194,7 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
         Scene scene = white ? white_mixing_scene(pixels) : mixing_scene(pixels);
         for (const int samples : {64, 256, 1024}) {
             scene.slice.samples = samples;
-            const Image exact = stage.mixing().draw(scene, stage.capabilities());
+            const Image exact = stage.draw_mixing(scene);
             for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
                 ErrorNorms errors[2];
                 for (const Order order : {Order::front_to_back, Order::back_to_front}) {
@@ -202,7 +202,7 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
                     fixed.emulate.over = over;
                     fixed.slice.order = order;
                     fixed.slice.dither = DitherSettings{.period = samples, .color = true};
-                    const Image image = stage.mixing().draw(fixed, stage.capabilities());
+                    const Image image = stage.draw_mixing(fixed);
                     errors[order == Order::back_to_front] = image_error(image, exact).all;
                     progress.advance();
                 }

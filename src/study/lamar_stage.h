@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "study/drawn_scene.h"
+#include "render/session.h"
+#include "study/paper_hardware.h"
 
 namespace lamina {
 
@@ -25,13 +27,13 @@ class LamarStage {
 
     const Capabilities& capabilities() const { return capabilities_; }
     int pixels() const { return pixels_; }
-    const DrawnVolume& mixing();              // made when first asked for
+    Image draw_mixing(const Scene& scene);    // of a volume that is made when first asked for
     const DitheredMixing& dithered_mixing();  // likewise: of Table 4 and Figure 6
 
   private:
     Capabilities capabilities_;
     int pixels_;
-    std::optional<DrawnVolume> mixing_;
+    std::shared_ptr<const VolumeData> mixing_;
     std::optional<DitheredMixing> dithered_mixing_;
 };
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <memory>
 
-#include "slicing/gl_slice_renderer.h"
+#include "render/session.h"
 #include "study/findings.h"
 #include "study/interleaved_times.h"
 #include "study/lamar.h"
@@ -81,22 +81,22 @@ Scene scene_of(const Technique& technique) {
     return scene;
 }
 
-TimedFrame frame_of(const std::string& name, const DrawnVolume& volume, const Scene& scene,
-                    const Capabilities& capabilities, const OmissionSwitch& omissions) {
-    const Facts facts = volume.measure_for(scene, capabilities);
-    const Plan plan = make_plan(scene, facts, capabilities, omissions);
-    const auto renderer =
-        std::make_shared<GlSliceRenderer>(volume.volume(), scene.transfer_function, facts,
-                                          plan.slice, capabilities, scene.width, scene.height);
-    const View view(scene.camera, scene.width, scene.height);
-    Camera far = scene.camera;
-    far.height *= nearly_nothing;
-    const View far_view(far, scene.width, scene.height);
-    return {name, [renderer, far_view] { renderer->draw(far_view); },
-            [renderer, view] { renderer->draw(view); }};
+// The same of next to nothing in the picture is drawn by a session of its own: a change of the
+// camera would be part of the times.
+TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
+                    const Scene& scene, const Capabilities& capabilities,
+                    const OmissionSwitch& omissions) {
+    const auto session = std::make_shared<Session>(scene, volume, capabilities, omissions);
+    Scene far = scene;
+    far.camera.height *= nearly_nothing;
+    const auto far_session = std::make_shared<Session>(far, volume, capabilities, omissions);
+    session->set_up();
+    far_session->set_up();
+    return {name, [far_session] { far_session->draw(); }, [session] { session->draw(); }};
 }
 
-Json time_techniques(const DrawnVolume& volume, const Capabilities& capabilities) {
+Json time_techniques(const std::shared_ptr<const VolumeData>& volume,
+                     const Capabilities& capabilities) {
     std::vector<TimedFrame> frames;
     for (const Technique& technique : techniques()) {
         OmissionSwitch omissions;
@@ -108,7 +108,8 @@ Json time_techniques(const DrawnVolume& volume, const Capabilities& capabilities
 }
 
 // A context that cannot read its own pixel needs a barrier after each slab.
-Json time_barriers(const DrawnVolume& volume, const Capabilities& capabilities) {
+Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
+                   const Capabilities& capabilities) {
     Scene scene = timed_scene(false);
     scene.width = scene.height = barrier_pixels;
     std::vector<TimedFrame> frames;
@@ -145,7 +146,7 @@ Json time_palettes(bool& same_picture) {
 }  // namespace
 
 Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
-    const DrawnVolume volume(
+    const auto volume = std::make_shared<const VolumeData>(
         generate({"mixing", std::array<std::int64_t, 3>{128, 128, 128}, SampleType::uint8}));
     Json values{{"files", {"times.csv", "times_barriers.csv", "times_palettes.csv"}},
                 {"renderer", renderer_and_threads(stage.capabilities())},

@@ -6,26 +6,31 @@
 #include <utility>
 #include <vector>
 
-#include "study/drawn_mesh.h"
+#include "projection/project_renderer.h"
+#include "render/session.h"
 #include "study/interleaved_times.h"
+#include "study/traced_mesh.h"
 
 namespace lamina {
 
-// A scene of a mesh, set up to be drawn again and again. The mesh and the context must outlive it.
+// A scene of a mesh, set up to be drawn again and again. The context must outlive it.
 class MeshFrame {
   public:
-    MeshFrame(std::string name, const DrawnMesh& mesh, Scene scene,
+    MeshFrame(std::string name, const TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities)
         : name_(std::move(name)),
-          scene_(std::make_unique<Scene>(std::move(scene))),
-          view_(scene_->camera, scene_->width, scene_->height),
-          renderer_(mesh.renderer(*scene_, capabilities)) {}
+          session_(std::make_unique<Session>(scene, mesh.data(), capabilities)) {
+        session_->set_up();
+    }
 
     const std::string& name() const { return name_; }
-    const GlProjectRenderer& renderer() const { return *renderer_; }
+    const ProjectRenderer& renderer() const {
+        return dynamic_cast<const ProjectRenderer&>(session_->renderer());
+    }
+    Image picture() const { return session_->picture(); }
     // Order, geometry and fragments.
     void draw() {
-        renderer_->draw(view_);
+        session_->draw();
         drawn_ = true;
     }
     void warm_up() {
@@ -34,9 +39,7 @@ class MeshFrame {
 
   private:
     std::string name_;
-    std::unique_ptr<Scene> scene_;  // its transfer function is the renderer's
-    View view_;
-    std::unique_ptr<GlProjectRenderer> renderer_;
+    std::unique_ptr<Session> session_;
     bool drawn_ = false;
 };
 

@@ -37,7 +37,7 @@ Reference trace(const Scene& scene, TraceOf of, DataStore& data) {
             {}, of, units * result.error_estimate, watch.milliseconds(), std::move(result.image)};
     };
     if (of == TraceOf::mesh) return made(data.mesh(scene).data.trace(scene));
-    return made(trace_volume(data.volume(scene).data.volume(), scene.transfer_function,
+    return made(trace_volume(data.volume(scene).data->volume, scene.transfer_function,
                              View(scene.camera, scene.width, scene.height),
                              {scene.trace_tolerance}));
 }

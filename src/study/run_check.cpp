@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "render/context_choice.h"
 #include "scene/scene_reader.h"
-#include "study/context_choice.h"
 #include "study/run_list.h"
 
 namespace lamina {

@@ -1,46 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_frames.h"
 
-#include <utility>
-
-#include "base/stopwatch.h"
 #include "gl/memory.h"
-#include "projection/project_renderer.h"
-#include "slicing/slice_renderer.h"
 
 namespace lamina {
+namespace {
 
-StudyFrames::StudyFrames(Scene scene, DataStore& data, const Capabilities& capabilities)
-    : scene_(std::make_unique<Scene>(std::move(scene))), on_tiles_(capabilities.tiles) {
+std::unique_ptr<Session> session_of(const Scene& scene, DataStore& data,
+                                    const Capabilities& capabilities) {
+    if (scene.method == Method::project)
+        return std::make_unique<Session>(scene, data.mesh(scene).data.data(), capabilities);
+    return std::make_unique<Session>(scene, data.volume(scene).data, capabilities);
+}
+
+}  // namespace
+
+StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities)
+    : camera_(scene.camera), session_(session_of(scene, data, capabilities)) {
     const std::int64_t before = gl::bytes_allocated();
-    renderer_ = make(data, capabilities);
-    draw();
+    session_->draw();
+    set_up_ms_ = session_->stages_ms().at("set_up");
     bytes_gpu_ = gl::bytes_allocated() - before;
 }
 
-std::unique_ptr<FrameRenderer> StudyFrames::make(DataStore& data,
-                                                 const Capabilities& capabilities) {
-    if (scene_->method == Method::project) {
-        const DrawnMesh& mesh = data.mesh(*scene_).data;
-        const Plan plan = make_plan(*scene_, mesh.measure_for(*scene_), capabilities, {});
-        const Stopwatch watch;
-        auto renderer = make_project_renderer(mesh.data(), scene_->transfer_function, plan.project,
-                                              capabilities, scene_->width, scene_->height);
-        set_up_ms_ = watch.milliseconds();
-        return renderer;
-    }
-    const DrawnVolume& volume = data.volume(*scene_).data;
-    const Facts facts = volume.measure_for(*scene_, capabilities);
-    const Plan plan = make_plan(*scene_, facts, capabilities, {});
-    const Stopwatch watch;
-    auto renderer = make_slice_renderer(volume.volume(), scene_->transfer_function, facts,
-                                        plan.slice, capabilities, scene_->width, scene_->height);
-    set_up_ms_ = watch.milliseconds();
-    return renderer;
+void StudyFrames::draw() {
+    if (turned_) session_->set_camera(camera_);
+    turned_ = false;
+    session_->draw();
 }
 
 void StudyFrames::draw_turned(double degrees) {
-    renderer_->draw(View(turned(scene_->camera, degrees), scene_->width, scene_->height));
+    turned_ = true;
+    session_->set_camera(turned(camera_, degrees));
+    session_->draw();
 }
 
 }  // namespace lamina

@@ -197,7 +197,7 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
 
 void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured& measured) {
     frames.draw();  // a second time: a first frame's stages are those of cold memory
-    const Image image = frames.renderer().read();
+    const Image image = frames.picture();
     const Scene& scene = frames.scene();
     const Reference& reference = references_.get(scene, reference_of(scene, file_), data_);
     const ImageError error = image_error(image, reference.image);

@@ -14,6 +14,8 @@ struct ValueRange {
     double lo = 1;
     double hi = 0;
     bool empty() const { return lo > hi; }
+
+    friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
 // The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 // Lowest first: a room includes only itself and the rooms before it.
 const std::vector<std::string> rooms = {
-    "base",      "image", "optics", "compositing", "volume",     "mesh",  "scene",
-    "reference", "gl",    "tiles",  "slicing",     "projection", "study", "selftest"};
+    "base", "image", "optics",  "compositing", "volume", "mesh",  "scene",   "reference",
+    "gl",   "tiles", "slicing", "projection",  "render", "study", "selftest"};
 const fs::path source = LAMINA_SOURCE_DIR;
 
 std::size_t height_of(const std::string& room) {

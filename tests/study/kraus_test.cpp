@@ -142,7 +142,9 @@ TEST_F(Kraus, TracesASceneOnce) {
 TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
-    const Image image = box.mesh.draw(with_default_integration(box.dense), capabilities());
+    const Image image =
+        Session(with_default_integration(box.dense), box.mesh.data(), capabilities())
+            .draw_picture();
     // Issue 5, default settings, float32.
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame_job.h"
 
-#include "base/progress.h"
 #include "base/stage.h"
 #include "clamped_colors.h"
 #include "gl/memory.h"
@@ -20,51 +19,54 @@ Plan FrameJob::plan(RenderStats& stats) {
     stats.renderer = context_->capabilities().renderer;
     stats.context = renderer_and_threads(context_->capabilities());
     stats.on_tiles = context_->capabilities().tiles;
-    Stage planning("plan");
-    Plan plan = method_->plan(context_->capabilities());
-    stats.stages_ms["plan"] = planning.end();
+    session_ = method_->open(context_->capabilities());
+    Plan plan = session_->plan();
+    const auto& took = session_->stages_ms();
+    stats.stages_ms["measure"] += took.at("facts") + took.at("trials");
+    stats.stages_ms["plan"] = took.at("plan");
+    method_->report_plan(plan, stats);
     return plan;
 }
 
-std::string FrameJob::explanation(const Plan& plan) const {
-    return method_->explanation(plan, context_->capabilities());
+std::string FrameJob::explanation(const Plan& /*plan*/) const {
+    return session_->explanation();
 }
 
-void FrameJob::draw(const Plan& plan, const View& view, RenderStats& stats) {
+void FrameJob::draw(const Plan& plan, RenderStats& stats) {
     count_clamped_colors(request_, stats);
-    Stage setting_up("set_up");
-    renderer_ = method_->make_renderer(plan, context_->capabilities());
-    stats.stages_ms["set_up"] = setting_up.end();
+    session_->set_up();
+    stats.stages_ms["set_up"] = session_->stages_ms().at("set_up");
     Stage frame("frame");
     frame.count("frame", 0);
-    draw_first(view, stats);
+    draw_first(stats);
     stats.frames_ms = {frame.end()};
     Stage reading("read");
-    image_.emplace(renderer_->read());
+    image_.emplace(session_->picture());
     stats.stages_ms["read"] = reading.end();
+    const FrameRenderer& renderer = session_->renderer();
     stats.bytes_gpu = gl::bytes_allocated();
-    stats.bytes_host = renderer_->byte_count();
-    stats.stages_ms.merge(renderer_->stages_ms());
-    method_->report(stats);
+    stats.bytes_host = renderer.byte_count();
+    stats.stages_ms.merge(renderer.stages_ms());
+    method_->report_frame(plan, renderer, stats);
 }
 
-// With its progress and, where somebody will read them, its fragments.
-void FrameJob::draw_first(const View& view, RenderStats& stats) {
-    Progress progress(method_->activity(), renderer_->step_count());
+// Where somebody will read them, with its fragments.
+void FrameJob::draw_first(RenderStats& stats) {
     if (!request_.count_fragments || context_->capabilities().tiles) {
-        renderer_->draw(view, &progress);
-        stats.fragments = static_cast<std::uint64_t>(renderer_->fragments());
+        session_->draw();
+        stats.fragments = static_cast<std::uint64_t>(session_->renderer().fragments());
         return;
     }
     gl::Query query(gl::Query::Kind::samples_passed);
     query.begin();
-    renderer_->draw(view, &progress);
+    session_->draw();
     query.end();
     stats.fragments = query.result();
 }
 
-void FrameJob::draw_frame(const View& view) {
-    renderer_->draw(view);
+void FrameJob::draw_frame(const Camera& camera) {
+    session_->set_camera(camera);
+    session_->draw();
 }
 
 std::size_t FrameJob::write(PictureFile& picture, const PictureAttributes& attributes) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "render/draw_context.h"
+#include "render/session.h"
 #include "render_job.h"
-#include "scene/frame_renderer.h"
-#include "study/draw_context.h"
 
 namespace lamina {
 
@@ -15,36 +15,33 @@ namespace lamina {
 class FrameMethod {
   public:
     virtual ~FrameMethod() = default;
-    virtual const char* activity() const = 0;  // in front of the progress bar
-    // Loads and measures what is drawn.
     virtual void load(RenderStats& stats) = 0;
-    virtual Plan plan(const Capabilities& capabilities) = 0;
-    virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
-    // What is loaded outlives the renderer.
-    virtual std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
-                                                         const Capabilities& capabilities) = 0;
+    virtual std::unique_ptr<Session> open(const Capabilities& capabilities) = 0;
+    // Says and counts what is noteworthy of the data and of the plan.
+    virtual void report_plan(const Plan& plan, RenderStats& stats) = 0;
     // What the statistics want to know of the scene's own frame, beside its stages.
-    virtual void report(RenderStats& stats) const = 0;
+    virtual void report_frame(const Plan& plan, const FrameRenderer& renderer,
+                              RenderStats& stats) const = 0;
 };
 
-// Draws frames with a renderer.
+// Draws frames with a session.
 class FrameJob : public RenderJob {
   public:
     FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> method);
 
     Plan plan(RenderStats& stats) override;
     std::string explanation(const Plan& plan) const override;
-    void draw(const Plan& plan, const View& view, RenderStats& stats) override;
-    void draw_frame(const View& view) override;
+    void draw(const Plan& plan, RenderStats& stats) override;
+    void draw_frame(const Camera& camera) override;
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override;
 
   private:
-    void draw_first(const View& view, RenderStats& stats);
+    void draw_first(RenderStats& stats);
 
     const RenderRequest request_;
     std::unique_ptr<FrameMethod> method_;
     std::optional<DrawContext> context_;
-    std::unique_ptr<FrameRenderer> renderer_;
+    std::unique_ptr<Session> session_;
     std::optional<Image> image_;
 };
 

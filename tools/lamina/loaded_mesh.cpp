@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/stage.h"
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 namespace {
@@ -32,43 +33,35 @@ void report_made(const RenderRequest& request, const MeshReport& report, RenderS
     }
 }
 
-void count_findings(const RenderRequest& request, const LoadedMesh& mesh, RenderStats& stats) {
-    const MeshFindings& findings = mesh.facts.findings;
-    stats.counts["tets"] = mesh.facts.tets;
+}  // namespace
+
+std::shared_ptr<const SceneMesh> load_mesh_data(const RenderRequest& request, RenderStats& stats) {
+    Stage loading("load");
+    auto mesh = std::make_shared<const SceneMesh>(load_mesh(request.scene));
+    stats.stages_ms["load"] = loading.end();
+    return mesh;
+}
+
+void report_mesh(const RenderRequest& request, const SceneMesh& mesh, RenderStats& stats) {
+    const MeshFindings& findings = mesh.mesh.findings();
+    const std::int64_t non_finite = measure_range(mesh.scalar.values).non_finite;
+    stats.counts["tets"] = static_cast<std::int64_t>(mesh.mesh.tets().size());
     stats.counts["degenerate_tets"] = findings.degenerate;
     stats.counts["inverted_tets"] = findings.inverted;
     stats.counts["duplicate_tets"] = findings.duplicates;
     stats.counts["nonmanifold_faces"] = findings.nonmanifold_faces;
     stats.counts["folded_faces"] = findings.folded_faces;
-    stats.counts["non_finite_values"] = mesh.facts.non_finite;
+    stats.counts["non_finite_values"] = non_finite;
     count_cells(request, findings.cells, stats);
-    if (mesh.data.averaged) {
+    if (mesh.averaged) {
         stats.counts["averaged_arrays"] = 1;
-        request.message(fmt::format("\"{}\" is cell data: averaged to points", mesh.facts.scalar));
+        request.message(fmt::format("\"{}\" is cell data: averaged to points", mesh.scalar.name));
     }
-    if (mesh.facts.non_finite > 0) {
-        request.message(
-            fmt::format("{} values are NaN or infinite: their tets are drawn transparent",
-                        mesh.facts.non_finite));
+    if (non_finite > 0) {
+        request.message(fmt::format(
+            "{} values are NaN or infinite: their tets are drawn transparent", non_finite));
     }
-    if (mesh.data.report) report_made(request, *mesh.data.report, stats);
-}
-
-SceneMesh load(const RenderRequest& request, RenderStats& stats) {
-    Stage loading("load");
-    SceneMesh mesh = load_mesh(request.scene);
-    stats.stages_ms["load"] = loading.end();
-    return mesh;
-}
-
-}  // namespace
-
-LoadedMesh::LoadedMesh(const RenderRequest& request, RenderStats& stats)
-    : data(load(request, stats)) {
-    Stage measuring("measure");
-    facts = measure(request.scene, data);
-    stats.stages_ms["measure"] = measuring.end();
-    count_findings(request, *this, stats);
+    if (mesh.report) report_made(request, *mesh.report, stats);
 }
 
 }  // namespace lamina

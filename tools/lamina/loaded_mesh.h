@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "render_job.h"
-#include "scene/mesh_facts.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {
 
-// A scene's mesh, read or made, and measured; what was found on the way is counted and said.
-struct LoadedMesh {
-    LoadedMesh(const RenderRequest& request, RenderStats& stats);
+// The mesh of a scene that is rendered, read or made.
+std::shared_ptr<const SceneMesh> load_mesh_data(const RenderRequest& request, RenderStats& stats);
 
-    SceneMesh data;
-    MeshFacts facts;
-};
+// Says and counts what is noteworthy of it, once it is known that it can be drawn.
+void report_mesh(const RenderRequest& request, const SceneMesh& mesh, RenderStats& stats);
 
 }  // namespace lamina

@@ -4,34 +4,26 @@
 #include <fmt/format.h>
 
 #include "base/stage.h"
-#include "slicing/slab_trials.h"
 
 namespace lamina {
-namespace {
 
-Volume timed_load(const Scene& scene, RenderStats& stats) {
+std::shared_ptr<const VolumeData> load_volume_data(const RenderRequest& request,
+                                                   RenderStats& stats) {
     Stage loading("load");
-    Volume volume = load_volume(scene);
+    Volume volume = load_volume(request.scene);
     stats.stages_ms["load"] = loading.end();
-    return volume;
+    Stage measuring("bricks");
+    auto data = std::make_shared<const VolumeData>(std::move(volume));
+    stats.stages_ms["measure"] = measuring.end();
+    return data;
 }
 
-}  // namespace
-
-LoadedVolume::LoadedVolume(const RenderRequest& request, RenderStats& stats)
-    : volume(timed_load(request.scene, stats)) {
-    Stage measuring("measure");
-    Stage measuring_bricks("bricks");
-    const MinMaxBricks bricks = measure_bricks(volume);
-    measuring_bricks.end();
-    Stage finding("facts");
-    facts = measure_slicing(request.scene, volume, bricks);
-    finding.end();
-    stats.stages_ms["measure"] = measuring.end();
-    stats.counts["non_finite_samples"] = facts.non_finite;
-    if (facts.non_finite > 0) {
+void report_volume(const RenderRequest& request, const VolumeData& data, RenderStats& stats) {
+    const std::int64_t non_finite = data.bricks.non_finite;
+    stats.counts["non_finite_samples"] = non_finite;
+    if (non_finite > 0) {
         request.message(fmt::format(
-            "{} samples are NaN or infinite: their cells are drawn transparent", facts.non_finite));
+            "{} samples are NaN or infinite: their cells are drawn transparent", non_finite));
     }
 }
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
+#include "render/volume_data.h"
 #include "render_job.h"
-#include "scene/facts.h"
-#include "volume/volume.h"
 
 namespace lamina {
 
-// The volume of a scene that is rendered, measured; what is noteworthy is said and counted.
-struct LoadedVolume {
-    LoadedVolume(const RenderRequest& request, RenderStats& stats);
+// The volume of a scene that is rendered.
+std::shared_ptr<const VolumeData> load_volume_data(const RenderRequest& request,
+                                                   RenderStats& stats);
 
-    Volume volume;
-    Facts facts;
-};
+// Says and counts what is noteworthy of it, once it is known that it can be drawn.
+void report_volume(const RenderRequest& request, const VolumeData& data, RenderStats& stats);
 
 }  // namespace lamina

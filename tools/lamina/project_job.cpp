@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <optional>
+#include <memory>
 
 #include "frame_job.h"
 #include "loaded_mesh.h"
@@ -14,30 +14,21 @@ class ProjectMethod : public FrameMethod {
   public:
     explicit ProjectMethod(const RenderRequest& request) : request_(request) {}
 
-    const char* activity() const override { return "projecting"; }
+    void load(RenderStats& stats) override { mesh_ = load_mesh_data(request_, stats); }
 
-    void load(RenderStats& stats) override { mesh_.emplace(request_, stats); }
-
-    Plan plan(const Capabilities& capabilities) override {
-        return make_plan(request_.scene, mesh_->facts, capabilities, request_.omissions);
+    std::unique_ptr<Session> open(const Capabilities& capabilities) override {
+        return std::make_unique<Session>(request_.scene, mesh_, capabilities, request_.omissions);
     }
 
-    std::string explanation(const Plan& plan, const Capabilities& capabilities) const override {
-        return explain(plan, mesh_->facts, capabilities);
+    void report_plan(const Plan& /*plan*/, RenderStats& stats) override {
+        report_mesh(request_, *mesh_, stats);
     }
 
-    std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
-                                                 const Capabilities& capabilities) override {
-        const Scene& scene = request_.scene;
-        auto renderer = make_project_renderer(mesh_->data, scene.transfer_function, plan.project,
-                                              capabilities, scene.width, scene.height);
-        renderer_ = renderer.get();
-        return renderer;
-    }
-
-    void report(RenderStats& stats) const override {
-        stats.tets_drawn = renderer_->tets_drawn();
-        const OrderReport& order = renderer_->order_report();
+    void report_frame(const Plan& /*plan*/, const FrameRenderer& frames,
+                      RenderStats& stats) const override {
+        const auto& renderer = dynamic_cast<const ProjectRenderer&>(frames);
+        stats.tets_drawn = renderer.tets_drawn();
+        const OrderReport& order = renderer.order_report();
         stats.counts["cycles"] = order.cycles;
         stats.counts["cyclic_tets"] = order.cyclic_tets;
         stats.counts["pairs_in_wrong_order"] = order.broken;
@@ -50,8 +41,7 @@ class ProjectMethod : public FrameMethod {
 
   private:
     const RenderRequest request_;
-    std::optional<LoadedMesh> mesh_;
-    const ProjectRenderer* renderer_ = nullptr;  // that make_renderer() made
+    std::shared_ptr<const SceneMesh> mesh_;
 };
 
 }  // namespace

@@ -14,10 +14,10 @@
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "profile_file.h"
+#include "render/context_choice.h"
 #include "render_job.h"
 #include "scene_files.h"
 #include "scene_options.h"
-#include "study/context_choice.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -52,7 +52,7 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-// The frames of --frames: `draw(view)` for the scene's camera turned a little further each time.
+// The frames of --frames: `draw(camera)` for the scene's, turned a little further each time.
 template <typename Draw>
 void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw& draw) {
     if (frames == 0) return;
@@ -63,7 +63,7 @@ void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw&
         const Camera camera = turned(scene.camera, degrees_per_frame * i);
         Stage frame("frame");
         frame.count("frame", i);
-        draw(View(camera, scene.width, scene.height));
+        draw(camera);
         stats.frames_ms.push_back(frame.end());
         progress.advance();
     }
@@ -108,9 +108,9 @@ void run(const RenderOptions& options) {
     const std::string explanation = job->explanation(plan);
     if (options.explain) write_result(explanation);
     if (!picture) return;
-    const View view(scene.camera, scene.width, scene.height);
-    job->draw(plan, view, stats);
-    time_frames(scene, options.frames, stats, [&](const View& turned) { job->draw_frame(turned); });
+    job->draw(plan, stats);
+    time_frames(scene, options.frames, stats,
+                [&](const Camera& turned) { job->draw_frame(turned); });
 
     Stage writing("write");
     const std::size_t clamped = job->write(*picture, {{"scene", scene_text},

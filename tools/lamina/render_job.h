@@ -6,11 +6,11 @@
 #include <string>
 
 #include "picture_file.h"
+#include "render/context_choice.h"
 #include "render_stats.h"
 #include "scene/camera.h"
 #include "scene/plan.h"
 #include "scene/scene.h"
-#include "study/context_choice.h"
 
 namespace lamina {
 
@@ -33,9 +33,9 @@ class RenderJob {
     // The plan as a text for people.
     virtual std::string explanation(const Plan& plan) const = 0;
     // The scene's own frame, with progress; its time goes into stats.frames_ms.
-    virtual void draw(const Plan& plan, const View& view, RenderStats& stats) = 0;
+    virtual void draw(const Plan& plan, RenderStats& stats) = 0;
     // The same from elsewhere, to be timed; the picture of draw() stays.
-    virtual void draw_frame(const View& view) = 0;
+    virtual void draw_frame(const Camera& camera) = 0;
     // Returns the number of pixels that were clamped.
     virtual std::size_t write(PictureFile& picture, const PictureAttributes& attributes) = 0;
 };

@@ -16,10 +16,11 @@
 #include "base/own_files.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
-#include "gl/context.h"
+#include <functional>
+#include "render/draw_context.h"
 #include "output_folder.h"
+#include "render/context_choice.h"
 #include "scene_files.h"
-#include "study/context_choice.h"
 #include "study/kraus.h"
 #include "study/kraus_stage.h"
 #include "study/lamar.h"
@@ -76,26 +77,28 @@ std::vector<std::filesystem::path> data_files() {
 template <typename Stage>
 class Stagehand {
   public:
-    explicit Stagehand(gl::ContextKind kind) : kind_(kind) {}
+    using MakeContext = std::function<DrawContext()>;
+    explicit Stagehand(MakeContext make_context) : make_context_(std::move(make_context)) {}
 
     nlohmann::ordered_json make(const PaperItem<Stage>& item, const std::filesystem::path& folder) {
         if (item.draw == nullptr) return item.reproduce(folder);
         if (!context_) {
-            context_ = gl::Context::create(kind_);
+            context_.emplace(make_context_());
             stage_.emplace(context_->capabilities());
         }
         return item.draw(folder, *stage_);
     }
 
   private:
-    gl::ContextKind kind_;
-    std::unique_ptr<gl::Context> context_;
+    MakeContext make_context_;
+    std::optional<DrawContext> context_;
     std::optional<Stage> stage_;
 };
 
 template <typename Stage>
-void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options) {
-    Stagehand<Stage> stagehand(opengl_kind(options.context));
+void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options,
+               typename Stagehand<Stage>::MakeContext make_context) {
+    Stagehand<Stage> stagehand(std::move(make_context));
     const std::vector<PaperItem<Stage>> items = chosen_items(all, options);
     const std::filesystem::path folder = options.output;
     const std::string report_name = options.paper + ".json", verb = "reproduce " + options.paper;
@@ -124,9 +127,12 @@ void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions&
 void run(const ReproduceOptions& options) {
     Progress::set_quiet(options.quiet);
     if (options.paper == "lamar") {
-        reproduce(lamar_items(), options);
+        // Some items are about blending units and textures.
+        const gl::ContextKind kind = opengl_kind(options.context);
+        reproduce(lamar_items(), options, [kind] { return DrawContext(kind); });
     } else if (options.paper == "kraus") {
-        reproduce(kraus_items(), options);
+        const ContextChoice choice = context_choice(options.context);
+        reproduce(kraus_items(), options, [choice] { return DrawContext(choice); });
     } else {
         throw UsageError(
             fmt::format("reproduce {}: unknown paper, expected lamar or kraus", options.paper));
@@ -146,7 +152,8 @@ void add_reproduce(CLI::App& app, int& exit_code) {
                                  names_of(lamar_items()), names_of(kraus_items())));
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
-    verb->add_option("--context", options->context, "OpenGL context: auto, osmesa or egl");
+    verb->add_option("--context", options->context,
+                     "auto, osmesa, egl, or, of kraus, cpu (the native engine)");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "no progress");
     verb->callback([options] { run(*options); });

@@ -15,9 +15,9 @@
 #include "base/standard_streams.h"
 #include "git_commit.h"
 #include "output_folder.h"
+#include "render/context_choice.h"
+#include "render/draw_context.h"
 #include "selftest/selftest.h"
-#include "study/context_choice.h"
-#include "study/draw_context.h"
 #include "study/machine.h"
 #include "verbs.h"
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <optional>
+#include <memory>
 
 #include "frame_job.h"
 #include "loaded_volume.h"
-#include "slicing/slab_trials.h"
-#include "slicing/slice_renderer.h"
 
 namespace lamina {
 namespace {
@@ -15,30 +13,21 @@ class SliceMethod : public FrameMethod {
   public:
     explicit SliceMethod(const RenderRequest& request) : request_(request) {}
 
-    const char* activity() const override { return "slicing"; }
+    void load(RenderStats& stats) override { data_ = load_volume_data(request_, stats); }
 
-    void load(RenderStats& stats) override { data_.emplace(request_, stats); }
+    std::unique_ptr<Session> open(const Capabilities& capabilities) override {
+        return std::make_unique<Session>(request_.scene, data_, capabilities, request_.omissions);
+    }
 
-    Plan plan(const Capabilities& capabilities) override {
-        try_filter(request_.scene, data_->volume, capabilities, data_->facts);
-        Plan plan = make_plan(request_.scene, data_->facts, capabilities, request_.omissions);
+    void report_plan(const Plan& plan, RenderStats& stats) override {
+        report_volume(request_, *data_, stats);
         say_what_is_not_kept(plan.slice);
-        return plan;
     }
 
-    std::string explanation(const Plan& plan, const Capabilities& capabilities) const override {
-        return explain(plan, data_->facts, capabilities);
+    void report_frame(const Plan& plan, const FrameRenderer& /*renderer*/,
+                      RenderStats& stats) const override {
+        stats.samples = plan.slice.slabs;
     }
-
-    std::unique_ptr<FrameRenderer> make_renderer(const Plan& plan,
-                                                 const Capabilities& capabilities) override {
-        const Scene& scene = request_.scene;
-        slabs_ = plan.slice.slabs;
-        return make_slice_renderer(data_->volume, scene.transfer_function, data_->facts, plan.slice,
-                                   capabilities, scene.width, scene.height);
-    }
-
-    void report(RenderStats& stats) const override { stats.samples = slabs_; }
 
   private:
     void say_what_is_not_kept(const SlicePlan& plan) const {
@@ -69,8 +58,7 @@ class SliceMethod : public FrameMethod {
     }
 
     const RenderRequest request_;
-    std::optional<LoadedVolume> data_;
-    int slabs_ = 0;
+    std::shared_ptr<const VolumeData> data_;
 };
 
 }  // namespace

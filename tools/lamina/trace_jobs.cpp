@@ -25,36 +25,40 @@ class VolumeTraceJob : public RenderJob {
     explicit VolumeTraceJob(const RenderRequest& request) : request_(request) {}
 
     Plan plan(RenderStats& stats) override {
-        data_.emplace(request_, stats);
-        return make_plan(request_.scene, data_->facts, {}, request_.omissions);
+        data_ = load_volume_data(request_, stats);
+        Stage measuring("facts");
+        facts_ = measure(request_.scene, data_->volume, data_->bricks);
+        stats.stages_ms["measure"] += measuring.end();
+        report_volume(request_, *data_, stats);
+        return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
-    std::string explanation(const Plan& plan) const override {
-        return explain(plan, data_->facts, {});
-    }
+    std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 
-    void draw(const Plan&, const View& view, RenderStats& stats) override {
+    void draw(const Plan&, RenderStats& stats) override {
         Stage frame("frame");
         frame.count("frame", 0);
-        result_.emplace(trace(view));
+        result_.emplace(trace(request_.scene.camera));
         record(frame.end(), result_->error_estimate, stats);
     }
 
-    void draw_frame(const View& view) override { trace(view); }
+    void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
         return picture.write(result_->image, request_.scene.background, attributes);
     }
 
   private:
-    TraceResult trace(const View& view) const {
+    TraceResult trace(const Camera& camera) const {
         const Stage tracing("trace");
-        return trace_volume(data_->volume, request_.scene.transfer_function, view,
-                            {request_.scene.trace_tolerance});
+        const Scene& scene = request_.scene;
+        return trace_volume(data_->volume, scene.transfer_function,
+                            View(camera, scene.width, scene.height), {scene.trace_tolerance});
     }
 
     const RenderRequest request_;
-    std::optional<LoadedVolume> data_;
+    std::shared_ptr<const VolumeData> data_;
+    Facts facts_;
     std::optional<TraceResult> result_;
 };
 
@@ -63,21 +67,23 @@ class MeshTraceJob : public RenderJob {
     explicit MeshTraceJob(const RenderRequest& request) : request_(request) {}
 
     Plan plan(RenderStats& stats) override {
-        data_.emplace(request_, stats);
+        data_ = load_mesh_data(request_, stats);
+        Stage measuring("measure");
+        facts_ = measure(request_.scene, *data_);
+        stats.stages_ms["measure"] = measuring.end();
+        report_mesh(request_, *data_, stats);
         Stage building("boundary_tree");
-        tree_.emplace(data_->data.mesh, data_->data.mesh.open_faces());
+        tree_.emplace(data_->mesh, data_->mesh.open_faces());
         stats.stages_ms["boundary_tree"] = building.end();
-        return make_plan(request_.scene, data_->facts, {}, request_.omissions);
+        return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
-    std::string explanation(const Plan& plan) const override {
-        return explain(plan, data_->facts, {});
-    }
+    std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 
-    void draw(const Plan&, const View& view, RenderStats& stats) override {
+    void draw(const Plan&, RenderStats& stats) override {
         Stage frame("frame");
         frame.count("frame", 0);
-        result_.emplace(trace(view));
+        result_.emplace(trace(request_.scene.camera));
         record(frame.end(), result_->error_estimate, stats);
         stats.counts["segments"] = result_->segments;
         stats.counts["overlapping_rays"] = result_->overlapping_rays;
@@ -89,21 +95,23 @@ class MeshTraceJob : public RenderJob {
         }
     }
 
-    void draw_frame(const View& view) override { trace(view); }
+    void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
         return picture.write(result_->image, request_.scene.background, attributes);
     }
 
   private:
-    MeshTraceResult trace(const View& view) const {
+    MeshTraceResult trace(const Camera& camera) const {
         const Stage tracing("trace");
-        return trace_mesh(data_->data.mesh, *tree_, data_->data.scalar.values,
-                          request_.scene.transfer_function, view);
+        const Scene& scene = request_.scene;
+        return trace_mesh(data_->mesh, *tree_, data_->scalar.values, scene.transfer_function,
+                          View(camera, scene.width, scene.height));
     }
 
     const RenderRequest request_;
-    std::optional<LoadedMesh> data_;
+    std::shared_ptr<const SceneMesh> data_;
+    MeshFacts facts_;
     std::optional<FaceTree> tree_;
     std::optional<MeshTraceResult> result_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/draw_context.h"
+#include "render/draw_context.h"
 
 #include "base/error.h"
 #include "tiles/tile_capabilities.h"
@@ -34,5 +34,8 @@ std::unique_ptr<gl::Context> make_opengl(ContextChoice choice) {
 DrawContext::DrawContext(ContextChoice choice)
     : opengl_(make_opengl(choice)),
       capabilities_(opengl_ ? opengl_->capabilities() : tile_capabilities()) {}
+
+DrawContext::DrawContext(gl::ContextKind kind)
+    : opengl_(gl::Context::create(kind)), capabilities_(opengl_->capabilities()) {}
 
 }  // namespace lamina

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "gl/context.h"
+#include "render/context_choice.h"
 #include "scene/capabilities.h"
-#include "study/context_choice.h"
 
 namespace lamina {
 
@@ -14,6 +14,8 @@ class DrawContext {
   public:
     // Errors of OpenGL are Errors, but for ContextChoice::automatic.
     explicit DrawContext(ContextChoice choice);
+    // OpenGL, whatever it takes.
+    explicit DrawContext(gl::ContextKind kind);
 
     const Capabilities& capabilities() const { return capabilities_; }
 

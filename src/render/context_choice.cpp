@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/context_choice.h"
+#include "render/context_choice.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/project_drawing.h"
+
+#include "projection/project_renderer.h"
+#include "scene/plan.h"
+
+namespace lamina {
+namespace {
+
+// What was measured and why it was chosen changes no picture.
+ProjectPlan without_remarks(ProjectPlan plan) {
+    plan.target_reason.clear();
+    plan.segment_error = 0;
+    plan.segment_reason.clear();
+    return plan;
+}
+
+ProjectOrder order_of(OrderMethod method) {
+    switch (method) {
+        case OrderMethod::mpvo:
+            return ProjectOrder::mpvo;
+        case OrderMethod::exact:
+            return ProjectOrder::exact;
+        case OrderMethod::centroid:
+            return ProjectOrder::centroid;
+        case OrderMethod::none:
+            return ProjectOrder::none;
+    }
+    return ProjectOrder::exact;
+}
+
+}  // namespace
+
+void ProjectDrawing::measure_data(const Scene& scene) {
+    facts_ = lamina::measure_data(scene, *mesh_);
+}
+
+// Trial rays decide between a table whose nodes lie on the transfer function's points and what is
+// right everywhere; elsewhere later views have nothing to choose.
+void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
+    lamina::measure_view(scene, *mesh_, facts_);
+    const bool settled = planned != nullptr && !planned->project.nothing_visible &&
+                         planned->project.source != SegmentSource::cut_table;
+    if (settled) {
+        facts_.trial_rays.clear();
+    } else {
+        measure_rays(scene, *mesh_, facts_);
+    }
+}
+
+void ProjectDrawing::make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/) {}
+
+Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
+                          const OmissionSwitch& omissions, bool /*for_people*/) const {
+    return make_plan(scene, facts_, capabilities, omissions);
+}
+
+// A tree takes leaves from all over the mesh where the order is automatic: that stays.
+Scene ProjectDrawing::resolved(Scene scene, const Plan& plan) const {
+    const ProjectPlan& project = plan.project;
+    ProjectSettings& settings = scene.project;
+    if (settings.order == ProjectOrder::automatic && !settings.tree)
+        settings.order = order_of(project.visibility);
+    settings.geometry = project.geometry;
+    if (project.source == SegmentSource::analytic) settings.coloring = Coloring::analytic;
+    scene.target = project.target;
+    scene.automatic_target = false;
+    return scene;
+}
+
+std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
+    return explain(plan, facts_, capabilities);
+}
+
+bool ProjectDrawing::serves(const Plan& made_for, const Plan& plan) const {
+    return without_remarks(made_for.project) == without_remarks(plan.project);
+}
+
+std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
+                                                             const Capabilities& capabilities,
+                                                             FrameRenderer* /*before*/) const {
+    return make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
+                                 scene.width, scene.height);
+}
+
+}  // namespace lamina

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/session.h"
+
+#include <cassert>
+#include <utility>
+
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/stage.h"
+#include "render/project_drawing.h"
+#include "render/slice_drawing.h"
+
+namespace lamina {
+
+Session::Session(Scene scene, std::shared_ptr<const VolumeData> volume,
+                 const Capabilities& capabilities, OmissionSwitch omissions)
+    : asked_(std::move(scene)),
+      capabilities_(capabilities),
+      omissions_(std::move(omissions)),
+      drawing_(std::make_unique<SliceDrawing>(std::move(volume))) {
+    assert(asked_.method == Method::slice);
+}
+
+Session::Session(Scene scene, std::shared_ptr<const SceneMesh> mesh,
+                 const Capabilities& capabilities, OmissionSwitch omissions)
+    : asked_(std::move(scene)),
+      capabilities_(capabilities),
+      omissions_(std::move(omissions)),
+      drawing_(std::make_unique<ProjectDrawing>(std::move(mesh))) {
+    assert(asked_.method == Method::project);
+}
+
+template <typename Change>
+void Session::change(const Change& change_scene) {
+    change_scene(asked_);
+    if (resolved_) change_scene(*resolved_);
+    view_measured_ = planned_ = false;
+}
+
+void Session::set_camera(const Camera& camera) {
+    change([&](Scene& scene) { scene.camera = camera; });
+}
+
+void Session::set_size(int width, int height) {
+    assert(width > 0 && height > 0);
+    change([&](Scene& scene) {
+        scene.width = width;
+        scene.height = height;
+    });
+    renderer_fits_ = false;
+}
+
+// A table is of one transfer function.
+void Session::set_transfer_function(const TransferFunction& transfer_function) {
+    change([&](Scene& scene) { scene.transfer_function = transfer_function; });
+    if (resolved_) resolved_->slice.table = asked_.slice.table;
+    data_measured_ = renderer_fits_ = false;
+    plan_.reset();
+}
+
+void Session::set_scene(Scene scene) {
+    assert(scene.method == asked_.method);
+    asked_ = std::move(scene);
+    data_measured_ = renderer_fits_ = false;
+    choose_again();
+}
+
+void Session::choose_again() {
+    resolved_.reset();
+    plan_.reset();
+    view_measured_ = planned_ = false;
+}
+
+const Scene& Session::resolved_scene() {
+    plan();
+    return *resolved_;
+}
+
+void Session::measure() {
+    const Scene& scene = resolved_ ? *resolved_ : asked_;
+    Stage measuring("facts");
+    if (!data_measured_) {
+        drawing_->measure_data(scene);
+        ++counts_.data;
+        data_measured_ = true;
+        view_measured_ = planned_ = false;
+    }
+    if (!view_measured_) {
+        drawing_->measure_view(scene, plan_ ? &*plan_ : nullptr);
+        ++counts_.views;
+        view_measured_ = true;
+    }
+    stages_ms_["facts"] = measuring.end();
+}
+
+const Plan& Session::plan() {
+    if (planned_) return *plan_;
+    measure();
+    const bool first = !resolved_;
+    if (first) {
+        Stage trying("trials");
+        drawing_->make_trials(asked_, capabilities_);
+        ++counts_.trials;
+        stages_ms_["trials"] = trying.end();
+    }
+    Stage planning("plan");
+    const Scene& scene = first ? asked_ : *resolved_;
+    plan_ = drawing_->plan(scene, capabilities_, omissions_, first);
+    ++counts_.plans;
+    resolved_ = drawing_->resolved(scene, *plan_);
+    planned_ = true;
+    stages_ms_["plan"] = planning.end();
+    return *plan_;
+}
+
+std::string Session::explanation() {
+    return drawing_->explanation(plan(), capabilities_);
+}
+
+void Session::set_up() {
+    plan();
+    if (renderer_ && renderer_fits_ && drawing_->serves(*made_for_, *plan_)) return;
+    Stage setting_up("set_up");
+    renderer_ = drawing_->make_renderer(*resolved_, *plan_, capabilities_, renderer_.get());
+    ++counts_.renderers;
+    made_for_ = plan_;
+    renderer_fits_ = true;
+    stages_ms_["set_up"] = setting_up.end();
+}
+
+const FrameRenderer& Session::renderer() {
+    set_up();
+    return *renderer_;
+}
+
+void Session::draw(std::stop_token stop) {
+    const StopScope scope(stop.stop_possible() ? std::move(stop) : StopScope::current());
+    set_up();
+    Progress progress(drawing_->activity(), renderer_->step_count());
+    renderer_->draw(View(resolved_->camera, resolved_->width, resolved_->height), &progress);
+}
+
+Image Session::picture() const {
+    assert(renderer_);
+    return renderer_->read();
+}
+
+}  // namespace lamina

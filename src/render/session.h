@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one way to draw: a scene and its data, from the first picture to the last.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "image/image.h"
+#include "render/drawing.h"
+#include "render/volume_data.h"
+#include "scene/capabilities.h"
+#include "scene/plan.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// Draws a scene of method slice or project again and again while it changes. It does again what a
+// change makes necessary, when a picture or a plan is next asked for:
+//
+//   camera              the facts of the view and the plan; the renderer stays as long as the plan
+//                       needs no other: no bricks, tables, uploads or programs
+//   size                the same, and a renderer of that size, which takes over the volume's copy
+//   transfer function   the facts of the data, too, and a renderer with its tables, which takes
+//                       over the volume's copy
+//   settings, choose_again()   the same, and what is automatic is tried and chosen again
+//
+// What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
+// A picture is, bit for bit on the native engine, that of a new session with that scene.
+class Session {
+  public:
+    // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
+    // session is called, and outlives it.
+    Session(Scene scene, std::shared_ptr<const VolumeData> volume, const Capabilities& capabilities,
+            OmissionSwitch omissions = {});
+    Session(Scene scene, std::shared_ptr<const SceneMesh> mesh, const Capabilities& capabilities,
+            OmissionSwitch omissions = {});
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    void set_camera(const Camera& camera);
+    void set_size(int width, int height);  // pixels, 1 or more
+    void set_transfer_function(const TransferFunction& transfer_function);
+    // Another scene of the same data and method.
+    void set_scene(Scene scene);
+    void choose_again();
+
+    // As asked for, with "auto"; and with what was chosen instead.
+    const Scene& scene() const { return asked_; }
+    const Scene& resolved_scene();
+    // Throws Error where the data cannot be drawn so, or the context cannot do it.
+    const Plan& plan();
+    std::string explanation();
+    const Capabilities& capabilities() const { return capabilities_; }
+
+    // Makes what a frame needs; draw() does it where it was not done.
+    void set_up();
+    // A frame, complete when it returns. Throws Interrupted once a stop is requested; the next
+    // frame is then drawn from the start.
+    void draw(std::stop_token stop = {});
+    Image picture() const;  // the last frame: associated, linear, before the background
+    Image draw_picture() {
+        draw();
+        return picture();
+    }
+
+    // With the statistics of the last frame; set up where it is not.
+    const FrameRenderer& renderer();
+    // What took how long, last: "measure", "plan", "set_up".
+    const std::map<std::string, double>& stages_ms() const { return stages_ms_; }
+
+    // How often something was done, for tests.
+    struct Counts {
+        int data = 0, views = 0, trials = 0, plans = 0, renderers = 0;
+        friend bool operator==(const Counts&, const Counts&) = default;
+    };
+    const Counts& counts() const { return counts_; }
+
+  private:
+    template <typename Change>
+    void change(const Change& change_scene);
+    void measure();
+
+    Scene asked_;
+    std::optional<Scene> resolved_;
+    Capabilities capabilities_;
+    OmissionSwitch omissions_;
+    std::unique_ptr<Drawing> drawing_;
+    bool data_measured_ = false, view_measured_ = false, planned_ = false;
+    std::optional<Plan> plan_;
+    std::unique_ptr<FrameRenderer> renderer_;
+    std::optional<Plan> made_for_;  // that the renderer draws
+    bool renderer_fits_ = false;    // the transfer function and the size
+    std::map<std::string, double> stages_ms_;
+    Counts counts_;
+};
+
+}  // namespace lamina

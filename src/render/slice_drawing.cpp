@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/slice_drawing.h"
+
+#include "compositing/dither.h"
+#include "scene/planned_work.h"
+#include "slicing/slab_trials.h"
+#include "slicing/slice_renderer.h"
+#include "slicing/tile_slice_renderer.h"
+
+namespace lamina {
+namespace {
+
+TreeSettings settings_of(const TreePlan& tree) {
+    return {false, tree.factors, tree.nodes, tree.code, tree.alpha_bits};
+}
+
+// What was measured and why it was chosen changes no picture.
+SlicePlan without_remarks(SlicePlan plan) {
+    plan.slab_trial.reset();
+    plan.filter_reason.clear();
+    plan.filter_error = 0;
+    plan.target_reason.clear();
+    plan.error_bound.reset();
+    plan.tree_reason.clear();
+    plan.table.error = 0;
+    return plan;
+}
+
+}  // namespace
+
+void SliceDrawing::measure_data(const Scene& scene) {
+    facts_ = lamina::measure_data(scene, data_->volume, data_->bricks);
+    trials_ = {};
+}
+
+// The scene of a later view has its table, which needs no rays to be chosen.
+void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
+    lamina::measure_view(scene, facts_);
+    if (planned != nullptr && scene.slice.table) {
+        facts_.ray_shares = measure_ray_shares(scene, data_->volume, facts_);
+        facts_.scalar_rays = {};
+    } else {
+        measure_rays(scene, data_->volume, facts_);
+    }
+}
+
+void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities) {
+    trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities);
+}
+
+Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
+                        const OmissionSwitch& omissions, bool for_people) const {
+    return for_people ? make_plan(scene, facts_, capabilities, omissions, trials_)
+                      : plan_alone(scene, facts_, capabilities, omissions, trials_);
+}
+
+Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
+    const SlicePlan& slice = plan.slice;
+    SliceSettings& settings = scene.slice;
+    settings.samples = slice.slabs;
+    if (settings.filter == Filter::automatic)
+        settings.filter =
+            slice.sampling == VolumeSampling::hardware ? Filter::hardware : Filter::exact;
+    if (settings.tree ? settings.tree->automatic
+                      : scene.automatic_target && slice.target != Target::float32)
+        settings.tree = slice.tree ? std::optional(settings_of(*slice.tree)) : std::nullopt;
+    if (settings.dither && !settings.dither->period)
+        settings.dither->period = dither_period_for(slice.slabs);
+    if (slice.uses_table() && slice.table.colored)
+        settings.table = {slice.table.scalar_nodes, slice.table.length_layers,
+                          slice.table.max_length / slice.unit};
+    scene.target = slice.target;
+    scene.automatic_target = false;
+    return scene;
+}
+
+std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
+    return explain(plan, facts_, capabilities);
+}
+
+bool SliceDrawing::serves(const Plan& made_for, const Plan& plan) const {
+    return without_remarks(made_for.slice) == without_remarks(plan.slice);
+}
+
+std::unique_ptr<FrameRenderer> SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,
+                                                           const Capabilities& capabilities,
+                                                           FrameRenderer* before) const {
+    return make_slice_renderer(data_->volume, scene.transfer_function, facts_, plan.slice,
+                               capabilities, scene.width, scene.height, before);
+}
+
+}  // namespace lamina

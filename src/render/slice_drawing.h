@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/drawing.h"
+#include "render/volume_data.h"
+#include "scene/sample_trials.h"
+
+namespace lamina {
+
+class SliceDrawing : public Drawing {
+  public:
+    explicit SliceDrawing(std::shared_ptr<const VolumeData> data) : data_(std::move(data)) {}
+
+    const char* activity() const override { return "slicing"; }
+    void measure_data(const Scene& scene) override;
+    void measure_view(const Scene& scene, const Plan* planned) override;
+    void make_trials(const Scene& scene, const Capabilities& capabilities) override;
+    Plan plan(const Scene& scene, const Capabilities& capabilities, const OmissionSwitch& omissions,
+              bool for_people) const override;
+    Scene resolved(Scene scene, const Plan& plan) const override;
+    std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
+    bool serves(const Plan& made_for, const Plan& plan) const override;
+    std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
+                                                 const Capabilities& capabilities,
+                                                 FrameRenderer* before) const override;
+
+  private:
+    std::shared_ptr<const VolumeData> data_;
+    Facts facts_;
+    SampleTrials trials_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+
+#include "volume/min_max_bricks.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// A volume that sessions draw, with what is measured of it once.
+struct VolumeData {
+    explicit VolumeData(Volume read) : volume(std::move(read)), bricks(measure_bricks(volume)) {}
+
+    Volume volume;
+    MinMaxBricks bricks;
+};
+
+}  // namespace lamina

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "image/image.h"
+#include "mesh/face_tree.h"
+#include "reference/mesh_tracer.h"
+#include "scene/scene.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// A tetrahedral mesh for sessions, and the tracer's pictures of it; what scenes say of their mesh
+// is not read.
+class TracedMesh {
+  public:
+    explicit TracedMesh(SceneMesh mesh);
+
+    const TetMesh& tets() const { return mesh_->mesh; }
+    const std::shared_ptr<const SceneMesh>& data() const { return mesh_; }
+
+    MeshTraceResult trace(const Scene& scene) const;
+    // The tracer's picture, made once for a transfer function, camera and size.
+    const PreciseImage& exact(const Scene& scene);
+
+  private:
+    std::shared_ptr<const SceneMesh> mesh_;
+    FaceTree open_faces_;
+    std::map<std::string, PreciseImage> traced_;  // by picture_key()
+};
+
+}  // namespace lamina
