@@ -44,7 +44,7 @@ struct SliceSettings {
     std::optional<TreeSettings> tree;
 };
 
-// A scene file as read (DESIGN section 4): what to draw and how, nothing measured yet.
+// A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
     std::filesystem::path volume_file;               // or
