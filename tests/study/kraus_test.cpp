@@ -143,7 +143,7 @@ TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
     const Image image = box.mesh.draw(with_default_integration(box.dense), capabilities());
-    // Issue 5, default settings, float32.
+    // Default settings keep the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }
 
