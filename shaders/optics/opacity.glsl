@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opacity of an optical depth >= 0: 1 - exp(-depth), twin of optics/opacity.h, to 3e-7 of the result at every depth,
 // infinity included. GLSL has no expm1, and 1 - exp(-x) alone loses what straight compositing of many thin slabs needs
-// (NUMERICS section 1). exp(-depth) = 2^-n 2^f with |f| <= 1/2: 1 - 2^-n is exact, and (2^f - 1) / f, a minimax
-// polynomial of relative error 1.1e-8, is all there is where n = 0. No branch, of which llvmpipe would run both sides.
+// (docs/numerics.md, section 1). exp(-depth) = 2^-n 2^f with |f| <= 1/2: 1 - 2^-n is exact, and (2^f - 1) / f, a
+// minimax polynomial of relative error 1.1e-8, is all there is where n = 0. No branch, of which llvmpipe would run both
+// sides.
 float opacity_from_depth(float depth) {
     float octaves = min(depth * 1.4426950408889634, 126.0);
     int n = int(octaves + 0.5);

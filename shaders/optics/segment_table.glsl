@@ -31,8 +31,8 @@ float length_layer(float world_length) {
 #elif TABLE_MAPPING == MAPPING_LOG2
     return log2(max(v, 1.0)) + min(v, 1.0);  // Kraus 2004, Equation 1
 #else
-    // The bits of a float are linear within each octave: NUMERICS section 5's 1 + e + (v / 2^e - 1) is the number of
-    // octaves from 1/2 on. Below v = 1 that is less than v, which holds there.
+    // The bits of a float are linear within each octave: 1 + o + (v / 2^o - 1) (docs/numerics.md, section 5) is the
+    // number of octaves from 1/2 on. Below v = 1 that is less than v, which holds there.
     const int bits_of_half = 0x3f000000;
     float octaves = float(floatBitsToInt(v) - bits_of_half) * (1.0 / 8388608.0);
     return max(octaves, min(v, 1.0));

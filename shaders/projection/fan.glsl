@@ -21,7 +21,7 @@ struct TetOptics {
     float world_length;
 };
 
-// Kraus 2004, section 2.3; the thickness as in NUMERICS section 6: the difference of the inverse depths is
+// Kraus 2004, section 2.3; the thickness as in docs/numerics.md, section 6: the difference of the inverse depths is
 // interpolated itself.
 TetOptics find_optics() {
 #if DIVIDED

@@ -22,7 +22,8 @@ uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
 #ifdef OPACITY_ONLY
-// All parts over those of the tree's leaf (NUMERICS section 3). Of the length: optical depth is mean extinction times it.
+// All parts over those of the tree's leaf (docs/numerics.md, section 3). Of the length: optical depth is mean
+// extinction times it.
 uniform float depth_scale;
 #endif
 
@@ -101,7 +102,8 @@ TetRun find_run() {
     vec2 from_center = depths;
     vec2 reach = vec2(1.0);
 #else
-    // z = -1 / depth; differences of z from differences of depth, so that far eyes cost no digits (NUMERICS section 6).
+    // z = -1 / depth; differences of z from differences of depth, so that far eyes cost no digits (docs/numerics.md,
+    // section 6).
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
     run.world_length = (depths.y - depths.x) * z.x * z.y;
 #ifndef THICKNESS_DZ

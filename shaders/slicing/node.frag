@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
 // An inner node of a compositing tree: reads all children, layers of an array texture with the nearest first, and
-// composites them in float (NUMERICS section 4).
+// composites them in float (docs/numerics.md, section 4).
 #include "slicing/node_output.glsl"
 
 uniform sampler2DArray children;

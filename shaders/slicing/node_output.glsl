@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node of a compositing tree that is computed in a program writes (NUMERICS section 4). ROOT: associated colour
-// and opacity, the picture. Else: colour, not associated, and the code of the optical depth; MONOCHROME: the code
-// alone; ALPHA_APART: the code in a texture of its own.
+// What a node of a compositing tree that is computed in a program writes (docs/numerics.md, section 4). ROOT:
+// associated colour and opacity, the picture. Else: colour, not associated, and the code of the optical depth;
+// MONOCHROME: the code alone; ALPHA_APART: the code in a texture of its own.
 #include "compositing/node_code.glsl"
 
 #ifdef ROOT

@@ -25,7 +25,7 @@ uniform int image_rows;
 uniform int seed;
 #endif
 #ifdef OPACITY_ONLY
-uniform DEPTH depth_scale;  // samples of the ray over samples of the leaf (NUMERICS section 3)
+uniform DEPTH depth_scale;  // samples of the ray over samples of the leaf (docs/numerics.md, section 3)
 #endif
 
 flat in float slab;

@@ -8,7 +8,7 @@ uniform vec2 normalisation;   // scale and offset from texel to normalised scala
 #if SAMPLING == SAMPLING_FETCH
 float fetch_scalar(ivec3 index) { return texelFetch(volume, index, 0).r; }
 
-// Trilinear in float32: the texture unit of a GPU has 8-bit weights (NUMERICS section 2).
+// Trilinear in float32: the texture unit of a GPU has 8-bit weights (docs/numerics.md, section 2).
 float raw_scalar(vec3 point) {
     ivec3 lower = ivec3(min(point, max(last_sample - 1.0, 0.0)));
     ivec3 upper = min(lower + 1, ivec3(last_sample));

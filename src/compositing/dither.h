@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dithering along depth (LaMar 2004, section 5; NUMERICS section 2): of P slabs, P - floor(P f)
-// show the code below a value and floor(P f) the one above, f = the value's rest. Twin of
-// shaders/compositing/dither.glsl, bit for bit.
+// Dithering along depth (LaMar 2004, section 5; docs/numerics.md, section 2): of P slabs, P -
+// floor(P f) show the code below a value and floor(P f) the one above, f = the value's rest. Twin
+// of shaders/compositing/dither.glsl, bit for bit.
 #pragma once
 
 #include <algorithm>

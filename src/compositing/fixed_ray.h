@@ -33,9 +33,9 @@ FixedPixel composite_straight(std::span<const RaySample> samples, const Emulatio
                               Order order = Order::back_to_front, std::uint32_t column = 0,
                               std::uint32_t row = 0);
 
-// Exponent-factoring (LaMar 2004, section 6; NUMERICS section 3): the opacity of the root, as a
-// code, of samples given by their per-unit opacity A, where the unit is the whole ray. Samples may
-// be dithered; nodes are rounded as alpha is.
+// Exponent-factoring (LaMar 2004, section 6; docs/numerics.md, section 3): the opacity of the root,
+// as a code, of samples given by their per-unit opacity A, where the unit is the whole ray. Samples
+// may be dithered; nodes are rounded as alpha is.
 std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeShape& tree,
                              const Emulation& emulation, const std::optional<Dither>& dither = {},
                              Order order = Order::back_to_front, std::uint32_t column = 0,

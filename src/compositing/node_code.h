@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a node of a compositing tree stores its optical depth in the alpha channel of a low-precision
-// image (NUMERICS section 4). Twin of shaders/compositing/node_code.glsl, to float32.
+// image (docs/numerics.md, section 4). Twin of shaders/compositing/node_code.glsl, to float32.
 #pragma once
 
 namespace lamina {

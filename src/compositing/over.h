@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The OVER operator on n-bit codes (LaMar 2004, section 4; NUMERICS section 2). Twin of
+// The OVER operator on n-bit codes (LaMar 2004, section 4; docs/numerics.md, section 2). Twin of
 // shaders/compositing/over.glsl, bit for bit. M is odd, so that no product lies in the middle
 // between two codes.
 #pragma once

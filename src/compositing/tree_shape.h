@@ -14,8 +14,8 @@ struct SampleSpan {
     int end() const { return first + count; }
 };
 
-// Child i of the k of a node (DESIGN section 4): samples floor(i n / k) .. floor((i + 1) n / k) of
-// its n, so that the children's sizes differ by at most one; some are empty where k > n.
+// Child i of the k of a node (docs/numerics.md, section 3): samples floor(i n / k) .. floor((i + 1)
+// n / k) of its n, so that the children's sizes differ by at most one; some are empty where k > n.
 SampleSpan child_span(const SampleSpan& node, int child, int children);
 
 // A compositing tree over N samples (LaMar 2004, section 6): bifurcation factors from the root to

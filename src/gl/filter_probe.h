@@ -15,7 +15,7 @@ struct FilterError {
 };
 
 // Of the current context's linear filter of a 3D texture of r8, r16 or r32f. llvmpipe: 1e-7, but
-// .18 for r8, of values 7 codes apart: it rounds results to codes (NUMERICS section 2).
+// .18 for r8, of values 7 codes apart: it rounds results to codes (docs/numerics.md, section 2).
 FilterError measure_filter_error(TextureFormat format);
 
 }  // namespace lamina::gl

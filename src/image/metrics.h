@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// Of e in units of 1/255 (NUMERICS, head; the signed mean is what LaMar's Table 4 calls L1).
+// Of e in units of 1/255 (docs/numerics.md; the signed mean is what LaMar's Table 4 calls L1).
 struct ErrorNorms {
     double linf = 0;  // max |e|
     double l1 = 0;    // mean of e, with its sign

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity, extinction and optical depth (NUMERICS section 1; LaMar 2004, equations 1 and 2).
+// Opacity, extinction and optical depth (LaMar 2004, equations 1 and 2; docs/numerics.md,
+// section 1).
 #pragma once
 
 #include <cmath>

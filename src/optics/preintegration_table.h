@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pre-integrated transfer functions (NUMERICS section 5): what does not scale with length is
-// stored, so that opacity is exact at every length and colour has a finite limit at length 0.
+// Pre-integrated transfer functions (docs/numerics.md, section 5): what does not scale with length
+// is stored, so that opacity is exact at every length and colour has a finite limit at length 0.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -58,10 +58,10 @@ constexpr QuadraturePoint gauss16[] = {
     {0.9947004674958249663, 0.01357622970587704743},
 };
 
-// NUMERICS section 5 with u(x) = px + kx^2, the depth from the front to x: front = 1 - G = int 1 -
-// exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are written without
-// a subtraction that could cancel, so every term of both sums is >= 0 and accurate, however small p
-// and q are.
+// docs/numerics.md, section 5, with u(x) = px + kx^2, the depth from the front to x: front = 1 - G
+// = int 1 - exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are
+// written without a subtraction that could cancel, so every term of both sums is >= 0 and accurate,
+// however small p and q are.
 PieceWeights quadrature_weights(std::span<const QuadraturePoint> rule, double p, double q) {
     PieceWeights weights;
     for (const auto& [x, weight] : rule) {
@@ -74,7 +74,7 @@ PieceWeights quadrature_weights(std::span<const QuadraturePoint> rule, double p,
     return weights;
 }
 
-// G of NUMERICS section 5 for D >= 4, where neither 1 - G nor G - exp(-D) cancels.
+// G of docs/numerics.md, section 5, for D >= 4, where neither 1 - G nor G - exp(-D) cancels.
 double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;

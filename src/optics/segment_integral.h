@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission and absorption along a segment on which the scalar is linear (NUMERICS section 5).
+// Emission and absorption along a segment on which the scalar is linear (docs/numerics.md,
+// section 5).
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pre-integration tables over (scalar at the front, scalar at the back, length) with equally spaced
-// scalars, in every variant that Kraus, Qiao, Ebert 2004, section 3, and NUMERICS section 5
-// compare.
+// scalars, in every variant that Kraus, Qiao, Ebert 2004, section 3, and docs/numerics.md,
+// section 5, compare.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,8 +24,8 @@ enum class LengthMapping {
 };
 enum class TableStore {
     // tbar = optical depth / length, and with colour the emission tbar * C / alpha: what stays
-    // bounded and smooth as the length goes to 0 (NUMERICS section 5). A single layer is the limit
-    // at length 0.
+    // bounded and smooth as the length goes to 0 (docs/numerics.md, section 5). A single layer is
+    // the limit at length 0.
     mean_extinction,
     // alpha and the associated colour C themselves: the paper's. A single layer is that of
     // max_length.

@@ -142,7 +142,7 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
     }
     if (area == 0 || !std::isfinite(area)) return false;
     // How much deeper (perspective: less in 1/z) the apex is than the face; differences of 1/z from
-    // differences of z (NUMERICS section 6).
+    // differences of z (docs/numerics.md, section 6).
     double deeper = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         weights[i] = std::clamp(weights[i] / area, 0.0, 1.0);

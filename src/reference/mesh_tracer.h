@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The judge of every picture of a tetrahedral mesh: the viewing rays from tet to tet, in double
 // precision. The field is linear inside a tet, so every piece of the transfer function is
-// integrated in closed form (NUMERICS section 5).
+// integrated in closed form (docs/numerics.md, section 5).
 #pragma once
 
 #include <cstdint>

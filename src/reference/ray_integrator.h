@@ -10,9 +10,9 @@
 
 namespace lamina {
 
-// Emission and absorption along one ray, collected front to back in double precision (NUMERICS
-// section 1). Optical depth is exact but for rounding; colour is integrated to a tolerance, with an
-// estimate of its error.
+// Emission and absorption along one ray, collected front to back in double precision
+// (docs/numerics.md, section 1). Optical depth is exact but for rounding; colour is integrated to a
+// tolerance, with an estimate of its error.
 class RayIntegrator {
   public:
     // `tolerance`: of full scale, for every channel of the whole ray. `ray_length` > 0: world

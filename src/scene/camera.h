@@ -46,7 +46,7 @@ inline Eye eye_of(const View& view) {
     return {view.eye, false};
 }
 
-// Timed frames of a moving camera are this far apart (DESIGN section 5, --frames).
+// Timed frames of a moving camera (--frames, studies: docs/study.md) are this far apart.
 inline constexpr double degrees_per_frame = 0.1;
 
 // The camera with its eye turned by `degrees` about the axis `up` through `center`.

@@ -18,8 +18,8 @@ struct Capabilities {
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: of the grid that corners are rounded to
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
-    std::uint64_t max_texture_bytes =
-        std::uint64_t{1} << 30;  // DESIGN section 3; NUMERICS section 2: GL's own limits mislead
+    // GL's own limits mislead (docs/numerics.md, section 2).
+    std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
     bool exact_float_filter =
         false;  // measured: linear filtering of R32F is good to 1e-6 (llvmpipe; not GPUs)
     // Where that is not: whether filters of R8, R16 and R32F were measured to be as good as weights

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// A segment of `lamina integrate` (DESIGN section 5).
+// A segment of `lamina integrate`.
 struct IntegrationCase {
     TransferFunction transfer_function;
     double front = 0, back = 0;           // scalars, up to 1e300

@@ -22,7 +22,8 @@
 namespace lamina {
 namespace {
 
-// DESIGN section 4: there is no near key; the eye's plane plus 1e-6 of the box's diagonal.
+// Scene files have no near plane: it is the eye's plane, moved by so much of the mesh's diagonal
+// (docs/numerics.md, section 7).
 constexpr double near_share = 1e-6;
 
 // What a table may add to the picture's error, in 1/255.

@@ -30,7 +30,7 @@ enum class ProjectGeometry {
 enum class ProjectDither {
     none,
     alpha,       // of the fragment, before the blending unit rounds again (Kraus 2004, section 4.2)
-    after_blend  // of the result of a programmable blend: unbiased (NUMERICS section 8)
+    after_blend  // of the result of a programmable blend: unbiased (docs/numerics.md, section 8)
 };
 
 struct TableSettings {

@@ -52,7 +52,7 @@ struct SliceSettings {
     std::optional<SliceTableSettings> table;  // none: "auto"
 };
 
-// A scene file as read (DESIGN section 4): what to draw and how, nothing measured yet.
+// A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
     std::filesystem::path volume_file;               // or

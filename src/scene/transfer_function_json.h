@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// The object "transfer_function" of scene files and of `lamina integrate` (DESIGN section 4);
+// The object "transfer_function" of scene files and of `lamina integrate` (docs/scene.md);
 // closes the reader. `warnings` collects what the user should know and that is no error, or is
 // null.
 TransferFunction read_transfer_function(JsonReader reader,

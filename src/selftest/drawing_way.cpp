@@ -13,7 +13,7 @@ constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
 constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
 
 // n bits: opacity truncated or rounded by chance, at most one code; colour and result one each,
-// whatever the driver rounds before and after its weights (NUMERICS section 2).
+// whatever the driver rounds before and after its weights (docs/numerics.md, section 2).
 constexpr BlendRounding of_codes(int bits) {
     const double code = 1.0 / ((1 << bits) - 1);
     return {code, code, code, 0};

@@ -12,13 +12,14 @@
 
 namespace lamina {
 
-// Layer by layer, each in closed form (NUMERICS section 5). Nothing where the ray misses the box.
+// Layer by layer, each in closed form (docs/numerics.md, section 5). Nothing where the ray misses
+// the box.
 std::vector<PieceBounds> exact_pieces(const LayeredBox& box,
                                       const TransferFunction& transfer_function,
                                       const View::Ray& ray);
 
 // N slabs of equal thickness across the view direction, from the box's nearest to its farthest
-// point in front of the eye (DESIGN section 4).
+// point in front of the eye (docs/scene.md, render.slice.samples).
 struct Slabs {
     double near = 0, thickness = 0;  // eye-space depths
     int count = 0;

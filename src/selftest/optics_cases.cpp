@@ -68,7 +68,7 @@ void append_jumps(std::vector<SelftestCase>& cases) {
 }
 
 void append_opacities(std::vector<SelftestCase>& cases) {
-    // As scene files give them (DESIGN section 4): opacity 1 is 1e7 per unit length.
+    // As scene files give them (docs/scene.md): opacity 1 is 1e7 per unit length.
     const std::pair<const char*, double> opacities[] = {
         {"opacity_1", 1e7}, {"opacity_1_less_1e-12", -std::log(1e-12)}, {"opacity_1e-12", 1e-12}};
     for (const auto& [name, extinction] : opacities) {

@@ -36,10 +36,10 @@ void widen(PixelBounds& pixel, double absolute, double relative, double of_color
 }
 
 // What the codes of a tree's inner images can do to a picture: a code off by e moves the final
-// opacity by at most Y e of its node's weight (NUMERICS section 4), and the nodes of a level
-// together, seen through one another, by at most 7 Y e: e Y where sigma <= 1, since their shares
-// add up to 1; e Y where 1 < sigma <= 1/w, since depths in front of each other do not add up to
-// more; 1.58 Y beyond, a geometric sum of 1/e. Colours are moved by as much again through the
+// opacity by at most Y e of its node's weight (docs/numerics.md, section 4), and the nodes of a
+// level together, seen through one another, by at most 7 Y e: e Y where sigma <= 1, since their
+// shares add up to 1; e Y where 1 < sigma <= 1/w, since depths in front of each other do not add up
+// to more; 1.58 Y beyond, a geometric sum of 1/e. Colours are moved by as much again through the
 // weights, and by e through their own codes.
 double tree_error(const TreeSettings& tree, double code) {
     double sum = code;  // of the root

@@ -13,9 +13,9 @@ struct Precision {
     double slab = 0;      // of a slab's ends, share of the depth of all slabs
 
     // Some 16 roundings of a float32 (2^-24): coordinates in the box have its size, whatever the
-    // eye's distance, since rays are set up in double. Faces: NUMERICS section 6 (9e-6 of an edge
-    // with coefficients relative to a pixel near the tet). Colour of a part of a tet: 2.2e-3, from
-    // a table of 256 x 256 (optics/front_weights.h).
+    // eye's distance, since rays are set up in double. Faces: docs/numerics.md, section 6 (9e-6 of
+    // an edge with coefficients relative to a pixel near the tet). Colour of a part of a tet:
+    // 2.2e-3, from a table of 256 x 256 (optics/front_weights.h).
     static constexpr Precision drawn() {
         constexpr double ulps = 1.0 / (1 << 20);
         return {ulps, ulps, ulps, 2.2e-3, 9e-6, ulps};

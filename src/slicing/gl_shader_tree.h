@@ -20,10 +20,10 @@ enum class NodePlace { inner, root };
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
 gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 
-// A compositing tree whose nodes are computed in a program, in float, with colour (NUMERICS section
-// 4): leaves march their slabs, inner nodes read their children from layers of array textures. The
-// picture is made in bands of rows, one whole tree after the other, so that the images of a level
-// need only a band's size.
+// A compositing tree whose nodes are computed in a program, in float, with colour
+// (docs/numerics.md, section 4): leaves march their slabs, inner nodes read their children from
+// layers of array textures. The picture is made in bands of rows, one whole tree after the other,
+// so that the images of a level need only a band's size.
 class GlShaderTree {
   public:
     // `source` and `plan` must outlive it. Throws Error where a level's images do not fit.

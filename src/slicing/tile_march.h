@@ -14,9 +14,9 @@ inline bool is_marched(const TreeShape& shape, int level, const SampleSpan& node
     return shape.is_leaf(level, node) || shape.factor(level) >= node.count;
 }
 
-// Replaces a tile by the picture of a tree whose nodes are computed in float (NUMERICS section 4),
-// straight compositing in registers where the root is a leaf. Each vector of pixels goes through
-// the whole tree by itself, nearest slab first. Returns the segments evaluated.
+// Replaces a tile by the picture of a tree whose nodes are computed in float (docs/numerics.md,
+// section 4), straight compositing in registers where the root is a leaf. Each vector of pixels
+// goes through the whole tree by itself, nearest slab first. Returns the segments evaluated.
 std::int64_t march_tile(const TileSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area,
                         TilePixels& pixels);
 

@@ -88,7 +88,7 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     return corners;
 }
 
-// A weight of 8 bits, as texture units have (NUMERICS section 2).
+// A weight of 8 bits, as texture units have (docs/numerics.md, section 2).
 HWY_INLINE Floats hardware_weight(Floats share) {
     const FloatTag d;
     return hn::Mul(hn::Round(hn::Mul(share, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256));

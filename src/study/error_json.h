@@ -10,7 +10,7 @@ namespace lamina {
 // {linf, l1, l2}, in 1/255.
 nlohmann::ordered_json to_json(const ErrorNorms& norms);
 
-// {channels: {R: norms, ...}, all: norms} (DESIGN section 5, compare).
+// {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints it.
 nlohmann::ordered_json to_json(const ImageError& error);
 
 }  // namespace lamina

@@ -97,10 +97,12 @@ Json draw_kraus_figure9(const std::filesystem::path& folder, KrausStage& stage) 
                "With floating-point precision for the color compositing, alpha dithering is "
                "unnecessary",
                made.errors[1], made.errors[3]);
-    findings.add("Dithered after a programmable blend the picture has no bias (NUMERICS section 8)",
-                 std::abs(made.errors[2].all.l1) <= 0.3,
-                 fmt::format("L1 is {:.3f}; plain {:.3f}, with the paper's dithering {:.3f}",
-                             made.errors[2].all.l1, made.errors[0].all.l1, made.errors[1].all.l1));
+    findings.add(
+        "Dithered after a programmable blend the picture has no bias (docs/numerics.md, "
+        "section 8)",
+        std::abs(made.errors[2].all.l1) <= 0.3,
+        fmt::format("L1 is {:.3f}; plain {:.3f}, with the paper's dithering {:.3f}",
+                    made.errors[2].all.l1, made.errors[0].all.l1, made.errors[1].all.l1));
     return with_data_note(
         findings.result(
             made.values, nullptr,
@@ -134,7 +136,7 @@ Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage)
         add_better(findings,
                    subject.name +
                        ": linear inside each octave is better than Equation 1 "
-                       "(NUMERICS section 5)",
+                       "(docs/numerics.md, section 5)",
                    errors[1], errors[2]);
         for (const Json& file : made.values["files"]) values["files"].push_back(file);
         made.values.erase("files");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes made by formula (DESIGN section 5). The same samples on every machine.
+// Volumes made by formula (docs/scene.md, volume.generate). The same samples on every machine.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@
 
 namespace lamina {
 
-// The grid that a parsed header describes (DESIGN section 4). `file` is for messages. Throws Error
-// where the axes are not three, not spatial, not orthogonal, or not finite.
+// The grid that a parsed header describes (docs/scene.md, "What is drawn"). `file` is for messages.
+// Throws Error where the axes are not three, not spatial, not orthogonal, or not finite.
 Grid nrrd_grid(const std::string& file, const Nrrd& nrrd);
 
 }  // namespace lamina

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules of the house that a compiler does not check: who may include whom, licence lines, sizes
-// of files.
+// of files, citations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -78,6 +78,42 @@ std::vector<std::string> wrong_includes(const std::string& room, const std::stri
     return wrong;
 }
 
+// Words for pages that a checkout has not got; in halves, or this file would be found.
+const char* const outside_pages = R"(\b(NUMERI)"
+                                  R"(CS|DESI)"
+                                  R"(GN|[Ii]ssu)"
+                                  R"(e)\b)";
+
+// What a text cites and a checkout has not got: pages of docs/, and of these what may follow after
+// a comma: sections ("section 4", "sections 2 and 3") and headings in quotation marks. Citations
+// may go on in the next line.
+std::vector<std::string> wrong_citations(const std::string& text) {
+    std::vector<std::string> wrong = all_matches(text, outside_pages);
+    if (text.find("docs/") == std::string::npos) return wrong;
+    static const std::regex between_literals(R"("\s*\n\s*")"), line_end(R"(\s*\n\s*(//|#)?\s*)");
+    static const std::regex citation(
+        R"re(\bdocs/([\w/.-]*\w\.md)(?:, (?:sections? (\d+)(?: and (\d+))?|"([^"]+)"))?)re");
+    const std::string joined =
+        std::regex_replace(std::regex_replace(text, between_literals, ""), line_end, " ");
+    for (std::sregex_iterator m(joined.begin(), joined.end(), citation), end; m != end; ++m) {
+        const std::string name = "docs/" + (*m)[1].str();
+        if (!fs::is_regular_file(source / name)) {
+            wrong.push_back(name);
+            continue;
+        }
+        const std::string page = read_bytes_of(source / name);
+        for (const std::size_t group : {2u, 3u}) {
+            const std::string section = (*m)[group];
+            if (!section.empty() && page.find("\n## " + section + ". ") == std::string::npos)
+                wrong.push_back(name + ", section " + section);
+        }
+        const std::string title = (*m)[4];
+        if (!title.empty() && page.find("# " + title + "\n") == std::string::npos)
+            wrong.push_back(name + ", \"" + title + "\"");
+    }
+    return wrong;
+}
+
 bool is_code(const fs::path& path) {
     static const std::vector<std::string> suffixes = {".h",    ".cpp",   ".glsl", ".vert", ".frag",
                                                       ".comp", ".cmake", ".py",   ".sh",   ".txt",
@@ -132,6 +168,39 @@ TEST(SourceFiles, BeginWithTheLicence) {
         EXPECT_TRUE(line != std::string::npos &&
                     std::count(text.begin(), text.begin() + line, '\n') < 2)
             << file << " does not begin with the SPDX line";
+    }
+}
+
+TEST(Citations, TheCheckItselfSeesViolations) {
+    using Wrong = std::vector<std::string>;
+    const std::string docs = "docs/";  // apart from names, or this file would be found
+    EXPECT_EQ(wrong_citations("// (" + docs + "numerics.md, section 4), " + docs + "scene.md."),
+              Wrong{});
+    EXPECT_EQ(wrong_citations("// " + docs + "numerics.md,\n    // sections 2\n// and 3"), Wrong{});
+    EXPECT_EQ(wrong_citations("# " + docs + "scene.md, \"What is\n# drawn\""), Wrong{});
+    EXPECT_EQ(wrong_citations("// " + docs + "nothing.md"), Wrong{docs + "nothing.md"});
+    EXPECT_EQ(wrong_citations("// " + docs + "numerics.md, section\n  // 99"),
+              Wrong{docs + "numerics.md, section 99"});
+    EXPECT_EQ(wrong_citations("\"" + docs + "numerics.md, \"\n  \"section 99\""),
+              Wrong{docs + "numerics.md, section 99"});
+    EXPECT_EQ(wrong_citations(docs + "numerics.md, sections 2 and 99"),
+              Wrong{docs + "numerics.md, section 99"});
+    EXPECT_EQ(wrong_citations(docs + "scene.md, \"Nothing\""),
+              Wrong{docs + "scene.md, \"Nothing\""});
+    const std::string outside[] = {std::string("NUMERI") + "CS", std::string("DESI") + "GN",
+                                   std::string("issu") + "e"};
+    for (const std::string& word : outside)
+        EXPECT_EQ(wrong_citations("// " + word + " section 4"), Wrong{word});
+    EXPECT_EQ(wrong_citations("// designed, numerics, issued"), Wrong{});
+}
+
+TEST(Citations, ArePartOfTheCheckout) {
+    for (const fs::path& file :
+         files_under({"src", "tools", "shaders", "share", "tests", "cmake", "docs"})) {
+        if (!is_code(file) && file.extension() != ".md") continue;
+        for (const std::string& wrong : wrong_citations(read_bytes_of(file))) {
+            ADD_FAILURE() << file << " cites " << wrong << ", which is not there";
+        }
     }
 }
 

@@ -29,7 +29,7 @@ TEST(Codes, RoundAsTheirNamesSay) {
             EXPECT_EQ(code_nearest(scaled), whole + (rest > .5 ? 1 : 0));
         }
     }
-    // A half goes up: the paper's colour 0.5 is code 128 (NUMERICS section 2).
+    // A half goes up: the paper's colour 0.5 is code 128 (docs/numerics.md, section 2).
     EXPECT_EQ(code_nearest(255 * .5), 128u);
     EXPECT_EQ(rounded(AlphaRounding::nearest, 255 * .5), 128u);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dithering along depth: LaMar 2004, section 5; NUMERICS section 2.
+// Dithering along depth: LaMar 2004, section 5; docs/numerics.md, section 2.
 #include "compositing/dither.h"
 
 #include <gtest/gtest.h>

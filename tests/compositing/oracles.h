@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing written down a second time from LaMar 2004 and NUMERICS sections 2 and 3,
-// in exact fractions and long double and without anything of src/compositing.
+// Fixed-point compositing written down a second time from LaMar 2004 and docs/numerics.md, sections
+// 2 and 3, in exact fractions and long double and without anything of src/compositing.
 #pragma once
 
 #include <cmath>
@@ -32,7 +32,8 @@ inline std::uint32_t under(bool fused, Wide color, Wide alpha, std::uint32_t abo
     return above + nearest(Wide{nearest(color * alpha, largest)} * (largest - opacity), largest);
 }
 
-// The permutation of NUMERICS section 2, with splitmix64 as Steele, Lea and Flood print it.
+// The permutation of docs/numerics.md, section 2, with splitmix64 as Steele, Lea and Flood print
+// it.
 inline std::vector<int> permutation(int period, std::uint64_t seed) {
     std::uint64_t x = seed;
     const auto next = [&x] {

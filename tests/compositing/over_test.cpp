@@ -44,7 +44,7 @@ TEST(Over, GivesTheCellsOfTable2) {
 }
 
 // Repeated compositions of f over 0. Row 4 is what the arithmetic gives: 4 + 9 * 11 / 15 = 10.6;
-// NUMERICS section 2 says that the paper prints 10 as its fourth entry.
+// the paper prints 10 as its fourth entry (docs/numerics.md, "Where the papers are wrong").
 TEST(Over, GivesTable3) {
     struct Row {
         std::uint32_t f;
@@ -143,7 +143,7 @@ TEST_P(OverBits, SeparateIsFusedForAlpha) {
 
 INSTANTIATE_TEST_SUITE_P(All, OverBits, testing::Values(1, 2, 6, 8, 10, 12, 16));
 
-// Of 16 bits (2 x + M) / (2 M) would overflow (NUMERICS section 2).
+// Of 16 bits (2 x + M) / (2 M) would overflow (docs/numerics.md, section 2).
 TEST(Over, HoldsTheLargestProductOf16Bits) {
     for (const OverRounding rounding : both_roundings) {
         EXPECT_EQ(over(rounding, 65535, 65535, 65535, 65535), 65535u);
@@ -154,7 +154,7 @@ TEST(Over, HoldsTheLargestProductOf16Bits) {
 }
 
 // Weight rounding (section 4.3): Figure 3's curves of colour 0.5, code 128, over rising opacity
-// also fall; with fused rounding none does (NUMERICS section 2).
+// also fall; with fused rounding none does (docs/numerics.md, section 2).
 TEST(Over, OnlySeparateHasTheWeightRoundingError) {
     for (const int samples : {16, 64, 256}) {
         for (const OverRounding rounding : both_roundings) {

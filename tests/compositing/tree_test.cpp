@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compositing trees: LaMar 2004, section 6; NUMERICS section 3; how nodes are split: DESIGN
-// section 4.
+// Compositing trees: LaMar 2004, section 6; docs/numerics.md, section 3.
 #include "compositing/tree_shape.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +31,7 @@ TEST(TreeShape, ChildrenPartitionTheirNode) {
                 for (int i = 0; i < k; ++i) {
                     const SampleSpan child = child_span({first, n}, i, k);
                     ASSERT_EQ(child.first, at);
-                    ASSERT_EQ(child.first, first + i * n / k);  // DESIGN section 4
+                    ASSERT_EQ(child.first, first + i * n / k);  // docs/numerics.md, section 3
                     at = child.end();
                     smallest = std::min(smallest, child.count);
                     largest = std::max(largest, child.count);
@@ -149,7 +148,7 @@ TEST(TreeShape, RefusesWhatAreNoFactors) {
     expect_error([] { parse_factors("2^10x2^7"); }, {"2^10x2^7", "17 levels", "16"});
 }
 
-// NUMERICS section 3 once more.
+// docs/numerics.md, section 3 once more.
 struct Tree {
     std::vector<double> ray;
     Factors factors;
@@ -257,8 +256,8 @@ TEST(Tree, OfOneLevelIsStraightCompositing) {
     }
 }
 
-// Equal fragments give one opacity in either order (NUMERICS section 2), since OVER of two alpha
-// codes does not depend on which is in front.
+// Equal fragments give one opacity in either order (docs/numerics.md, section 2), since OVER of two
+// alpha codes does not depend on which is in front.
 TEST(Tree, EqualFragmentsGiveTheSameInEitherOrder) {
     for (const int samples : {16, 64, 256}) {
         for (int value = 0; value <= 255; ++value) {
@@ -273,7 +272,8 @@ TEST(Tree, EqualFragmentsGiveTheSameInEitherOrder) {
     }
 }
 
-// NUMERICS section 2 on Table 1: what an 8-bit buffer holds of nine opacities after 64 samples.
+// LaMar 2004, Table 1 (docs/numerics.md, "Where the papers are wrong"): what an 8-bit buffer holds
+// of nine opacities after 64 samples.
 TEST(Tree, StraightRaysHoldWhatNumericsSaysOfTable1) {
     const std::vector<std::uint32_t> expected = {0, 0, 64, 64, 96, 136, 183, 220, 255};
     for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -106,14 +106,15 @@ void for_all_contexts(const MakePlan& make_plan_for) {
 }  // namespace
 
 void check_slice_plans(const Scene& scene, const Volume& volume) {
-    Facts facts = measure(scene, volume, measure_bricks(volume));
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    SampleTrials trials;
     check_facts(facts);
     if (scene.method == Method::slice && !scene.slice.samples) {
-        facts.slab_trials = made_up_trials(scene, facts);
-        if (scene.slice.filter == Filter::automatic) facts.filter_trials = facts.slab_trials;
+        trials.exact = made_up_trials(scene, facts);
+        if (scene.slice.filter == Filter::automatic) trials.hardware = trials.exact;
     }
     for_all_contexts([&](const Capabilities& capabilities, const OmissionSwitch& omissions) {
-        const Plan plan = make_plan(scene, facts, capabilities, omissions);
+        const Plan plan = make_plan(scene, facts, capabilities, omissions, trials);
         check_plan(plan);
         if (plan.method == Method::slice) check_slicing(plan.slice);
         require(!explain(plan, facts, capabilities).empty(), "nothing to explain");

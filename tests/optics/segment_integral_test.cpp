@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// What issue and header promise for every component.
+// What `lamina integrate` promises for every component (README.md).
 constexpr double promised = 1e-12;
 
 double relative_error(double found, double expected) {

@@ -118,8 +118,8 @@ TEST(SegmentTable, OneColorTakesOneChannel) {
     EXPECT_NEAR(longest.lookup(1, 1, .1).alpha, opacity_from_depth(3 * 3), 1e-7);
 }
 
-// The largest error of colour of a table as NUMERICS section 5 counts it, in 1/255: over rays of
-// `count` equal segments that together run over all scalars.
+// The largest error of colour of a table in 1/255, over rays of `count` equal segments that
+// together run over all scalars.
 double worst_color(const TransferFunction& f, const SegmentTable& table) {
     double worst = 0;
     for (const int count : {10, 100, 1000, 10000}) {
@@ -157,8 +157,9 @@ TEST(SegmentTable, VariantsRankAsNumericsFound) {
     constexpr auto octave = LengthMapping::octave, log2 = LengthMapping::log2;
     constexpr auto linear = LengthMapping::linear;
     constexpr auto fixed16 = TableFormat::fixed16, fixed8 = TableFormat::fixed8;
-    // NUMERICS section 5, first and second row: 239, and 206, 3.5, 1.5 with its own rays and
-    // transfer function; the orders and the ranks must be the same with these.
+    // Opacities in 8 bits lose thin segments. Of equally spaced lengths these meet the first step
+    // alone, in which opacity bends. Equation 1 makes thin segments up to 6.1 % too dense
+    // (docs/numerics.md, section 5), which moves colours by some units; octaves do not.
     EXPECT_GT(worst(opacity, octave, fixed8), 100);
     const double of_linear = worst(opacity, linear, fixed16);
     const double of_log2 = worst(opacity, log2, fixed16);
@@ -167,15 +168,16 @@ TEST(SegmentTable, VariantsRankAsNumericsFound) {
     EXPECT_GT(of_log2, 1.5);
     EXPECT_LT(of_log2, 6);
     EXPECT_LT(of_octave, .6 * of_log2);
-    // Last row: .29 and .04, quantised to 16 bits.
+    // Opacity is exact, and what is left is half a code of 16 bits, and what emission bends by
+    // between nodes.
     const double of_mean = worst(mean, octave, fixed16);
     EXPECT_LT(of_mean, .1);
     EXPECT_LT(of_mean, .25 * of_octave);
 }
 
 TEST(SegmentTable, LogarithmicLengthsOverestimateByUpToSixPercent) {
-    // A depth so small that alpha is linear in length; NUMERICS section 5: log2(v) / (v - 1) - 1
-    // inside an octave, 6.1 % of the whole at most.
+    // A depth so small that alpha is linear in length; docs/numerics.md, section 5:
+    // (1 + log2(u)) / u - 1 at u times the start of an octave, at most .0615 (at u = 1.36).
     const auto f = TransferFunction::linear({knot(0, {1, 1, 1}, 1e-6)});
     SegmentTableRequest request = request_of(2, 8);
     request.store = TableStore::opacity;

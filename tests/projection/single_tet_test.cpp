@@ -7,8 +7,8 @@
 namespace lamina {
 namespace {
 
-// The bound of the project's fifth issue, in 1/255. Float32 leaves some 1e-6 in the length and in
-// the exponential, 3e-4 / 255 each; the rest is the table's.
+// In 1/255. Float32 leaves some 1e-6 in the length and in the exponential, 3e-4 / 255 each; the
+// rest is the table's.
 constexpr double bound = 0.05;
 
 MeshData tet(const std::array<glm::dvec3, 4>& points, const std::array<double, 4>& scalars) {
@@ -87,7 +87,8 @@ TEST_P(SingleTet, RandomPosesFillingTheView) {
     }
 }
 
-// NUMERICS section 7, with points, edges and faces exactly on pixel centres and between them.
+// docs/numerics.md, section 7, with points, edges and faces exactly on pixel centres and between
+// them.
 TEST_P(SingleTet, DegeneratePoses) {
     const std::array<double, 4> scalars{0, 1, .5, .25};
     const SceneMesh corner =

@@ -60,8 +60,8 @@ TEST_P(TetTree, IsAsPreciseAsItsNodes) {
     }
 }
 
-// Native blending rounds opacity to nearest and fuses (NUMERICS section 2), as this emulation, but
-// for sums half-way between codes: both stay within the bound above, for e = 1.
+// Native blending rounds opacity to nearest and fuses (docs/numerics.md, section 2), as this
+// emulation, but for sums half-way between codes: both stay within the bound above, for e = 1.
 TEST_P(TetTree, EmulatedNodesAreAsNativeOnes) {
     const double depth = .02;
     Scene emulated = with_tree(scene(Target::emulated, depth), {8, 8});

@@ -130,8 +130,9 @@ TEST_P(Variants, OmissionsKeepThePicture) {
     }
 }
 
-// Native blending rounds alpha to nearest and fuses (NUMERICS section 2, llvmpipe), but it is given
-// associated colours, rounded once more: by less than a code of 65535 at each of some hundred tets.
+// Native blending rounds alpha to nearest and fuses (docs/numerics.md, section 2, llvmpipe), but it
+// is given associated colours, rounded once more: by less than a code of 65535 at each of some
+// hundred tets.
 TEST_P(Variants, EmulatedAgreesWithFixed16) {
     Scene native = scene();
     native.target = Target::fixed16;

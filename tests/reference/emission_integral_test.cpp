@@ -11,8 +11,9 @@ namespace {
 
 using reference_test::Random;
 
-// Position and extinction linear in t: the weight of the back end is the integral (NUMERICS section
-// 5), in closed form. From 1e-8 to 1e7, so boundary layers as thin as 1e-7 of the piece.
+// Position and extinction linear in t: the weight of the back end is the integral
+// (docs/numerics.md, section 5), in closed form. From 1e-8 to 1e7, so boundary layers as thin as
+// 1e-7 of the piece.
 TEST(EmissionIntegral, LinearPiecesEqualTheClosedForm) {
     for (const double p : {0.0, 1e-8, 1e-3, 0.5, 3.0, 20.0, 1e3, 1e5, 1e7}) {
         for (const double q : {0.0, 1e-8, 1e-2, 1.0, 7.0, 50.0, 1e4, 1e7}) {

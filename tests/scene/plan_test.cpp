@@ -44,11 +44,10 @@ TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
 TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     Scene scene = read_scene(with("/render/slice/filter", "auto"), "s");
     const Volume volume = load_volume(scene);
-    Facts facts = measure(scene, volume, measure_bricks(volume));
-    facts.slab_trials = {{60, .8, 100, 1}};
-    facts.filter_trials = {{60, 1.1, 100, 1}, {80, .9, 100, 1}};
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    SampleTrials trials{{{60, .8, 100, 1}}, {{60, 1.1, 100, 1}, {80, .9, 100, 1}}};
     Capabilities gpu = usual();
-    const auto plan_for = [&] { return make_plan(scene, facts, gpu, {}); };
+    const auto plan_for = [&] { return make_plan(scene, facts, gpu, {}, trials); };
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
     EXPECT_EQ(plan_for().slice.slabs, 60);
     const double fetches = plan_for().work.fetches;
@@ -63,12 +62,12 @@ TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
     EXPECT_EQ(plan_for().slice.slabs, 60);
     scene.slice.filter = Filter::automatic;
 
-    facts.filter_trials.back().error = 1.01;
+    trials.hardware.back().error = 1.01;
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
     // Of a given number of slabs the trial is that of the filter alone; trees leave it its part.
     scene.slice.samples = 60;
-    facts.slab_trials.clear();
-    facts.filter_trials = {{60, .5, 100, 1}};
+    trials.exact.clear();
+    trials.hardware = {{60, .5, 100, 1}};
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan_for().slice.slabs, 60);
     EXPECT_EQ(plan_for().slice.filter_error, .5);

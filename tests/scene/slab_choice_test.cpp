@@ -11,14 +11,18 @@
 namespace lamina {
 namespace {
 
-// The facts of the minimal scene, as if these numbers of slabs had been tried.
-Facts facts_of(const Scene& scene, std::vector<SlabTrial> trials) {
+// The minimal scene, as if these numbers of slabs had been tried.
+struct Tried {
+    Facts facts;
+    SampleTrials trials;
+    SlabTrial chosen() const { return chosen_slabs(facts, trials); }
+};
+Tried with_trials(const Scene& scene, std::vector<SlabTrial> trials) {
     const Volume volume = load_volume(scene);
     Facts facts = measure(scene, volume, measure_bricks(volume));
     for (SlabTrial& trial : trials)
         trial.goal = slab_error_goal(scene, facts.max_color, trial.slabs, 1e6);
-    facts.slab_trials = std::move(trials);
-    return facts;
+    return {std::move(facts), {std::move(trials), {}}};
 }
 
 Capabilities tiles() {
@@ -39,10 +43,11 @@ Scene automatic_scene(const std::string& target, double max_error, float color =
 TEST(SlabChoice, TheFewestSlabsThatKeepTheErrorElseTheLeastError) {
     const Scene scene = automatic_scene("float32", 1);
     const SlabTrial most{200, .2, 9}, enough{100, .9, 9}, too_few{50, 3.6, 9};
-    EXPECT_EQ(chosen_slabs(facts_of(scene, {most, too_few, enough})).slabs, 100);
-    EXPECT_EQ(chosen_slabs(facts_of(scene, {too_few})).slabs, 50);
-    EXPECT_EQ(chosen_slabs(facts_of(scene, {{70, 2, 9}, too_few})).slabs, 70);
-    const Plan plan = make_plan(scene, facts_of(scene, {enough}), tiles(), {});
+    EXPECT_EQ(with_trials(scene, {most, too_few, enough}).chosen().slabs, 100);
+    EXPECT_EQ(with_trials(scene, {too_few}).chosen().slabs, 50);
+    EXPECT_EQ(with_trials(scene, {{70, 2, 9}, too_few}).chosen().slabs, 70);
+    const Tried tried = with_trials(scene, {enough});
+    const Plan plan = make_plan(scene, tried.facts, tiles(), {}, tried.trials);
     EXPECT_EQ(plan.slice.slabs, 100);
     EXPECT_EQ(plan.slice.slab_trial->error, .9);
 }
@@ -91,8 +96,8 @@ TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
     const auto target = [](double max_error, float color = 1) {
         const Scene scene = automatic_scene("auto", max_error, color);
         EXPECT_TRUE(scene.automatic_target);
-        const Facts facts = facts_of(scene, {{40, max_error / 2, 9}});
-        const Plan plan = make_plan(scene, facts, tiles(), {});
+        const Tried tried = with_trials(scene, {{40, max_error / 2, 9}});
+        const Plan plan = make_plan(scene, tried.facts, tiles(), {}, tried.trials);
         EXPECT_FALSE(plan.slice.target_reason.empty());
         EXPECT_LE(plan.slice.error_bound.value_or(0) + plan.slice.slab_trial->error, max_error);
         return plan.slice.target;
@@ -105,11 +110,11 @@ TEST(TargetChoice, TheFewestBytesWhoseRoundingsAreASmallShareOfTheError) {
 
 TEST(TargetChoice, TreesOfGivenFactorsAndTets) {
     Scene scene = automatic_scene("auto", 4);
-    const Facts facts = facts_of(scene, {});
+    const Tried tried = with_trials(scene, {});
     scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::shader};
-    EXPECT_EQ(choose_target(scene, facts).target, Target::float32);
+    EXPECT_EQ(choose_target(scene, tried.facts, tried.trials).target, Target::float32);
     scene.slice.tree->nodes = NodeArithmetic::fixed;
-    EXPECT_EQ(choose_target(scene, facts).target, Target::fixed16);
+    EXPECT_EQ(choose_target(scene, tried.facts, tried.trials).target, Target::fixed16);
     EXPECT_EQ(choose_project_target(scene).target, Target::float32);
     expect_error([] { automatic_scene("automatic", 1); }, {"render.target", "\"auto\""});
 }

@@ -56,8 +56,8 @@ TEST_F(SlicingTest, NarrowPeaksNeedFewerSlabsWithPreintegration) {
     EXPECT_LT(preintegrated, .5);
 }
 
-// Two slabs a voxel, a transfer function with a smooth surface, fetches and filters: the picture is
-// the reference's to the issue's own bound for real volumes, Linf 2 and L2 .25.
+// Two slabs a voxel, a transfer function with a smooth surface, fetches and filters: the picture
+// may be off by two codes of 8 bits in the worst pixel, and by a quarter of one in the mean square.
 TEST_F(SlicingTest, TwoSlabsAVoxelMeetTheReference) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});
@@ -107,12 +107,13 @@ TEST_F(SlicingTest, TheHardwareFilterIsTakenWhereItsErrorIsSmall) {
     Capabilities gpu = capabilities();
     gpu.exact_float_filter = false;
     gpu.eight_bit_filter = true;
-    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const Facts facts = measure(scene, volume, bricks);
+    const SampleTrials trials = try_samples(scene, volume, bricks, facts, gpu);
     const Image traced = trace(volume, scene, 1e-7);
-    try_filter(scene, volume, gpu, facts);
     const auto draw = [&](Filter filter, VolumeSampling expected) {
         scene.slice.filter = filter;
-        const Plan plan = make_plan(scene, facts, gpu, {});
+        const Plan plan = make_plan(scene, facts, gpu, {}, trials);
         EXPECT_EQ(plan.slice.sampling, expected);
         GlSliceRenderer renderer(volume, scene.transfer_function, facts, plan.slice, gpu,
                                  scene.width, scene.height);

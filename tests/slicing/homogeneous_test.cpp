@@ -31,7 +31,7 @@ double longest_chord(const Grid& grid, const View& view) {
     return longest;
 }
 
-// The bound of the project's first issue: relative 1e-4 for faint, 1e-5 of full scale for others,
+// What docs/precision.md says: relative 1e-4 for faint boxes, 1e-5 of full scale for others,
 // growing with depth because the chord's own float32 rounding is multiplied by it.
 double bound(double depth) {
     return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));

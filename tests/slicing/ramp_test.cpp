@@ -20,7 +20,7 @@ struct Case {
     std::vector<int> factors;  // none: straight
 };
 
-// NUMERICS section 2, word by word.
+// docs/numerics.md, section 2, word by word.
 std::vector<int> permutation(int period, std::uint64_t seed) {
     std::vector<int> perm(static_cast<std::size_t>(period));
     std::iota(perm.begin(), perm.end(), 0);

@@ -13,10 +13,25 @@ Volume mixing(std::int64_t edge) {
     return generate({"mixing", std::array{edge, edge, edge}, SampleType::float32});
 }
 
-Image draw(const Volume& volume, const Scene& scene, const Facts& facts) {
-    const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
-    const auto renderer = make_slice_renderer(volume, scene.transfer_function, facts, plan.slice,
-                                              tile_capabilities(), scene.width, scene.height);
+struct Tried {
+    Facts facts;
+    SampleTrials trials;
+    SlabTrial chosen() const { return chosen_slabs(facts, trials); }
+};
+
+Tried try_slabs(const Scene& scene, const Volume& volume,
+                const Capabilities& capabilities = tile_capabilities()) {
+    const MinMaxBricks bricks = measure_bricks(volume);
+    Tried tried{measure(scene, volume, bricks), {}};
+    tried.trials = try_samples(scene, volume, bricks, tried.facts, capabilities);
+    return tried;
+}
+
+Image draw(const Volume& volume, const Scene& scene, const Tried& tried) {
+    const Plan plan = make_plan(scene, tried.facts, tile_capabilities(), {}, tried.trials);
+    const auto renderer =
+        make_slice_renderer(volume, scene.transfer_function, tried.facts, plan.slice,
+                            tile_capabilities(), scene.width, scene.height);
     renderer->draw(View(scene.camera, scene.width, scene.height));
     return renderer->read();
 }
@@ -33,14 +48,14 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
             for (const double max_error : {.25, 1., 4.}) {
                 scene.max_error = max_error;
                 scene.slice.samples.reset();
-                const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-                const SlabTrial chosen = chosen_slabs(facts);
+                const Tried tried = try_slabs(scene, volume);
+                const SlabTrial chosen = tried.chosen();
                 EXPECT_LE(chosen.error, max_error);
                 EXPECT_EQ(chosen.rays, 64 * 48);
-                EXPECT_LE(image_error(draw(volume, scene, facts), traced).all.linf, max_error)
+                EXPECT_LE(image_error(draw(volume, scene, tried), traced).all.linf, max_error)
                     << chosen.slabs << " slabs";
                 scene.slice.samples = chosen.slabs / 2;
-                EXPECT_GT(image_error(draw(volume, scene, facts), traced).all.linf, max_error)
+                EXPECT_GT(image_error(draw(volume, scene, tried), traced).all.linf, max_error)
                     << chosen.slabs << " slabs";
             }
         }
@@ -52,9 +67,9 @@ TEST(SlabTrials, KeepTheErrorWithFewSlabs) {
 TEST(SlabTrials, KeepTheErrorOfAllRays) {
     for (const Volume& volume : {gaussians(16), mixing(16)}) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
-        const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-        EXPECT_EQ(chosen_slabs(facts).rays, 480 * 360);
-        EXPECT_LE(image_error(draw(volume, scene, facts), trace(volume, scene, 1e-6)).all.linf,
+        const Tried tried = try_slabs(scene, volume);
+        EXPECT_EQ(tried.chosen().rays, 480 * 360);
+        EXPECT_LE(image_error(draw(volume, scene, tried), trace(volume, scene, 1e-6)).all.linf,
                   scene.max_error);
     }
 }
@@ -64,7 +79,7 @@ TEST(SlabTrials, TryNoMoreRaysThanAMillion) {
     const Volume volume = gaussians(8);
     const Scene scene =
         unit_box_scene(smooth_transfer_function(), Projection::perspective, 2400, 1800);
-    const SlabTrial chosen = chosen_slabs(measure_slicing(scene, volume, measure_bricks(volume)));
+    const SlabTrial chosen = try_slabs(scene, volume).chosen();
     EXPECT_NEAR(static_cast<double>(chosen.rays), 1 << 20, .01 * (1 << 20));
     EXPECT_TRUE(chosen.keeps_goal());
     EXPECT_LT(chosen.goal, .75 * scene.max_error);
@@ -72,17 +87,16 @@ TEST(SlabTrials, TryNoMoreRaysThanAMillion) {
 
 TEST(SlabTrials, NothingIsTriedThatNobodyAskedFor) {
     const Volume volume = gaussians(8);
-    const MinMaxBricks bricks = measure_bricks(volume);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::orthographic);
     scene.slice.samples = 9;
-    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
     scene.slice.samples.reset();
-    EXPECT_FALSE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    EXPECT_FALSE(try_slabs(scene, volume).trials.exact.empty());
     scene.method = Method::trace;
-    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
     scene.method = Method::slice;
     scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 0)});
-    EXPECT_TRUE(measure_slicing(scene, volume, bricks).slab_trials.empty());
+    EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
 }
 
 // Of one extinction and colour every number of slabs shows the same.
@@ -90,8 +104,8 @@ TEST(SlabTrials, OneSlabOfAConstant) {
     const Volume volume = gaussians(8);
     Scene scene = unit_box_scene(TransferFunction::linear({knot(0, {.2, .4, .8}, 2)}),
                                  Projection::perspective);
-    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    EXPECT_EQ(chosen_slabs(facts).slabs, 1);
+    const Tried tried = try_slabs(scene, volume);
+    EXPECT_EQ(tried.chosen().slabs, 1);
 }
 
 // An opaque step: its silhouette moves with the slabs, whatever their number.
@@ -102,8 +116,8 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
                                   knot(.7, {1, .5, 0}, 1e6), knot(1, {1, .5, 0}, 1e6)}),
         Projection::perspective, 160, 120);
     scene.max_error = .01;
-    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    const SlabTrial chosen = chosen_slabs(facts);
+    const Tried tried = try_slabs(scene, volume);
+    const SlabTrial chosen = tried.chosen();
     EXPECT_GT(chosen.error, scene.max_error);
     // 15 cells and their diagonal: 26 voxels along the view at most. More than some slabs a voxel
     // would not help.
@@ -112,10 +126,10 @@ TEST(SlabTrials, WhatCannotBeKeptIsKnown) {
 
 // What is claimed is the error of the picture itself: on every ray of a small picture.
 void expect_claim_kept(const Volume& volume, const Scene& scene, const char* name) {
-    const Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    const SlabTrial chosen = chosen_slabs(facts);
+    const Tried tried = try_slabs(scene, volume);
+    const SlabTrial chosen = tried.chosen();
     const double found =
-        image_error(draw(volume, scene, facts), trace(volume, scene, 1e-7)).all.linf;
+        image_error(draw(volume, scene, tried), trace(volume, scene, 1e-7)).all.linf;
     EXPECT_EQ(chosen.traced, scene.width * scene.height) << name;
     // The pictures are the same but for early termination and the tracer's tolerance of 4e-5: .01
     // / 255 each at most, and the rounding to float.
@@ -173,7 +187,7 @@ TEST(SlabTrials, ThinSilhouettesOfLabelsAreNotMissedByAllPictures) {
 TEST(SlabTrials, OfLargePicturesRaysAreTracedWhereTheyMissMost) {
     const Volume volume = mixing(16);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective, 480, 360);
-    const SlabTrial chosen = chosen_slabs(measure_slicing(scene, volume, measure_bricks(volume)));
+    const SlabTrial chosen = try_slabs(scene, volume).chosen();
     EXPECT_EQ(chosen.rays, 480 * 360);
     EXPECT_LE(chosen.traced, 12288);
     EXPECT_GE(chosen.traced, 12288 / 2);
@@ -186,10 +200,8 @@ Capabilities gpu() {
     return capabilities;
 }
 
-Facts measure_filter(const Scene& scene, const Volume& volume) {
-    Facts facts = measure_slicing(scene, volume, measure_bricks(volume));
-    try_filter(scene, volume, gpu(), facts);
-    return facts;
+Tried measure_filter(const Scene& scene, const Volume& volume) {
+    return try_slabs(scene, volume, gpu());
 }
 
 // Scalars of weights of 8 bits, as the native engine has them on request, in as many slabs as the
@@ -199,21 +211,21 @@ TEST(SlabTrials, TheHardwareFilterKeepsTheErrorWhereItIsSaidTo) {
         Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
         scene.slice.filter = Filter::automatic;
         const Image traced = trace(volume, scene, 1e-7);
-        const Facts facts = measure_filter(scene, volume);
-        const SlabTrial trial = slabs_of_hardware_filter(facts).value();
+        const Tried tried = measure_filter(scene, volume);
+        const SlabTrial trial = slabs_of_hardware_filter(tried.trials).value();
         EXPECT_TRUE(trial.keeps_goal());
         Scene given = scene;
         given.slice.samples = trial.slabs;
         given.slice.filter = Filter::hardware;
-        const Image filtered = draw(volume, given, facts);
+        const Image filtered = draw(volume, given, tried);
         EXPECT_LE(image_error(filtered, traced).all.linf, scene.max_error);
 
         given.slice.filter = Filter::automatic;
-        const Facts with_slabs = measure_filter(given, volume);
+        const Tried with_slabs = measure_filter(given, volume);
         given.slice.filter = Filter::exact;
-        EXPECT_DOUBLE_EQ(with_slabs.filter_trials.at(0).error,
-                         image_error(filtered, draw(volume, given, facts)).all.linf);
-        EXPECT_GT(with_slabs.filter_trials.at(0).error, 0);
+        EXPECT_DOUBLE_EQ(with_slabs.trials.hardware.at(0).error,
+                         image_error(filtered, draw(volume, given, tried)).all.linf);
+        EXPECT_GT(with_slabs.trials.hardware.at(0).error, 0);
     }
 }
 
@@ -224,7 +236,7 @@ TEST(SlabTrials, TheHardwareFilterIsNotTakenWhereItsErrorIsTooLarge) {
     scene.slice.samples = 200;
     const auto trial = [&](double max_error) {
         scene.max_error = max_error;
-        return measure_filter(scene, volume).filter_trials.at(0);
+        return measure_filter(scene, volume).trials.hardware.at(0);
     };
     const double just_kept = trial(1).error / trial(1).goal;
     EXPECT_TRUE(trial(1.01 * just_kept).keeps_goal());
@@ -235,13 +247,11 @@ TEST(SlabTrials, NoFilterIsTriedWhereNobodyAsksOrItCannotBeTaken) {
     Volume volume = gaussians(8);
     Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
     scene.slice.samples = 9;
-    const auto trials = [&] { return measure_filter(scene, volume).filter_trials.size(); };
+    const auto trials = [&] { return measure_filter(scene, volume).trials.hardware.size(); };
     EXPECT_EQ(trials(), 0u);
     scene.slice.filter = Filter::automatic;
     EXPECT_EQ(trials(), 1u);
-    Facts native = measure_slicing(scene, volume, measure_bricks(volume));
-    try_filter(scene, volume, tile_capabilities(), native);
-    EXPECT_TRUE(native.filter_trials.empty());
+    EXPECT_TRUE(try_slabs(scene, volume).trials.hardware.empty());
     scene.transfer_function = TransferFunction::linear({knot(0, {.2, .4, .8}, 2)});
     EXPECT_EQ(trials(), 0u);
     scene.transfer_function = smooth_transfer_function();

@@ -136,7 +136,7 @@ TEST(TilePictureTest, ThinBoxesHaveTheExactChordsOpacity) {
     }
 }
 
-// As convergence_test.cpp: the issue's own bound for real volumes, Linf 2 and L2 .25.
+// Bounds: convergence_test.cpp.
 TEST(TilePictureTest, TwoSlabsAVoxelMeetTheReference) {
     const Volume volume =
         generate({"marschner-lobb", std::array<std::int64_t, 3>{48, 48, 48}, SampleType::uint8});

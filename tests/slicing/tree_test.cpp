@@ -96,8 +96,10 @@ TEST_F(TreeTest, FloatNodesAreStraightCompositing) {
     }
 }
 
-// Bounds of issue 3, from NUMERICS section 4: a minimax write costs at most 1.445 Y / 2 (1.64 with
-// 32 children, 1.82 with 64) and the root .5; colour is rounded by .5 twice, by convex weights.
+// docs/numerics.md, section 4: a minimax write costs the opacity at most 1.445 Y / 2 (1.64 with 32
+// children, 1.83 with 64) and the root .5, together less than these bounds. Colours may be off by
+// another .5, with convex weights; these scenes, which are not the worst, leave room for it. With
+// an alpha of 16 bits both roundings of .5 are left, and 1.83 / 257.
 TEST_F(TreeTest, ColourGoesThroughTheTree) {
     for (const Example& example : examples()) {
         for (const auto& [samples, factor, most] :
@@ -128,7 +130,7 @@ TEST_F(TreeTest, ColoursAboveOneGoThroughTheTree) {
     EXPECT_LE(linf(render(faint.volume, scene, capabilities()), expected), 3 * 1.64 + 3 * .5 + .5);
 }
 
-// NUMERICS section 3: Phi of a thin dense sheet rounds to 1.
+// docs/numerics.md, section 3: Phi of a thin dense sheet rounds to 1.
 TEST_F(TreeTest, PhiFailsOnSheetsAndAutoDoesNotChooseIt) {
     const Example sheets = examples()[2];
     const Image expected =

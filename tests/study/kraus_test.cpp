@@ -145,7 +145,7 @@ TEST_F(Kraus, DrawsWhatTheTracerSees) {
     const Image image =
         Session(with_default_integration(box.dense), box.mesh.data(), capabilities())
             .draw_picture();
-    // Issue 5, default settings, float32.
+    // Default settings keep the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
 }
 

@@ -33,7 +33,7 @@ TEST_F(LamarDrawn, Figure10OnASmallPicture) {
     EXPECT_GT(nothing, 150);
     EXPECT_LT(nothing, 195.1);
     EXPECT_LT(linf.at("fixed 2^10 nearest white"), 0.2 * nothing);
-    // Issue 3: Linf <= 2.2 for shader nodes, 32x32 at N = 1024.
+    // The bound of 32x32 at N = 1024 in tests/slicing/tree_test.cpp.
     EXPECT_LE(linf.at("shader 32x32 minimax white"), 2.2);
     EXPECT_LE(linf.at("shader 32x32 minimax green to red"), 2.2);
 }

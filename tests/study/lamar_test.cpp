@@ -54,7 +54,7 @@ TEST(Lamar, Table1AgreesButForItsCaption) {
     EXPECT_EQ(table["values"]["caption_d_holds"], false);
     std::vector<int> buffer;
     for (const Json& row : table["values"]["rows"]) buffer.push_back(row["buffer"]);
-    // NUMERICS section 2.
+    // docs/numerics.md, "Where the papers are wrong".
     EXPECT_EQ(buffer, (std::vector<int>{0, 0, 64, 64, 96, 136, 183, 220, 255}));
     EXPECT_EQ(table["values"]["rows"][4]["c"], ".00000010 11000001");
     EXPECT_EQ(table["values"]["rows"][4]["d"], "0.3946590");

@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-// What a render cost and what happened on the way (DESIGN section 5, --stats).
+// What a render cost and what happened on the way (--stats).
 struct RenderStats {
     std::vector<double> frames_ms;
     std::map<std::string, double> stages_ms;

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session that changes draws what a new one draws of its resolved scene, bit for bit on the
+// native engine, and does again only what a change makes necessary.
+#include "render/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "base/error.h"
+#include "support/split_box.h"
+#include "support/transfer_functions.h"
+#include "tiles/tile_capabilities.h"
+#include "volume/generate.h"
+
+namespace lamina {
+namespace {
+
+using test::knot;
+
+std::shared_ptr<const VolumeData> blobs() {
+    return std::make_shared<const VolumeData>(
+        generate({"gaussians", std::array<std::int64_t, 3>{24, 20, 28}, SampleType::uint8}));
+}
+
+TransferFunction smooth(double extinction) {
+    return TransferFunction::linear(
+        {knot(0, {.1, .2, .6}, 0), knot(60, {.2, .7, .5}, .2 * extinction),
+         knot(130, {.8, .7, .2}, .5 * extinction), knot(255, {1, .2, .1}, extinction)});
+}
+
+Camera orbit(double degrees, double distance = 2.2) {
+    const double angle = degrees * std::numbers::pi / 180;
+    Camera camera;
+    camera.center = glm::dvec3(.5);
+    camera.eye = camera.center + distance * glm::dvec3(std::sin(angle), .4, std::cos(angle));
+    return camera;
+}
+
+Scene volume_scene() {
+    Scene scene;
+    scene.transfer_function = smooth(6);
+    scene.camera = orbit(20);
+    scene.width = 40;
+    scene.height = 30;
+    scene.slice.classification = Classification::preintegrated;
+    return scene;
+}
+
+// One that is given all that the other has chosen.
+Image fresh(Session& session, const std::shared_ptr<const VolumeData>& data) {
+    return Session(session.resolved_scene(), data, session.capabilities()).draw_picture();
+}
+
+TEST(Session, DrawsEveryFrameAsANewOne) {
+    const auto data = blobs();
+    Session session(volume_scene(), data, tile_capabilities());
+    const auto expect_fresh = [&](const std::string& what) {
+        const Image drawn = session.draw_picture();
+        EXPECT_EQ(drawn.rgba, fresh(session, data).rgba) << what;
+    };
+    expect_fresh("the first picture");
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+        session.set_camera(orbit(degrees));
+        expect_fresh("turned by " + std::to_string(degrees));
+    }
+    // In and out of the box, and past it: nothing is to be seen there.
+    for (const double distance : {1.2, .6, .3, .05, 0., .3, 40., 2.}) {
+        session.set_camera(orbit(200, distance));
+        expect_fresh("from " + std::to_string(distance));
+    }
+    Camera away = orbit(30);
+    away.center = 2. * away.eye;
+    session.set_camera(away);
+    expect_fresh("seen from behind");
+    session.set_camera(orbit(30));
+    expect_fresh("and again from the front");
+    Camera parallel = orbit(70);
+    parallel.projection = Projection::orthographic;
+    parallel.height = 1.5;
+    for (const Camera& camera : {parallel, orbit(71), parallel}) {
+        session.set_camera(camera);
+        expect_fresh("orthographic and perspective in turn");
+    }
+    for (const double extinction : {.5, 20., 300., 4.}) {
+        session.set_transfer_function(smooth(extinction));
+        expect_fresh("extinction " + std::to_string(extinction));
+        session.set_camera(orbit(extinction));
+        expect_fresh("turned, extinction " + std::to_string(extinction));
+    }
+    session.set_size(53, 21);
+    expect_fresh("another size");
+}
+
+TEST(Session, SettingsAreChosenAgain) {
+    const auto data = blobs();
+    Session session(volume_scene(), data, tile_capabilities());
+    for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
+        for (const bool automatic : {false, true}) {
+            Scene scene = volume_scene();
+            scene.target = target;
+            scene.automatic_target = automatic;
+            scene.max_error = target == Target::fixed8 ? 4 : 1;
+            if (target == Target::fixed8 && !automatic)
+                scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
+            scene.slice.samples.reset();
+            session.set_scene(scene);
+            const Image drawn = session.draw_picture();
+            EXPECT_EQ(drawn.rgba, fresh(session, data).rgba)
+                << name_of(target) << (automatic ? " or another" : "");
+            const Scene& resolved = session.resolved_scene();
+            EXPECT_TRUE(resolved.slice.samples);
+            EXPECT_FALSE(resolved.automatic_target);
+            EXPECT_FALSE(resolved.slice.tree && resolved.slice.tree->automatic);
+        }
+    }
+}
+
+TEST(Session, DoesAgainWhatAChangeNeeds) {
+    Scene scene = volume_scene();
+    scene.transfer_function = smooth(1);  // segments are short: a table of one layer, in any view
+    Session session(scene, blobs(), tile_capabilities());
+    session.draw();
+    Session::Counts expected{1, 1, 1, 1, 1};
+    EXPECT_EQ(session.counts(), expected);
+    session.draw();
+    EXPECT_EQ(session.counts(), expected);
+    session.set_camera(orbit(40));
+    session.draw();
+    ++expected.views;
+    ++expected.plans;
+    const int renderers = session.counts().renderers;
+    EXPECT_LE(renderers, 2);  // a table of longer segments serves all views
+    expected.renderers = renderers;
+    EXPECT_EQ(session.counts(), expected);
+    for (int degrees = 50; degrees < 400; degrees += 30) {
+        session.set_camera(orbit(degrees));
+        session.draw();
+        ++expected.views;
+        ++expected.plans;
+        EXPECT_EQ(session.counts(), expected) << degrees;
+    }
+    session.set_transfer_function(smooth(2));
+    session.draw();
+    ++expected.data;
+    ++expected.views;
+    ++expected.plans;
+    ++expected.renderers;
+    EXPECT_EQ(session.counts(), expected);
+    session.choose_again();
+    session.draw();
+    ++expected.views;
+    ++expected.trials;
+    ++expected.plans;
+    EXPECT_LE(session.counts().renderers, expected.renderers + 1);
+    expected.renderers = session.counts().renderers;
+    EXPECT_EQ(session.counts(), expected);
+}
+
+TEST(Session, CopiesOfTheVolumeAreTakenOver) {
+    Session session(volume_scene(), blobs(), tile_capabilities());
+    session.draw();
+    session.set_transfer_function(smooth(3));
+    session.draw();
+    EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
+    session.set_size(20, 10);
+    session.draw();
+    EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
+}
+
+Scene mesh_scene() {
+    Scene scene;
+    scene.method = Method::project;
+    scene.transfer_function = TransferFunction::linear(
+        {knot(0, {1, .2, 0}, .1), knot(.4, {1, 1, 0}, 3), knot(1, {0, .3, 1}, 6)});
+    scene.camera = orbit(20);
+    scene.width = 40;
+    scene.height = 30;
+    return scene;
+}
+
+std::shared_ptr<const SceneMesh> split_box() {
+    MeshData data = test::kuhn_box({3, 2, 4}, [](const glm::dvec3& place) {
+        return .5 + .5 * std::sin(9 * place.x + 5 * place.y * place.z);
+    });
+    MeshScalar scalar = data.point_scalars.front();
+    data.point_scalars.clear();
+    return std::make_shared<const SceneMesh>(
+        SceneMesh{TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}});
+}
+
+TEST(Session, MeshesLikewise) {
+    const auto mesh = split_box();
+    for (const ProjectGeometry geometry :
+         {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
+        Scene scene = mesh_scene();
+        scene.project.geometry = geometry;
+        Session session(scene, mesh, tile_capabilities());
+        const auto expect_fresh = [&](const std::string& what) {
+            const Image drawn = session.draw_picture();
+            Session other(session.resolved_scene(), mesh, tile_capabilities());
+            EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
+        };
+        for (int degrees = 0; degrees < 360; degrees += 30) {
+            session.set_camera(orbit(degrees));
+            expect_fresh("turned by " + std::to_string(degrees));
+        }
+        for (const double distance : {.6, .2, 2.}) {
+            session.set_camera(orbit(200, distance));
+            expect_fresh("from " + std::to_string(distance));
+        }
+        Camera parallel = orbit(70);
+        parallel.projection = Projection::orthographic;
+        parallel.height = 1.5;
+        for (const Camera& camera : {parallel, orbit(71)}) {
+            session.set_camera(camera);
+            expect_fresh("orthographic and perspective in turn");
+        }
+        session.set_transfer_function(
+            TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(1, {1, .5, 0}, 5)}));
+        expect_fresh("another transfer function");
+        EXPECT_EQ(session.counts().trials, 1);
+    }
+}
+
+TEST(Session, AStopEndsAFrameAndTheNextIsWhole) {
+    const auto data = blobs();
+    Session session(volume_scene(), data, tile_capabilities());
+    const Image whole = session.draw_picture();
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(session.draw(stop.get_token()), Interrupted);
+    EXPECT_EQ(session.draw_picture().rgba, whole.rgba);
+    // What is measured and tried is not lost either.
+    session.choose_again();
+    EXPECT_THROW(session.draw(stop.get_token()), Interrupted);
+    EXPECT_EQ(session.draw_picture().rgba, whole.rgba);
+}
+
+TEST(Session, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
+    const auto data = blobs();
+    const auto mesh = split_box();
+    Session first(volume_scene(), data, tile_capabilities());
+    Session second(mesh_scene(), mesh, tile_capabilities());
+    const Image volume = first.draw_picture(), tets = second.draw_picture();
+    std::stop_source stop;  // of the one, no matter to the other
+    stop.request_stop();
+    const auto turn = [](Session& session) {
+        for (int degrees = 40; degrees < 200; degrees += 40) {
+            session.set_camera(orbit(degrees));
+            session.draw();
+        }
+        session.set_camera(orbit(20));
+    };
+    std::thread other([&] {
+        turn(second);
+        EXPECT_THROW(second.draw(stop.get_token()), Interrupted);
+        second.draw();
+    });
+    turn(first);
+    first.draw();
+    other.join();
+    EXPECT_EQ(first.picture().rgba, volume.rgba);
+    EXPECT_EQ(second.picture().rgba, tets.rgba);
+}
+
+}  // namespace
+}  // namespace lamina
