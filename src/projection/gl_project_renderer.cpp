@@ -126,6 +126,10 @@ int GlProjectRenderer::step_count() const {
                : 0;
 }
 
+bool GlProjectRenderer::take(const Plan& plan) {
+    return without_remarks(plan.project) == without_remarks(plan_);
+}
+
 void GlProjectRenderer::draw(const View& view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));

@@ -39,6 +39,7 @@ class GlProjectRenderer : public ProjectRenderer {
     GlProjectRenderer(const GlProjectRenderer&) = delete;
     GlProjectRenderer& operator=(const GlProjectRenderer&) = delete;
 
+    bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
     Image read() const override;

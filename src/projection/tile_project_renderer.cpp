@@ -105,6 +105,10 @@ std::int64_t TileProjectRenderer::byte_count() const {
     return bytes;
 }
 
+bool TileProjectRenderer::take(const Plan& plan) {
+    return without_remarks(plan.project) == without_remarks(plan_);
+}
+
 void TileProjectRenderer::draw(const View& view, Progress* progress) {
     order_ms_ = draw_ms_ = 0;
     tets_drawn_ = 0;

@@ -37,6 +37,7 @@ class TileProjectRenderer : public ProjectRenderer {
     TileProjectRenderer& operator=(const TileProjectRenderer&) = delete;
 
     // Steps are batches.
+    bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
     Image read() const override;

@@ -32,8 +32,6 @@ class Drawing {
     virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // Whether a renderer that was made for the one plan draws the other.
-    virtual bool serves(const Plan& made_for, const Plan& plan) const = 0;
     // `before`: the renderer that it takes the place of, or null; what both hold is kept.
     virtual std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                          const Capabilities& capabilities,

@@ -7,14 +7,6 @@
 namespace lamina {
 namespace {
 
-// What was measured and why it was chosen changes no picture.
-ProjectPlan without_remarks(ProjectPlan plan) {
-    plan.target_reason.clear();
-    plan.segment_error = 0;
-    plan.segment_reason.clear();
-    return plan;
-}
-
 ProjectOrder order_of(OrderMethod method) {
     switch (method) {
         case OrderMethod::mpvo:
@@ -70,10 +62,6 @@ Scene ProjectDrawing::resolved(Scene scene, const Plan& plan) const {
 
 std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
     return explain(plan, facts_, capabilities);
-}
-
-bool ProjectDrawing::serves(const Plan& made_for, const Plan& plan) const {
-    return without_remarks(made_for.project) == without_remarks(plan.project);
 }
 
 std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,

@@ -22,7 +22,6 @@ class ProjectDrawing : public Drawing {
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    bool serves(const Plan& made_for, const Plan& plan) const override;
     std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                  const Capabilities& capabilities,
                                                  FrameRenderer* before) const override;

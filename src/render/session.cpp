@@ -119,11 +119,10 @@ std::string Session::explanation() {
 
 void Session::set_up() {
     plan();
-    if (renderer_ && renderer_fits_ && drawing_->serves(*made_for_, *plan_)) return;
+    if (renderer_ && renderer_fits_ && renderer_->take(*plan_)) return;
     Stage setting_up("set_up");
     renderer_ = drawing_->make_renderer(*resolved_, *plan_, capabilities_, renderer_.get());
     ++counts_.renderers;
-    made_for_ = plan_;
     renderer_fits_ = true;
     stages_ms_["set_up"] = setting_up.end();
 }

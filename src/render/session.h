@@ -91,8 +91,7 @@ class Session {
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
     std::optional<Plan> plan_;
     std::unique_ptr<FrameRenderer> renderer_;
-    std::optional<Plan> made_for_;  // that the renderer draws
-    bool renderer_fits_ = false;    // the transfer function and the size
+    bool renderer_fits_ = false;  // the transfer function and the size
     std::map<std::string, double> stages_ms_;
     Counts counts_;
 };

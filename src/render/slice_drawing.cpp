@@ -14,18 +14,6 @@ TreeSettings settings_of(const TreePlan& tree) {
     return {false, tree.factors, tree.nodes, tree.code, tree.alpha_bits};
 }
 
-// What was measured and why it was chosen changes no picture.
-SlicePlan without_remarks(SlicePlan plan) {
-    plan.slab_trial.reset();
-    plan.filter_reason.clear();
-    plan.filter_error = 0;
-    plan.target_reason.clear();
-    plan.error_bound.reset();
-    plan.tree_reason.clear();
-    plan.table.error = 0;
-    return plan;
-}
-
 }  // namespace
 
 void SliceDrawing::measure_data(const Scene& scene) {
@@ -76,10 +64,6 @@ Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
 
 std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
     return explain(plan, facts_, capabilities);
-}
-
-bool SliceDrawing::serves(const Plan& made_for, const Plan& plan) const {
-    return without_remarks(made_for.slice) == without_remarks(plan.slice);
 }
 
 std::unique_ptr<FrameRenderer> SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "image/image.h"
 #include "scene/camera.h"
+#include "scene/plan.h"
 
 namespace lamina {
 
@@ -17,6 +18,9 @@ class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
 
+    // Draws further frames by another plan of the same scene and size. False where that differs in
+    // more than belongs to one view: then nothing changes.
+    virtual bool take(const Plan& plan) = 0;
     // Complete when it returns. Ctrl-C ends it between steps; `progress` advances by step_count()
     // in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;

@@ -14,6 +14,23 @@ const Omission no_context{"context", "the tracer runs on the processor: no OpenG
 
 }  // namespace
 
+SlicePlan of_all_views(SlicePlan plan) {
+    const SlicePlan other;
+    plan.orthographic = other.orthographic;
+    plan.nothing_visible = other.nothing_visible;
+    plan.drawn = other.drawn;
+    plan.occupied_only = other.occupied_only;
+    plan.opaque_depth = other.opaque_depth;
+    plan.slab_trial.reset();
+    plan.filter_reason.clear();
+    plan.filter_error = other.filter_error;
+    plan.target_reason.clear();
+    plan.error_bound.reset();
+    plan.tree_reason.clear();
+    plan.table.error = other.table.error;
+    return plan;
+}
+
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const SampleTrials& trials) {
     Plan plan;

@@ -56,6 +56,9 @@ struct ProjectPlan : CompositingPlan {
     friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
 };
 
+// The plan without remarks that change no picture.
+ProjectPlan without_remarks(ProjectPlan plan);
+
 const char* name_of(SegmentSource source);
 
 }  // namespace lamina

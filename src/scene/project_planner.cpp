@@ -329,6 +329,13 @@ class ProjectPlanner {
 
 }  // namespace
 
+ProjectPlan without_remarks(ProjectPlan plan) {
+    plan.target_reason.clear();
+    plan.segment_error = 0;
+    plan.segment_reason.clear();
+    return plan;
+}
+
 const char* name_of(SegmentSource source) {
     switch (source) {
         case SegmentSource::constant:

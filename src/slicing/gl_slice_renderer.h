@@ -26,6 +26,7 @@ class GlSliceRenderer : public FrameRenderer {
     GlSliceRenderer(const GlSliceRenderer&) = delete;  // its parts refer to its plan
     GlSliceRenderer& operator=(const GlSliceRenderer&) = delete;
 
+    bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
     Image read() const override;

@@ -40,10 +40,8 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         slabs_.single_color[static_cast<std::size_t>(channel)] = static_cast<float>(color[channel]);
     slabs_.constant_extinction = std::min(constant.extinction, max_shader_extinction);
     slabs_.plan = &plan_;
-    if (plan_.occupied_only) {
-        occupied_ = facts.occupied_bricks;
-        slabs_.occupied = &occupied_;
-    }
+    occupied_ = facts.occupied_bricks;
+    take_plan();
     if (plan_.constant_regions) {
         constant_ = facts.constant_bricks;
         for (OpticalProperties& kind : constant_.kinds)

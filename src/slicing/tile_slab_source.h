@@ -21,6 +21,8 @@ class TileSlabSource {
     TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
     TileSlabSource& operator=(const TileSlabSource&) = delete;
 
+    // After a change of the plan in what belongs to a view.
+    void take_plan() { slabs_.occupied = plan_.occupied_only ? &occupied_ : nullptr; }
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
 

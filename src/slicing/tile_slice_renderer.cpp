@@ -44,12 +44,22 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
         fixed_tree_.emplace(plan_, *shape_, source_->slabs().single_color);
 }
 
+// Where nothing was visible, nothing was made.
+bool TileSliceRenderer::take(const Plan& plan) {
+    const SlicePlan& slice = plan.slice;
+    if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
+        return false;
+    plan_ = slice;
+    if (source_) source_->take_plan();
+    return true;
+}
+
 void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     const View view = in_units(world_view, plan_.unit);
     samples_ = 0;
     geometry_ms_ = draw_ms_ = 0;
     const DepthRange depth = depth_range(grid_, view);
-    if (!source_ || depth.far <= depth.near) {
+    if (!source_ || plan_.nothing_visible || depth.far <= depth.near) {
         for (int number = 0; number < target_.grid().count(); ++number)
             target_.tile(number) = TilePixels{};
         return;

@@ -27,6 +27,7 @@ class TileSliceRenderer : public FrameRenderer {
     TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
 
+    bool take(const Plan& plan) override;
     // Steps are tiles. Takes no memory after the first frame.
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override { return source_ ? target_.grid().count() : 0; }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/session.h"
 #include "study/kraus.h"
 
 #include <gtest/gtest.h>
