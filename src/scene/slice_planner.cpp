@@ -27,10 +27,6 @@ namespace {
 // measured.
 constexpr int software_batches = 64;
 
-// A table that knows only the limit of short segments has at most this optical depth in one
-// segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
-// segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
-constexpr double short_depth = 0.02;
 // Rays in float32 lose the digits of this ratio of a box's sides. In software, doubles cost some 12
 // % of a frame.
 constexpr double thin_box_ratio = 20;
@@ -40,12 +36,6 @@ constexpr double thin_box_ratio = 20;
 constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
-
-// Of a table that grows.
-constexpr double most_grown_layers = 33;
-int layers_of_steps(double steps) {
-    return static_cast<int>(std::min(std::ceil(steps) + 1, most_grown_layers));
-}
 
 std::string percent(double share) {
     return fmt::format("{:.3g} %", 100 * share);
@@ -263,7 +253,7 @@ class SlicePlanner {
         }
         if (!table.colored) return;
         if (scene_.slice.table) {
-            take_table(*scene_.slice.table, longest);
+            take_table(scene_, facts_, slice.slabs, longest, slice.unit, table);
             return;
         }
         const bool limit_alone =
@@ -272,28 +262,6 @@ class SlicePlanner {
                                   "not depend on its length",
                                   depth));
         refine_table(scene_, facts_, slice.slabs, limit_alone ? 0 : depth, table);
-    }
-
-    // As the scene asks; where this view's segments are longer than that table knows, one that
-    // serves all views of such a camera, with layers as close.
-    void take_table(const SliceTableSettings& asked, double longest) {
-        TablePlan& table = plan_.slice.table;
-        table.scalar_nodes = asked.scalars;
-        table.length_layers = asked.lengths;
-        double most = asked.max_length;
-        const bool short_alone =
-            asked.lengths == 1 && facts_.max_extinction * longest >= short_depth;
-        if (longest > most || short_alone) {
-            most = std::max(longest, box_diagonal(facts_.grid) / plan_.slice.slabs *
-                                         facts_.max_length_per_depth);
-            const double as_close =
-                asked.lengths > 1 ? (asked.lengths - 1) * most / asked.max_length : 0;
-            const double needed = std::ceil(facts_.max_extinction * most);
-            table.length_layers = layers_of_steps(std::max(as_close, needed));
-        }
-        table.max_length = most * plan_.slice.unit;
-        if (!facts_.scalar_rays.rays.empty())
-            table.error = table_error(scene_, facts_, plan_.slice.slabs, table);
     }
 
     void choose_bricks() {

@@ -205,4 +205,25 @@ void refine_table(const Scene& scene, const Facts& facts, int slabs, double dept
     }
 }
 
+void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
+                TablePlan& table) {
+    const SliceTableSettings& asked = *scene.slice.table;
+    table.scalar_nodes = asked.scalars;
+    table.length_layers = asked.lengths;
+    double most = asked.max_length;
+    const bool short_alone = asked.lengths == 1 && facts.max_extinction * longest >= short_depth;
+    if (longest > most || short_alone) {
+        most = std::max(longest, box_diagonal(facts.grid) / slabs * facts.max_length_per_depth);
+        const double as_close = asked.lengths > 1 && asked.max_length > 0
+                                    ? (asked.lengths - 1) * most / asked.max_length
+                                    : 0;
+        const double steps = std::max(as_close, facts.max_extinction * most);
+        const bool none = asked.lengths == 1 && facts.max_extinction * most < short_depth;
+        table.length_layers =
+            none ? 1 : static_cast<int>(std::min(std::ceil(steps) + 1, most_length_layers));
+    }
+    table.max_length = most * unit;
+    if (!facts.scalar_rays.rays.empty()) table.error = table_error(scene, facts, slabs, table);
+}
+
 }  // namespace lamina

@@ -11,6 +11,11 @@ namespace lamina {
 // A table may add this share of max_error to the picture's error.
 inline constexpr double table_share = 0.1;
 
+// A table that knows only the limit of short segments has at most this optical depth in one
+// segment: then the colour of a ray is off by less than depth / 12 of the colour's change within a
+// segment, that is .5 / 255 (the front half of a segment of depth D weighs 1/2 + D/12 + O(D^3)).
+inline constexpr double short_depth = 0.02;
+
 // In 1/255: the largest error of a ray's colour that the table makes on Facts::scalar_rays, cut
 // into `slabs` segments. Opacity is exact.
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& table);
@@ -21,5 +26,11 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
 // serves all.
 void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,
                   TablePlan& table);
+
+// The table as the scene asks; where segments of this view, the longest of which has `longest`
+// world units, are longer than that table knows, one that serves all views of such a camera, with
+// layers as close. Its error is found where Facts::scalar_rays are.
+void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
+                TablePlan& table);
 
 }  // namespace lamina

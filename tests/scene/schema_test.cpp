@@ -51,6 +51,7 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.insert("transfer_function.colormap_range");
     in_reader.merge(asked_for(with("/render/slice/dither", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/slice/tree", {{"factors", {4, 4}}})));
+    in_reader.merge(asked_for(with("/render/slice/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/tree", {{"factors", {4, 4}}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());

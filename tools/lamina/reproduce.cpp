@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <functional>
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder.h"
@@ -16,10 +17,9 @@
 #include "base/own_files.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
-#include <functional>
-#include "render/draw_context.h"
 #include "output_folder.h"
 #include "render/context_choice.h"
+#include "render/draw_context.h"
 #include "scene_files.h"
 #include "study/kraus.h"
 #include "study/kraus_stage.h"
