@@ -11,7 +11,7 @@
 #include "selftest/picture_bounds.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* from_layers =
@@ -140,4 +140,4 @@ SelftestScene plain_scene(const std::string& name, const std::string& about) {
     return subject;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -9,7 +9,7 @@
 #include "selftest/selftest_case.h"
 #include "selftest/selftest_scene.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // A mesh by itself, in one colour (picture_bounds.h).
 struct MeshScene {
@@ -47,4 +47,4 @@ std::vector<SelftestCase> view_cases();
 std::vector<SelftestCase> number_cases();
 std::vector<SelftestCase> metamorphic_cases();
 
-}  // namespace lamina
+}  // namespace lamina::selftest

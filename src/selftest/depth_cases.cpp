@@ -6,7 +6,7 @@
 
 #include "selftest/case_makers.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "depth";
@@ -48,4 +48,4 @@ std::vector<SelftestCase> depth_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 // float32: some four roundings a blend. float16: fragment and result are stored with 11 bits, the
@@ -113,4 +113,4 @@ DrawingWay way_named(const std::string& name) {
     return *found;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

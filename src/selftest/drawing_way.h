@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "selftest/pixel_bounds.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // A way to draw a self-test's scene: method, classification or colouring, target.
 struct DrawingWay {
@@ -36,4 +36,4 @@ DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Ta
 // Of float_ways().
 DrawingWay way_named(const std::string& name);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace lamina {
+namespace lamina::selftest {
 
 // A number that lies in [lo, hi].
 struct Interval {
@@ -24,4 +24,4 @@ struct Interval {
     }
 };
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 template <typename Sample>
@@ -118,4 +118,4 @@ std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, d
     return chord;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -10,7 +10,7 @@
 #include "selftest/interval.h"
 #include "volume/volume.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // A box whose scalar depends on one of its axes alone and is linear between samples there: along
 // every ray it is linear piece by piece, so that every picture of it has a closed form. Points of
@@ -52,4 +52,4 @@ struct BoxChord {
 // Of the box widened by `slack` (of each edge) on all sides; none where the ray misses it.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

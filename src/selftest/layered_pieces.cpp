@@ -9,7 +9,7 @@
 #include "optics/segment_integral.h"
 #include "selftest/optics_range.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 struct LayerRun {
@@ -261,4 +261,4 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
     return pieces;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -10,7 +10,7 @@
 #include "selftest/pixel_bounds.h"
 #include "selftest/precision.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // Layer by layer, each in closed form (docs/numerics.md, section 5). Nothing where the ray misses
 // the box.
@@ -44,4 +44,4 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     double length_error, const Precision& precision);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

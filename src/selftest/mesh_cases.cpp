@@ -7,7 +7,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "meshes";
@@ -201,4 +201,4 @@ std::vector<SelftestCase> mesh_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -9,7 +9,7 @@
 #include "optics/segment_integral.h"
 #include "selftest/optics_range.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 MeshChords::MeshChords(const SceneMesh& mesh, const View& view, double face_error)
     : eye_(view.eye) {
@@ -86,4 +86,4 @@ MeshChords::Along MeshChords::along(const View::Ray& ray,
     return sum;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

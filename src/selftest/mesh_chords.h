@@ -13,7 +13,7 @@
 #include "scene/scene_mesh.h"
 #include "selftest/interval.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 class MeshChords {
   public:
@@ -44,4 +44,4 @@ class MeshChords {
     std::vector<Solid> solids_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::selftest

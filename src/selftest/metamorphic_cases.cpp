@@ -7,7 +7,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "metamorphic";
@@ -147,4 +147,4 @@ std::vector<SelftestCase> metamorphic_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -8,7 +8,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "numbers";
@@ -117,4 +117,4 @@ std::vector<SelftestCase> number_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

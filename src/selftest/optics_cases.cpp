@@ -9,7 +9,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "optics";
@@ -131,4 +131,4 @@ std::vector<SelftestCase> optics_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

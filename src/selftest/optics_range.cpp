@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "selftest/optics_range.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 OpticsRange point(const OpticalProperties& optics) {
@@ -29,4 +29,4 @@ OpticsRange optics_range(const TransferFunction& transfer_function, const Interv
     return range;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

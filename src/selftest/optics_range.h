@@ -6,7 +6,7 @@
 #include "optics/transfer_function.h"
 #include "selftest/interval.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // What a transfer function shows over a closed interval of scalars; both sides of steps count.
 struct OpticsRange {
@@ -18,4 +18,4 @@ struct OpticsRange {
 
 OpticsRange optics_range(const TransferFunction& transfer_function, const Interval& scalars);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

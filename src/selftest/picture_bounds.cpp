@@ -14,7 +14,7 @@
 #include "selftest/mesh_chords.h"
 #include "selftest/optics_range.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr Interval everything{-1e30, 1e30};
@@ -225,4 +225,4 @@ Fit fit_of(const PreciseImage& a, const PictureBounds& bounds_a, const PreciseIm
     return judge.fit();
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

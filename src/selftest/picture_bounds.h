@@ -11,7 +11,7 @@
 #include "selftest/pixel_bounds.h"
 #include "selftest/selftest_scene.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // Every pixel as it is exactly, and where a way to draw may put it.
 struct PictureBounds {
@@ -41,4 +41,4 @@ Fit fit_of(const PreciseImage& picture, const PictureBounds& bounds);
 Fit fit_of(const PreciseImage& a, const PictureBounds& bounds_a, const PreciseImage& b,
            const PictureBounds& bounds_b);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -16,7 +16,7 @@
 #include "reference/volume_tracer.h"
 #include "render/session.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 PreciseImage to_precise(const Image& image) {
@@ -91,4 +91,4 @@ PreciseImage PictureMaker::draw(const Scene& asked, const SceneMesh& mesh,
     return to_precise(session.picture());
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

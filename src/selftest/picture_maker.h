@@ -10,7 +10,7 @@
 #include "selftest/drawing_way.h"
 #include "volume/volume.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // Draws as `lamina render` does: facts, plan, renderer. For checks of the self-test itself it can
 // make a mistake on purpose: what it draws is then not what it was asked for.
@@ -33,4 +33,4 @@ class PictureMaker {
     std::string mistake_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 Interval over(const Interval& alpha, const Interval& color, const Interval& behind) {
@@ -46,4 +46,4 @@ std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces) 
     return pixel;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -8,7 +8,7 @@
 
 #include "selftest/interval.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // A piece of a ray: what its optical depth and its colour (not associated) can be.
 struct PieceBounds {
@@ -35,4 +35,4 @@ PixelBounds composite(const std::vector<PieceBounds>& pieces, const BlendRoundin
 // The same for pieces that are known exactly, without rounding.
 std::array<double, 4> composite_exactly(const std::vector<PieceBounds>& pieces);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

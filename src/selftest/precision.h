@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace lamina {
+namespace lamina::selftest {
 
 // How exactly a way to draw knows what it integrates; the bounds of the self-test follow from it.
 struct Precision {
@@ -24,4 +24,4 @@ struct Precision {
     static constexpr Precision traced() { return {1e-9, 1e-12, 1e-12, 1e-12, 1e-9, 0}; }
 };
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
                                          const PictureMaker& maker) {
@@ -96,4 +96,4 @@ nlohmann::ordered_json selftest_json(const std::vector<SelftestResult>& results)
     return document;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -8,7 +8,7 @@
 
 #include "selftest/selftest_case.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 struct SelftestResult {
     std::string group, scene, way, about;
@@ -28,4 +28,4 @@ std::string selftest_summary(const std::vector<SelftestResult>& results);
 // {cases: [{group, scene, way, verdict, error, bound, largest_error, ms, about, note}], counts}.
 nlohmann::ordered_json selftest_json(const std::vector<SelftestResult>& results);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

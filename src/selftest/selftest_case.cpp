@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "selftest/case_makers.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 const char* name_of(Verdict verdict) {
     switch (verdict) {
@@ -47,4 +47,4 @@ std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups)
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -7,7 +7,7 @@
 
 #include "selftest/picture_maker.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 enum class Verdict { passed, failed, refused };
 const char* name_of(Verdict verdict);
@@ -34,4 +34,4 @@ const std::vector<std::string>& selftest_groups();
 // All cases, or those of the groups named. Throws UsageError for a name that is none.
 std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

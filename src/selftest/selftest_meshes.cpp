@@ -10,7 +10,7 @@
 #include "compositing/random_bits.h"
 #include "mesh/predicates.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 std::int32_t add_point(MeshData& mesh, const LayeredBox& box, const glm::dvec3& place) {
@@ -159,4 +159,4 @@ MeshData shuffled(const MeshData& mesh, std::uint32_t seed) {
     return other;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -8,7 +8,7 @@
 #include "mesh/mesh_data.h"
 #include "selftest/layered_box.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // Every layer cut into across x across cuboids, six tets each (Kuhn).
 MeshData kuhn_tets(const LayeredBox& box, int across);
@@ -24,4 +24,4 @@ MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32
 // The same mesh with tets, their corners and the points in another order.
 MeshData shuffled(const MeshData& mesh, std::uint32_t seed);
 
-}  // namespace lamina
+}  // namespace lamina::selftest

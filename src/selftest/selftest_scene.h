@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "selftest/layered_box.h"
 
-namespace lamina {
+namespace lamina::selftest {
 
 // What a case of the self-test draws: a layered box, as a volume and as a mesh.
 struct SelftestScene {
@@ -20,4 +20,4 @@ struct SelftestScene {
     std::function<MeshData(const LayeredBox&)> mesh;
 };
 
-}  // namespace lamina
+}  // namespace lamina::selftest

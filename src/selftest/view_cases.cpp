@@ -7,7 +7,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 constexpr const char* group = "views";
@@ -116,4 +116,4 @@ std::vector<SelftestCase> view_cases() {
     return cases;
 }
 
-}  // namespace lamina
+}  // namespace lamina::selftest

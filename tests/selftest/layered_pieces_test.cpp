@@ -10,7 +10,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/picture_bounds.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 // Along the layers' axis through extinction 0 .. 2 .. 0 over a length of 3: optical depth 3.
@@ -84,4 +84,4 @@ TEST(PixelBounds, IntervalsHoldEveryChoice) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -8,7 +8,7 @@
 #include "selftest/case_makers.h"
 #include "selftest/selftest_meshes.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 SceneMesh mesh_of(MeshData data) {
@@ -44,4 +44,4 @@ TEST(MeshChords, OfABoxAddUp) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -11,7 +11,7 @@
 #include "selftest/selftest.h"
 #include "tiles/tile_capabilities.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 std::vector<SelftestResult> run_with(const std::string& mistake) {
@@ -99,4 +99,4 @@ TEST(Mistakes, OnlyThoseKnown) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::selftest

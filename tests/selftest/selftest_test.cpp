@@ -10,7 +10,7 @@
 #include "support/expect_error.h"
 #include "tiles/tile_capabilities.h"
 
-namespace lamina {
+namespace lamina::selftest {
 namespace {
 
 // One of a million tets takes most of the time; `lamina selftest` draws it.
@@ -69,4 +69,4 @@ TEST(Selftest, ReportsWhatWasRefused) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::selftest

@@ -41,7 +41,7 @@ std::string mistake_asked_for() {
 }
 
 int run(const SelftestOptions& options) {
-    const std::vector<SelftestCase> cases = selftest_cases(options.groups);
+    const std::vector<selftest::SelftestCase> cases = selftest::selftest_cases(options.groups);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
@@ -50,30 +50,30 @@ int run(const SelftestOptions& options) {
     AtomicFile report(folder / report_name), table_file(folder / table_name);
     const std::string mistake = mistake_asked_for();
     const DrawContext context(choice);
-    const PictureMaker maker(context.capabilities(), mistake);
+    const selftest::PictureMaker maker(context.capabilities(), mistake);
     if (!mistake.empty())
         print_message("lamina: warning: drawing wrongly on purpose: LAMINA_SELFTEST_MISTAKE={}\n",
                       mistake);
-    const std::vector<SelftestResult> results = run_selftest(cases, maker);
+    const std::vector<selftest::SelftestResult> results = selftest::run_selftest(cases, maker);
 
     nlohmann::ordered_json document{{"version", LAMINA_VERSION},
                                     {"commit", git_commit},
                                     {"context", renderer_and_threads(context.capabilities())},
                                     {"mistake", mistake},
                                     {"machine", describe_machine()}};
-    document.update(selftest_json(results));
+    document.update(selftest::selftest_json(results));
     OwnFiles(folder, verb_name).add({report_name, table_name});
     report.write(json_text(document, 1) + "\n");
     report.commit();
-    const std::string table = selftest_table(results);
+    const std::string table = selftest::selftest_table(results);
     table_file.write(table);
     table_file.commit();
 
     if (!options.quiet) write_result(table + "\n");
-    print_result("{}\n{}: {} of {} cases passed\n", selftest_summary(results),
-                 renderer_and_threads(context.capabilities()), count_of(results, Verdict::passed),
+    print_result("{}\n{}: {} of {} cases passed\n", selftest::selftest_summary(results),
+                 renderer_and_threads(context.capabilities()), count_of(results, selftest::Verdict::passed),
                  results.size());
-    return count_of(results, Verdict::passed) == results.size() ? 0 : bound_exceeded;
+    return count_of(results, selftest::Verdict::passed) == results.size() ? 0 : bound_exceeded;
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/scene.h"
+
+namespace lamina {
+
+// A scene file (docs/scene.md) with every key written out, from which read_scene() makes the same
+// scene: paths are absolute, numbers have all their digits, the transfer function is its points,
+// whatever they were made from.
+nlohmann::ordered_json scene_json(const Scene& scene);
+
+// Writes that. Throws Error where it cannot.
+void save_scene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace lamina
