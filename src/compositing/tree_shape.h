@@ -34,6 +34,11 @@ class TreeShape {
     bool is_leaf(int level, const SampleSpan& node) const {
         return level + 1 == levels() || node.count <= 1;
     }
+    // A node whose children are single samples, or fewer, takes them one after the other where
+    // nodes are computed in float, whatever its level: that is the same.
+    bool is_marched(int level, const SampleSpan& node) const {
+        return is_leaf(level, node) || factor(level) >= node.count;
+    }
     // Nodes that hold samples.
     std::int64_t node_count() const;
     std::int64_t leaf_count() const;

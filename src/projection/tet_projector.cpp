@@ -48,18 +48,10 @@ std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     return corners;
 }
 
-// Depths on faces in float32 are good enough where their rounding is at most this share of the
-// tet's depth: a face that is seen so nearly edge-on that it exceeds this is met by the rays of
-// hardly a pixel, unless whole walls of a mesh are.
-constexpr double float_tolerance = 2e-3;
-
 void set_pair(TetRecord::Pairs& pairs, std::size_t place, double value) {
     pairs.high[place] = static_cast<float>(value);
     pairs.low[place] = static_cast<float>(value - static_cast<double>(pairs.high[place]));
 }
-
-// Deeper than everything, and finite also after a product with any window coordinate.
-constexpr double beyond_all = -double{TetRecord::in_front_of_all};
 
 float finite_float(double value) {
     return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));

@@ -54,4 +54,12 @@ struct alignas(16) TetRecord {
 };
 static_assert(sizeof(TetRecord) == 192);
 
+// Depths on faces in float32 are good enough where their rounding is at most this share of the
+// tet's depth: a face that is seen so nearly edge-on that it exceeds this is met by the rays of
+// hardly a pixel, unless whole walls of a mesh are.
+inline constexpr double float_tolerance = 2e-3;
+
+// Deeper than everything, and finite also after a product with any window coordinate.
+inline constexpr double beyond_all = -double{TetRecord::in_front_of_all};
+
 }  // namespace lamina

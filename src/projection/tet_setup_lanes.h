@@ -42,9 +42,6 @@ struct SetupView {
 // vectors' largest numbers: 450 half ulps, for some 20 roundings.
 inline constexpr double doubtful_sign = 1e-13;
 
-// See TetProjector.
-inline constexpr double float_tolerance = 2e-3;
 inline constexpr double float_epsilon = std::numeric_limits<float>::epsilon();
-inline constexpr double beyond_all = -double{TetRecord::in_front_of_all};
 
 }  // namespace lamina

@@ -28,7 +28,8 @@ namespace lamina {
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
-// A picture is, bit for bit on the native engine, that of a new session with that scene.
+// (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
+// native engine, that of a new session with that scene.
 class Session {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
@@ -47,7 +48,7 @@ class Session {
     void set_scene(Scene scene);
     void choose_again();
 
-    // As asked for, with "auto"; and with what was chosen instead.
+    // As asked for, with "auto"; and with what was chosen instead (scene/scene_json.h saves it).
     const Scene& scene() const { return asked_; }
     const Scene& resolved_scene();
     // Throws Error where the data cannot be drawn so, or the context cannot do it.
@@ -68,7 +69,7 @@ class Session {
 
     // With the statistics of the last frame; set up where it is not.
     const FrameRenderer& renderer();
-    // What took how long, last: "measure", "plan", "set_up".
+    // What took how long, last: "facts", "trials", "plan", "set_up".
     const std::map<std::string, double>& stages_ms() const { return stages_ms_; }
 
     // How often something was done, for tests.

@@ -72,7 +72,7 @@ GlShaderTree::GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
     int most_layers = 0;
     SampleSpan node = shape_.root();  // the largest of its level
     std::vector<int> level_layers;
-    for (int level = 0; !is_leaf(level, node); ++level) {
+    for (int level = 0; !shape_.is_marched(level, node); ++level) {
         level_layers.push_back(std::min(shape_.factor(level), node.count));
         layers += level_layers.back();
         most_layers = std::max(most_layers, level_layers.back());
@@ -96,14 +96,8 @@ GlShaderTree::GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
     make_programs();
 }
 
-// A node whose children are single slabs, or fewer, marches them, whatever its level: in float that
-// is the same.
-bool GlShaderTree::is_leaf(int level, const SampleSpan& node) const {
-    return shape_.is_leaf(level, node) || shape_.factor(level) >= node.count;
-}
-
 int GlShaderTree::count_leaves(int level, const SampleSpan& node) const {
-    if (is_leaf(level, node)) return 1;
+    if (shape_.is_marched(level, node)) return 1;
     int leaves = 0;
     for (int i = 0; i < shape_.factor(level); ++i)
         leaves += count_leaves(level + 1, child_span(node, i, shape_.factor(level)));
@@ -173,7 +167,7 @@ void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
 }
 
 void GlShaderTree::add_leaves(int level, const SampleSpan& node) {
-    if (!is_leaf(level, node)) {
+    if (!shape_.is_marched(level, node)) {
         for (int i = 0; i < shape_.factor(level); ++i) {
             add_leaves(level + 1, child_span(node, i, shape_.factor(level)));
         }
@@ -223,7 +217,7 @@ gl::Program& GlShaderTree::program_for(int level, std::optional<gl::Program>& in
 }
 
 void GlShaderTree::evaluate(int level, const SampleSpan& node, int layer) {
-    if (is_leaf(level, node)) {
+    if (shape_.is_marched(level, node)) {
         draw_leaf(node, level, layer);
         return;
     }

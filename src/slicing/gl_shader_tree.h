@@ -50,7 +50,6 @@ class GlShaderTree {
         std::size_t first_vertex, end_vertex;
     };
 
-    bool is_leaf(int level, const SampleSpan& node) const;
     int count_leaves(int level, const SampleSpan& node) const;
     int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
     void choose_bands(const Capabilities& capabilities, std::int64_t layers, int most_layers);

@@ -41,7 +41,7 @@ class Marcher {
 
   private:
     void evaluate(int level, const SampleSpan& node, NodeSum* sums) {
-        if (is_marched(shape_, level, node)) {
+        if (shape_.is_marched(level, node)) {
             march(node, sums);
             return;
         }

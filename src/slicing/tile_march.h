@@ -8,12 +8,6 @@
 
 namespace lamina {
 
-// A node whose children are single slabs, or fewer, marches them, whatever its level: in float
-// that is the same.
-inline bool is_marched(const TreeShape& shape, int level, const SampleSpan& node) {
-    return shape.is_leaf(level, node) || shape.factor(level) >= node.count;
-}
-
 // Replaces a tile by the picture of a tree whose nodes are computed in float (docs/numerics.md,
 // section 4), straight compositing in registers where the root is a leaf. Each vector of pixels
 // goes through the whole tree by itself, nearest slab first. Returns the segments evaluated.
