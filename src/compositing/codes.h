@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/unreachable.h"
+
 namespace lamina {
 
 inline constexpr int max_code_bits = 16;
@@ -44,9 +46,10 @@ inline std::uint32_t round_alpha(AlphaRounding rounding, const ScaledValue& scal
             return scaled.whole;
         case AlphaRounding::nearest:
             return scaled.whole + (scaled.rest + code_noise >= 0.5 ? 1 : 0);
-        default:
+        case AlphaRounding::stochastic:
             return scaled.whole + (static_cast<double>(random) < scaled.rest * 0x1p32 ? 1 : 0);
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina

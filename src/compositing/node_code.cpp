@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/unreachable.h"
+
 namespace lamina {
 namespace {
 
@@ -35,9 +37,10 @@ double encode_depth(NodeCode code, double depth, double share) {
             return -std::expm1(-depth / share);
         case NodeCode::alpha:
             return -std::expm1(-depth);
-        default:
+        case NodeCode::minimax:
             return std::min(encode_minimax(depth, share), 1.0);
     }
+    unreachable_enum();
 }
 
 double decode_depth(NodeCode code, double value, double share) {
@@ -50,7 +53,7 @@ double decode_depth(NodeCode code, double value, double share) {
         case NodeCode::alpha:
             depth = -std::log1p(-value);
             break;
-        default:
+        case NodeCode::minimax:
             depth = decode_minimax(value, share);
             break;
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "gl/check.h"
 #include "gl/context_backends.h"
 #include "gl/filter_probe.h"
@@ -50,9 +51,10 @@ const char* advice(ContextKind kind) {
         case ContextKind::egl:
             return "install libegl1 and libegl-mesa0 or the GPU's own driver, or pass --context "
                    "osmesa";
-        default:
+        case ContextKind::automatic:
             return "install libosmesa6, or libegl1 with libegl-mesa0 or the GPU's own driver";
     }
+    unreachable_enum();
 }
 
 }  // namespace

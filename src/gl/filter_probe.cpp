@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -106,7 +107,8 @@ FilterError measure_filter_error(TextureFormat format) {
             return measure<std::uint8_t>(format, {.scale = 255, .least = 96, .range = 8});
         case TextureFormat::r16:
             return measure<std::uint16_t>(format, {.scale = 65535, .least = 32768, .range = 256});
-        default:
+        default:  // callers ask for these three formats only
+            assert(format == TextureFormat::r32f);
             return measure<float>(TextureFormat::r32f, {.scale = 1, .least = 0, .range = 1});
     }
 }

@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/unreachable.h"
 #include "projection/tile_fragments.h"
 #include "tiles/lane_pixels-inl.h"
 #include "tiles/target_pixels-inl.h"
@@ -90,8 +91,9 @@ HWY_INLINE void put_fragment(D d, const TetFragments& fragments,
                   there);
             break;
         }
-        default:
+        case FragmentOutput::native:
             blend(d, target, fragment, there);
+            break;
     }
 }
 
@@ -116,10 +118,11 @@ HWY_INLINE hn::Vec<D> put_opacity(D d, const TetFragments& fragments, hn::Vec<D>
             blend_opacity(d, target, dithered(d, target.largest, opacity, as_share(d, random)),
                           there);
             return there;
-        default:
+        case FragmentOutput::native:
             blend_opacity(d, target, opacity, there);
             return there;
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina::HWY_NAMESPACE

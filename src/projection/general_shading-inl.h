@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/unreachable.h"
 #include "projection/analytic_segment-inl.h"
 #include "projection/fragment_output-inl.h"
 #include "projection/tet_color-inl.h"
@@ -72,9 +73,14 @@ HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fr
             return table_color(d, fragments, run);
         case SegmentSource::analytic:
             return analytic_color(d, fragments, run);
-        default:
+        case SegmentSource::cut_table:
             return cut_table_color(d, fragments, run);
+        case SegmentSource::parts:
+        case SegmentSource::mean:
+        case SegmentSource::vertices:
+            break;  // these know their colour by other means than two scalars
     }
+    unreachable_enum();
 }
 
 // Puts fragments of the part or tet `number` over the pixels from `place` on.

@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "base/unreachable.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
@@ -45,9 +46,10 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind) {
             return plan.plain && plan.source == SegmentSource::parts && !plan.single_color;
         case FragmentKind::plain:
             return plan.plain;
-        default:
+        case FragmentKind::careful:
             return !is_fan(plan);
     }
+    unreachable_enum();
 }
 
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {

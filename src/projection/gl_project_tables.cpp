@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stage.h"
+#include "base/unreachable.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "slicing/shader_intervals.h"
@@ -25,9 +26,10 @@ gl::TextureFormat format_of(const SegmentTable& table) {
             return one ? gl::TextureFormat::r16 : gl::TextureFormat::rgba16;
         case TableFormat::float16:
             return one ? gl::TextureFormat::r16f : gl::TextureFormat::rgba16f;
-        default:
+        case TableFormat::float32:
             return one ? gl::TextureFormat::r32f : gl::TextureFormat::rgba32f;
     }
+    unreachable_enum();
 }
 
 template <typename Code>
@@ -64,7 +66,8 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
         case SegmentSource::analytic:
             intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
             break;
-        default:
+        case SegmentSource::mean:
+        case SegmentSource::vertices:
             break;
     }
     build_ms_ = stage.end();
@@ -93,8 +96,10 @@ void GlProjectTables::upload(const SegmentTable& table) {
             texture_->upload(whole,
                              std::span<const std::uint16_t>(to_codes<std::uint16_t>(table.texels)));
             break;
-        default:
+        case TableFormat::float16:
+        case TableFormat::float32:
             texture_->upload(whole, std::span<const float>(table.texels));
+            break;
     }
     if (plan_.table_filtered) texture_->set_filter(gl::TextureFilter::linear);
 }

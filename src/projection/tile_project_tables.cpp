@@ -34,7 +34,8 @@ TileProjectTables::TileProjectTables(const TransferFunction& transfer_function,
         case SegmentSource::analytic:
             transfer_.emplace(transfer_function, plan.range, nullptr, 0);
             break;
-        default:
+        case SegmentSource::mean:
+        case SegmentSource::vertices:
             break;
     }
     build_ms_ = stage.end();

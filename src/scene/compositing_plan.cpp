@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/compositing_plan.h"
 
+#include "base/unreachable.h"
+
 namespace lamina {
 
 Blending programmable_blending(const Capabilities& capabilities) {
@@ -16,9 +18,10 @@ const char* name_of(Blending blending) {
             return "framebuffer_fetch";
         case Blending::barrier:
             return "texture_barrier";
-        default:
+        case Blending::tiles:
             return "tiles";
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "scene/plan.h"
 
@@ -20,9 +21,10 @@ const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
             return "8 fetches, float arithmetic";
         case VolumeSampling::filtered:
             return "linear filter of a float texture (measured exact)";
-        default:
+        case VolumeSampling::hardware:
             return "hardware linear filter";
     }
+    unreachable_enum();
 }
 
 std::string line(const char* what, const std::string& value) {
@@ -53,9 +55,10 @@ const char* text_of(Blending blending) {
             return "framebuffer fetch";
         case Blending::barrier:
             return "texture barriers";
-        default:
+        case Blending::tiles:
             return "the native engine";
     }
+    unreachable_enum();
 }
 
 std::string text_of_codes(const CompositingPlan& plan) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "compositing/tree_shape.h"
 #include "scene/slice_planner.h"
 
@@ -20,9 +21,12 @@ double bytes_per_pixel(Target target) {
             return 16;
         case Target::fixed8:
             return 4;
-        default:
+        case Target::float16:
+        case Target::fixed16:
+        case Target::emulated:
             return 8;
     }
+    unreachable_enum();
 }
 
 // The native engine keeps bytes as words of four neighbours.

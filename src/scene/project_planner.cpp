@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/unreachable.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
@@ -350,9 +351,10 @@ const char* name_of(SegmentSource source) {
             return "analytic";
         case SegmentSource::mean:
             return "mean";
-        default:
+        case SegmentSource::vertices:
             return "vertices";
     }
+    unreachable_enum();
 }
 
 ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/project_settings.h"
 
+#include "base/unreachable.h"
+
 namespace lamina {
 
 const char* name_of(Coloring coloring) {
@@ -11,9 +13,10 @@ const char* name_of(Coloring coloring) {
             return "attenuation";
         case Coloring::vertex:
             return "vertex";
-        default:
+        case Coloring::analytic:
             return "analytic";
     }
+    unreachable_enum();
 }
 
 const char* name_of(Interpolation interpolation) {
@@ -30,9 +33,10 @@ const char* name_of(ProjectGeometry geometry) {
             return "auto";
         case ProjectGeometry::silhouette:
             return "silhouette";
-        default:
+        case ProjectGeometry::triangles:
             return "triangles";
     }
+    unreachable_enum();
 }
 
 const char* name_of(ProjectDither dither) {
@@ -41,9 +45,10 @@ const char* name_of(ProjectDither dither) {
             return "none";
         case ProjectDither::alpha:
             return "alpha";
-        default:
+        case ProjectDither::after_blend:
             return "after_blend";
     }
+    unreachable_enum();
 }
 
 const char* name_of(LengthMapping mapping) {
@@ -52,9 +57,10 @@ const char* name_of(LengthMapping mapping) {
             return "octave";
         case LengthMapping::log2:
             return "log2";
-        default:
+        case LengthMapping::linear:
             return "linear";
     }
+    unreachable_enum();
 }
 
 const char* name_of(TableStore store) {
@@ -69,9 +75,10 @@ const char* name_of(TableFormat format) {
             return "fixed8";
         case TableFormat::float16:
             return "float16";
-        default:
+        case TableFormat::float32:
             return "float32";
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include "base/unreachable.h"
 #include "volume/nrrd.h"
 
 namespace lamina {
@@ -11,9 +12,10 @@ const char* name_of(Method method) {
             return "slice";
         case Method::project:
             return "project";
-        default:
+        case Method::trace:
             return "trace";
     }
+    unreachable_enum();
 }
 
 const char* name_of(Target target) {
@@ -26,9 +28,10 @@ const char* name_of(Target target) {
             return "fixed16";
         case Target::fixed8:
             return "fixed8";
-        default:
+        case Target::emulated:
             return "emulated";
     }
+    unreachable_enum();
 }
 
 const char* name_of(Classification classification) {
@@ -45,9 +48,10 @@ const char* name_of(Filter filter) {
             return "exact";
         case Filter::hardware:
             return "hardware";
-        default:
+        case Filter::automatic:
             return "auto";
     }
+    unreachable_enum();
 }
 
 const char* name_of(NodeArithmetic nodes) {
@@ -60,9 +64,10 @@ const char* name_of(NodeCode code) {
             return "minimax";
         case NodeCode::phi:
             return "phi";
-        default:
+        case NodeCode::alpha:
             return "alpha";
     }
+    unreachable_enum();
 }
 
 const char* name_of(AlphaRounding rounding) {
@@ -71,9 +76,10 @@ const char* name_of(AlphaRounding rounding) {
             return "truncate";
         case AlphaRounding::nearest:
             return "nearest";
-        default:
+        case AlphaRounding::stochastic:
             return "stochastic";
     }
+    unreachable_enum();
 }
 
 const char* name_of(OverRounding rounding) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "scene/target_choice.h"
 
 namespace lamina {
@@ -29,9 +30,10 @@ double storage_error(const TreeQuestion& question) {
             return 0.5 / 65535;
         case Target::fixed8:
             return 0.5 / 255;
-        default:
+        case Target::emulated:
             return 0.5 / largest_code(question.emulation.bits);
     }
+    unreachable_enum();
 }
 
 // How far a slab's opacity may be from its value, in storage errors: half a code where it is

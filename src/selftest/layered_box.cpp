@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/unreachable.h"
+
 namespace lamina::selftest {
 namespace {
 
@@ -40,9 +42,10 @@ Volume LayeredBox::volume() const {
             return {grid, type, fill<std::int16_t>(*this)};
         case SampleType::uint16:
             return {grid, type, fill<std::uint16_t>(*this)};
-        default:
+        case SampleType::float32:
             return {grid, type, fill<float>(*this)};
     }
+    unreachable_enum();
 }
 
 glm::dvec3 LayeredBox::world(const glm::dvec3& place) const {

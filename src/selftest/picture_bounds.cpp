@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/unreachable.h"
 #include "selftest/layered_pieces.h"
 #include "selftest/mesh_chords.h"
 #include "selftest/optics_range.h"
@@ -60,9 +61,11 @@ double code_step(Target target) {
             return 1.0 / 65535;
         case Target::float16:
             return 0x1p-10;
-        default:
+        case Target::float32:
+        case Target::emulated:
             return 0x1p-23;
     }
+    unreachable_enum();
 }
 
 // Coordinates of the world have 53 bits, whatever the size of the box.

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "selftest/case_makers.h"
 
 namespace lamina::selftest {
@@ -19,9 +20,10 @@ const char* name_of(Verdict verdict) {
             return "passed";
         case Verdict::failed:
             return "failed";
-        default:
+        case Verdict::refused:
             return "refused";
     }
+    unreachable_enum();
 }
 
 const std::vector<std::string>& selftest_groups() {

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/unreachable.h"
+
 namespace lamina {
 
 gl::TextureFormat color_format(const CompositingPlan& plan) {
@@ -13,9 +15,12 @@ gl::TextureFormat color_format(const CompositingPlan& plan) {
             return gl::TextureFormat::rgba32f;
         case Target::float16:
             return gl::TextureFormat::rgba16f;
-        default:
+        case Target::fixed16:
+        case Target::fixed8:
+        case Target::emulated:
             return plan.code_bits() > 8 ? gl::TextureFormat::rgba16 : gl::TextureFormat::rgba8;
     }
+    unreachable_enum();
 }
 
 gl::TextureFormat opacity_format(const CompositingPlan& plan) {
@@ -24,9 +29,12 @@ gl::TextureFormat opacity_format(const CompositingPlan& plan) {
             return gl::TextureFormat::r32f;
         case Target::float16:
             return gl::TextureFormat::r16f;
-        default:
+        case Target::fixed16:
+        case Target::fixed8:
+        case Target::emulated:
             return plan.code_bits() > 8 ? gl::TextureFormat::r16 : gl::TextureFormat::r8;
     }
+    unreachable_enum();
 }
 
 void set_compositing(gl::Defines& defines, const CompositingPlan& plan) {

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include "base/stage.h"
+#include "base/unreachable.h"
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
@@ -34,9 +35,11 @@ int sampling_define(VolumeSampling sampling) {
             return 0;
         case VolumeSampling::fetch:
             return 1;
-        default:
+        case VolumeSampling::filtered:
+        case VolumeSampling::hardware:
             return 2;
     }
+    unreachable_enum();
 }
 
 }  // namespace

@@ -96,15 +96,20 @@ class Marcher {
 
     static Floats in_format(Target target, Floats value) {
         const FloatTag d;
+        float largest = 255;
         switch (target) {
             case Target::float32:
                 return value;
             case Target::float16:
                 return truncate_to_half(d, value);
-            default:
-                const float largest = target == Target::fixed16 ? 65535.0f : 255.0f;
-                return hn::Div(native_code(d, largest, value), hn::Set(d, largest));
+            case Target::fixed16:
+                largest = 65535;
+                break;
+            case Target::fixed8:
+            case Target::emulated:
+                break;
         }
+        return hn::Div(native_code(d, largest, value), hn::Set(d, largest));
     }
 
     // Sums of thousands of small terms: of a block in float, in which nothing is lost as opacity

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/unreachable.h"
 #include "slicing/tile_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -230,9 +231,10 @@ HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, 
             return sample(std::integral_constant<TileLayout, TileLayout::bytes>());
         case TileLayout::words:
             return sample(std::integral_constant<TileLayout, TileLayout::words>());
-        default:
+        case TileLayout::floats:
             return sample(std::integral_constant<TileLayout, TileLayout::floats>());
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina::HWY_NAMESPACE

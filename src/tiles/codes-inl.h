@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "base/unreachable.h"
 #include "compositing/codes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,10 +48,11 @@ HWY_INLINE hn::Vec<D> round_alpha(D d, AlphaRounding rounding,
         case AlphaRounding::nearest:
             return step_up(d, scaled.whole,
                            hn::Ge(hn::Add(scaled.rest, hn::Set(d, code_noise)), hn::Set(d, 0.5)));
-        default:
+        case AlphaRounding::stochastic:
             return step_up(d, scaled.whole,
                            hn::Lt(random, hn::Mul(scaled.rest, hn::Set(d, 0x1p32))));
     }
+    unreachable_enum();
 }
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/unreachable.h"
 #include "compositing/node_code.h"
 #include "tiles/arithmetic-inl.h"
 #include "tiles/opacity-inl.h"
@@ -75,9 +76,10 @@ HWY_INLINE hn::Vec<D> encode_depth(D d, NodeCode code, hn::Vec<D> depth, float s
             return opacity_from_depth(d, hn::Div(depth, hn::Set(d, share)));
         case NodeCode::alpha:
             return opacity_from_depth(d, depth);
-        default:
+        case NodeCode::minimax:
             return encode_minimax(d, depth, share);
     }
+    unreachable_enum();
 }
 
 template <class D>
@@ -91,7 +93,7 @@ HWY_INLINE hn::Vec<D> decode_depth(D d, NodeCode code, hn::Vec<D> value, float s
         case NodeCode::alpha:
             depth = depth_from_opacity(d, value);
             break;
-        default:
+        case NodeCode::minimax:
             depth = decode_minimax(d, value, share);
             break;
     }

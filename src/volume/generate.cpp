@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/unreachable.h"
 #include "volume/analytic_generators.h"
 #include "volume/mixing_generator.h"
 #include "volume/nrrd.h"
@@ -80,9 +81,12 @@ void fill_slices(const Generator& generator, const Grid& grid, SampleType type, 
             return fill(static_cast<std::uint8_t*>(samples));
         case SampleType::uint16:
             return fill(static_cast<std::uint16_t*>(samples));
-        default:
+        case SampleType::float32:
             return fill(static_cast<float*>(samples));
+        case SampleType::int16:
+            break;  // generated_grid() rejects it
     }
+    unreachable_enum();
 }
 
 }  // namespace

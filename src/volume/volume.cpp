@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume/volume.h"
 
-#include <cassert>
+#include "base/unreachable.h"
 
 namespace lamina {
 
@@ -15,8 +15,7 @@ std::size_t bytes_of(SampleType type) {
         case SampleType::float32:
             return 4;
     }
-    assert(false);
-    return 0;
+    unreachable_enum();
 }
 
 const char* name_of(SampleType type) {
@@ -30,8 +29,7 @@ const char* name_of(SampleType type) {
         case SampleType::float32:
             return "float";
     }
-    assert(false);
-    return "";
+    unreachable_enum();
 }
 
 }  // namespace lamina

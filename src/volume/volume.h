@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "base/unreachable.h"
 #include "volume/grid.h"
 
 namespace lamina {
@@ -41,9 +42,10 @@ class Volume {
                 return visitor(static_cast<const std::int16_t*>(data()));
             case SampleType::uint16:
                 return visitor(static_cast<const std::uint16_t*>(data()));
-            default:
+            case SampleType::float32:
                 return visitor(static_cast<const float*>(data()));
         }
+        unreachable_enum();
     }
 
   private:

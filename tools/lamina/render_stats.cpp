@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/median.h"
+#include "base/unreachable.h"
 
 namespace lamina {
 namespace {
@@ -26,9 +27,10 @@ const char* word_of(VolumeSampling sampling) {
             return "fetch";
         case VolumeSampling::filtered:
             return "filtered";
-        default:
+        case VolumeSampling::hardware:
             return "hardware";
     }
+    unreachable_enum();
 }
 
 void add_emulation(const CompositingPlan& plan, Json& json) {
@@ -128,9 +130,10 @@ Json plan_to_json(const Plan& plan) {
             return slice_to_json(plan.slice);
         case Method::project:
             return project_to_json(plan.project);
-        default:
+        case Method::trace:
             return {{"method", name_of(plan.method)}};
     }
+    unreachable_enum();
 }
 
 }  // namespace
