@@ -25,8 +25,10 @@ uint round_alpha(ScaledValue scaled, uint random) {
     return scaled.whole;
 #elif ALPHA_ROUNDING == ROUND_NEAREST
     return scaled.whole + (scaled.rest + code_noise >= 0.5LF ? 1u : 0u);
-#else
+#elif ALPHA_ROUNDING == ROUND_STOCHASTIC
     return scaled.whole + (double(random) < scaled.rest * 4294967296.0LF ? 1u : 0u);
+#else
+#error ALPHA_ROUNDING is none of these
 #endif
 }
 #endif

@@ -24,13 +24,15 @@ float encode_depth(float depth, float share) {
     return opacity_from_depth(depth / share);
 #elif NODE_CODE == CODE_ALPHA
     return opacity_from_depth(depth);
-#else
+#elif NODE_CODE == CODE_MINIMAX
     float sigma = depth / share;
     float log_part = -inverse_e * log(share);
     float scaled = opacity_from_depth(sigma);
     if (sigma > 1.0) scaled = 1.0 - inverse_e + inverse_e * log(sigma);
     if (sigma > 1.0 && depth > 1.0) scaled = 1.0 + log_part - exp(-depth);
     return min(scaled / (1.0 + log_part), 1.0);
+#else
+#error NODE_CODE is none of these
 #endif
 }
 
@@ -40,12 +42,14 @@ float decode_depth(float value, float share) {
     return min(share * depth_from_opacity(value), opaque_node_depth);
 #elif NODE_CODE == CODE_ALPHA
     return min(depth_from_opacity(value), opaque_node_depth);
-#else
+#elif NODE_CODE == CODE_MINIMAX
     float log_part = -inverse_e * log(share);
     float u = value * (1.0 + log_part);
     if (u <= 1.0 - inverse_e) return share * depth_from_opacity(u);
     if (u <= 1.0 - inverse_e + log_part) return share * exp(euler * (u - 1.0) + 1.0);
     float rest = 1.0 + log_part - u;  // exp(-depth)
     return rest > 0.0 ? min(-log(rest), opaque_node_depth) : opaque_node_depth;
+#else
+#error NODE_CODE is none of these
 #endif
 }

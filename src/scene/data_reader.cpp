@@ -28,9 +28,10 @@ GeneratorRequest read_generator(JsonReader reader) {
         request.size = {{size[0].get<std::int64_t>(), size[1].get<std::int64_t>(),
                          size[2].get<std::int64_t>()}};
     }
-    request.type = reader.choice<SampleType>("type", {{"uint8", SampleType::uint8},
-                                                      {"uint16", SampleType::uint16},
-                                                      {"float", SampleType::float32}});
+    std::vector<std::pair<const char*, SampleType>> types;  // generated_grid() knows no others
+    for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32})
+        types.emplace_back(name_of(type), type);
+    request.type = reader.choice<SampleType>("type", types);
     try {
         generated_grid(request);
     } catch (const Error& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/project_reader.h"
 
+#include "base/enum_words.h"
 #include "scene/tree_reader.h"
 
 namespace lamina {
@@ -10,16 +11,9 @@ TableSettings read_table(JsonReader reader) {
     TableSettings table;
     if (reader.has("scalar")) table.scalar = static_cast<int>(reader.whole("scalar", 2, 4096));
     if (reader.has("length")) table.length = static_cast<int>(reader.whole("length", 1, 64));
-    table.mapping = reader.choice<LengthMapping>("mapping", {{"octave", LengthMapping::octave},
-                                                             {"log2", LengthMapping::log2},
-                                                             {"linear", LengthMapping::linear}});
-    table.store = reader.choice<TableStore>(
-        "store",
-        {{"mean_extinction", TableStore::mean_extinction}, {"opacity", TableStore::opacity}});
-    table.format = reader.choice<TableFormat>("format", {{"fixed16", TableFormat::fixed16},
-                                                         {"fixed8", TableFormat::fixed8},
-                                                         {"float16", TableFormat::float16},
-                                                         {"float32", TableFormat::float32}});
+    table.mapping = reader.choice<LengthMapping>("mapping", enum_words<LengthMapping>());
+    table.store = reader.choice<TableStore>("store", enum_words<TableStore>());
+    table.format = reader.choice<TableFormat>("format", enum_words<TableFormat>());
     table.construction = reader.choice<TableConstruction>(
         "construction",
         {{"exact", TableConstruction::exact}, {"incremental", TableConstruction::incremental}});
@@ -42,29 +36,17 @@ void check_geometry(JsonReader& reader, const ProjectSettings& project) {
 
 ProjectSettings read_project(JsonReader reader) {
     ProjectSettings project;
-    project.coloring =
-        reader.choice<Coloring>("coloring", {{"preintegrated", Coloring::preintegrated},
-                                             {"attenuation", Coloring::attenuation},
-                                             {"vertex", Coloring::vertex},
-                                             {"analytic", Coloring::analytic}});
-    project.interpolation = reader.choice<Interpolation>(
-        "interpolation",
-        {{"perspective", Interpolation::perspective}, {"linear", Interpolation::linear}});
-    project.thickness =
-        reader.choice<Thickness>("thickness", {{"exact", Thickness::exact}, {"dz", Thickness::dz}});
+    project.coloring = reader.choice<Coloring>("coloring", enum_words<Coloring>());
+    project.interpolation =
+        reader.choice<Interpolation>("interpolation", enum_words<Interpolation>());
+    project.thickness = reader.choice<Thickness>("thickness", enum_words<Thickness>());
     project.order = reader.choice<ProjectOrder>("order", {{"auto", ProjectOrder::automatic},
                                                           {"mpvo", ProjectOrder::mpvo},
                                                           {"exact", ProjectOrder::exact},
                                                           {"centroid", ProjectOrder::centroid},
                                                           {"none", ProjectOrder::none}});
-    project.geometry =
-        reader.choice<ProjectGeometry>("geometry", {{"auto", ProjectGeometry::automatic},
-                                                    {"silhouette", ProjectGeometry::silhouette},
-                                                    {"triangles", ProjectGeometry::triangles}});
-    project.dither =
-        reader.choice<ProjectDither>("dither", {{"none", ProjectDither::none},
-                                                {"alpha", ProjectDither::alpha},
-                                                {"after_blend", ProjectDither::after_blend}});
+    project.geometry = reader.choice<ProjectGeometry>("geometry", enum_words<ProjectGeometry>());
+    project.dither = reader.choice<ProjectDither>("dither", enum_words<ProjectDither>());
     if (reader.has("table") && reader.value("table") != "auto") {
         if (!reader.value("table").is_object())
             reader.reject("table", "an object {\"scalar\": ...}, or \"auto\"");

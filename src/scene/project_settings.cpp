@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/project_settings.h"
 
-#include "base/unreachable.h"
-
 namespace lamina {
 
+// The words of every enum below are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Coloring coloring) {
     switch (coloring) {
         case Coloring::preintegrated:
@@ -16,15 +15,27 @@ const char* name_of(Coloring coloring) {
         case Coloring::analytic:
             return "analytic";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(Interpolation interpolation) {
-    return interpolation == Interpolation::perspective ? "perspective" : "linear";
+    switch (interpolation) {
+        case Interpolation::perspective:
+            return "perspective";
+        case Interpolation::linear:
+            return "linear";
+    }
+    return nullptr;
 }
 
 const char* name_of(Thickness thickness) {
-    return thickness == Thickness::exact ? "exact" : "dz";
+    switch (thickness) {
+        case Thickness::exact:
+            return "exact";
+        case Thickness::dz:
+            return "dz";
+    }
+    return nullptr;
 }
 
 const char* name_of(ProjectGeometry geometry) {
@@ -36,7 +47,7 @@ const char* name_of(ProjectGeometry geometry) {
         case ProjectGeometry::triangles:
             return "triangles";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(ProjectDither dither) {
@@ -48,7 +59,7 @@ const char* name_of(ProjectDither dither) {
         case ProjectDither::after_blend:
             return "after_blend";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(LengthMapping mapping) {
@@ -60,11 +71,17 @@ const char* name_of(LengthMapping mapping) {
         case LengthMapping::linear:
             return "linear";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(TableStore store) {
-    return store == TableStore::mean_extinction ? "mean_extinction" : "opacity";
+    switch (store) {
+        case TableStore::mean_extinction:
+            return "mean_extinction";
+        case TableStore::opacity:
+            return "opacity";
+    }
+    return nullptr;
 }
 
 const char* name_of(TableFormat format) {
@@ -78,7 +95,7 @@ const char* name_of(TableFormat format) {
         case TableFormat::float32:
             return "float32";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 }  // namespace lamina

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
-#include "base/unreachable.h"
 #include "volume/nrrd.h"
 
 namespace lamina {
 
+// The words of every enum below are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Method method) {
     switch (method) {
         case Method::slice:
@@ -15,7 +15,7 @@ const char* name_of(Method method) {
         case Method::trace:
             return "trace";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(Target target) {
@@ -31,15 +31,27 @@ const char* name_of(Target target) {
         case Target::emulated:
             return "emulated";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(Classification classification) {
-    return classification == Classification::post ? "post" : "preintegrated";
+    switch (classification) {
+        case Classification::post:
+            return "post";
+        case Classification::preintegrated:
+            return "preintegrated";
+    }
+    return nullptr;
 }
 
 const char* name_of(Order order) {
-    return order == Order::back_to_front ? "back_to_front" : "front_to_back";
+    switch (order) {
+        case Order::back_to_front:
+            return "back_to_front";
+        case Order::front_to_back:
+            return "front_to_back";
+    }
+    return nullptr;
 }
 
 const char* name_of(Filter filter) {
@@ -51,11 +63,17 @@ const char* name_of(Filter filter) {
         case Filter::automatic:
             return "auto";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(NodeArithmetic nodes) {
-    return nodes == NodeArithmetic::shader ? "shader" : "fixed";
+    switch (nodes) {
+        case NodeArithmetic::shader:
+            return "shader";
+        case NodeArithmetic::fixed:
+            return "fixed";
+    }
+    return nullptr;
 }
 
 const char* name_of(NodeCode code) {
@@ -67,7 +85,7 @@ const char* name_of(NodeCode code) {
         case NodeCode::alpha:
             return "alpha";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(AlphaRounding rounding) {
@@ -79,11 +97,17 @@ const char* name_of(AlphaRounding rounding) {
         case AlphaRounding::stochastic:
             return "stochastic";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 const char* name_of(OverRounding rounding) {
-    return rounding == OverRounding::separate ? "separate" : "fused";
+    switch (rounding) {
+        case OverRounding::separate:
+            return "separate";
+        case OverRounding::fused:
+            return "fused";
+    }
+    return nullptr;
 }
 
 Volume load_volume(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_words.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
 #include "image/image_limits.h"
@@ -82,22 +83,16 @@ void check_project_dither(JsonReader& reader, const Scene& scene) {
 }
 
 void read_target(JsonReader& reader, Scene& scene) {
-    constexpr std::optional<Target> automatic;
-    const auto target =
-        reader.choice<std::optional<Target>>("target", {{"float32", Target::float32},
-                                                        {"float16", Target::float16},
-                                                        {"fixed16", Target::fixed16},
-                                                        {"fixed8", Target::fixed8},
-                                                        {"emulated", Target::emulated},
-                                                        {"auto", automatic}});
+    std::vector<std::pair<const char*, std::optional<Target>>> words;
+    for (const auto& [word, target] : enum_words<Target>()) words.emplace_back(word, target);
+    words.emplace_back("auto", std::nullopt);
+    const auto target = reader.choice<std::optional<Target>>("target", words);
     scene.automatic_target = !target;
     scene.target = target.value_or(Target::float32);
 }
 
 void read_render(JsonReader reader, Scene& scene) {
-    scene.method = reader.choice<Method>(
-        "method",
-        {{"slice", Method::slice}, {"project", Method::project}, {"trace", Method::trace}});
+    scene.method = reader.choice<Method>("method", enum_words<Method>());
     read_target(reader, scene);
     scene.emulate = read_emulation(reader.object("emulate"));
     scene.max_error = reader.number_or("max_error", scene.max_error);

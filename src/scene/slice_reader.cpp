@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/slice_reader.h"
 
+#include "base/enum_words.h"
 #include "compositing/dither.h"
 #include "scene/tree_reader.h"
 
@@ -54,14 +55,10 @@ SliceSettings read_slice(JsonReader reader) {
         }
         slice.samples = static_cast<int>(reader.whole("samples", 1, max_slabs));
     }
-    slice.classification = reader.choice<Classification>(
-        "classification",
-        {{"post", Classification::post}, {"preintegrated", Classification::preintegrated}});
-    slice.order = reader.choice<Order>("order", {{"back_to_front", Order::back_to_front},
-                                                 {"front_to_back", Order::front_to_back}});
-    slice.filter = reader.choice<Filter>(
-        "filter",
-        {{"exact", Filter::exact}, {"hardware", Filter::hardware}, {"auto", Filter::automatic}});
+    slice.classification =
+        reader.choice<Classification>("classification", enum_words<Classification>());
+    slice.order = reader.choice<Order>("order", enum_words<Order>());
+    slice.filter = reader.choice<Filter>("filter", enum_words<Filter>());
     if (reader.has("dither")) slice.dither = read_dither(reader.object("dither"));
     slice.tree = read_tree(reader);
     if (reader.has("table") && reader.value("table") != "auto") {
@@ -78,12 +75,8 @@ Emulation read_emulation(JsonReader reader) {
     if (reader.has("bits")) {
         emulation.bits = static_cast<int>(reader.whole("bits", 1, max_code_bits));
     }
-    emulation.alpha =
-        reader.choice<AlphaRounding>("alpha", {{"truncate", AlphaRounding::truncate},
-                                               {"nearest", AlphaRounding::nearest},
-                                               {"stochastic", AlphaRounding::stochastic}});
-    emulation.over = reader.choice<OverRounding>(
-        "over", {{"separate", OverRounding::separate}, {"fused", OverRounding::fused}});
+    emulation.alpha = reader.choice<AlphaRounding>("alpha", enum_words<AlphaRounding>());
+    emulation.over = reader.choice<OverRounding>("over", enum_words<OverRounding>());
     emulation.seed = read_seed(reader);
     reader.close();
     return emulation;

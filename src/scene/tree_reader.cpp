@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/tree_reader.h"
 
+#include "base/enum_words.h"
 #include "compositing/tree_shape.h"
+#include "scene/scene.h"
 
 namespace lamina {
 namespace {
@@ -35,11 +37,8 @@ std::vector<int> read_factors(JsonReader& reader) {
 TreeSettings read_object(JsonReader reader) {
     TreeSettings tree;
     tree.factors = read_factors(reader);
-    tree.nodes = reader.choice<NodeArithmetic>(
-        "nodes", {{"shader", NodeArithmetic::shader}, {"fixed", NodeArithmetic::fixed}});
-    tree.code = reader.choice<NodeCode>(
-        "code",
-        {{"minimax", NodeCode::minimax}, {"phi", NodeCode::phi}, {"alpha", NodeCode::alpha}});
+    tree.nodes = reader.choice<NodeArithmetic>("nodes", enum_words<NodeArithmetic>());
+    tree.code = reader.choice<NodeCode>("code", enum_words<NodeCode>());
     if (reader.has("alpha_bits")) {
         if (reader.value("alpha_bits") != 8 && reader.value("alpha_bits") != 16) {
             reader.reject("alpha_bits", "8 or 16");

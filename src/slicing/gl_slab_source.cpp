@@ -29,15 +29,16 @@ gl::Texture upload_distances(const OccupiedBricks& bricks) {
     return texture;
 }
 
-int sampling_define(VolumeSampling sampling) {
+// Of slicing/segment.glsl, which numbers them.
+const char* sampling_define(VolumeSampling sampling) {
     switch (sampling) {
         case VolumeSampling::none:
-            return 0;
+            return "SAMPLING_NONE";
         case VolumeSampling::fetch:
-            return 1;
+            return "SAMPLING_FETCH";
         case VolumeSampling::filtered:
         case VolumeSampling::hardware:
-            return 2;
+            return "SAMPLING_FILTER";
     }
     unreachable_enum();
 }

@@ -7,6 +7,7 @@
 
 #include "base/progress.h"
 #include "compositing/unit_opacity.h"
+#include "scene/scene.h"
 #include "study/dither_spans.h"
 #include "study/figure_files.h"
 #include "study/findings.h"
@@ -21,10 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int depths[] = {64, 256, 1024, 4096};
 constexpr int increments[] = {1, 2, 4, 8, 16};
-
-const char* word_of(OverRounding over) {
-    return over == OverRounding::separate ? "separate" : "fused";
-}
 
 void append(Json& row, const ErrorNorms& e) {
     row["linf"] = e.linf;
@@ -47,7 +44,7 @@ Json measure_period(int samples, int period, double color, OverRounding over) {
     setting.emulation.over = over;
     setting.dither = Dither{.period = period};
     const Curve curve = composite_ramp(setting);
-    Json row{{"samples", samples}, {"period", period}, {"color", color}, {"over", word_of(over)}};
+    Json row{{"samples", samples}, {"period", period}, {"color", color}, {"over", name_of(over)}};
     append(row, error_of(curve, exact_ramp(color)));
     row["first_column_shown"] = first_shown(curve);
     row["first_column_predicted"] = predicted_first_shown(samples, period);
@@ -81,7 +78,7 @@ Json measure_increment(const RampSetting& setting) {
     const Dither& dither = *setting.dither;
     Json row{{"samples", setting.samples},    {"period", dither.period},
              {"increment", dither.increment}, {"color", setting.color},
-             {"dither_color", dither.color},  {"over", word_of(setting.emulation.over)}};
+             {"dither_color", dither.color},  {"over", name_of(setting.emulation.over)}};
     append(row, error_of(composite_ramp(setting), exact_ramp(setting.color)));
     return row;
 }

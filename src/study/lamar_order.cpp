@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "compositing/random_bits.h"
+#include "scene/scene.h"
 #include "study/error_json.h"
 #include "study/figure_files.h"
 #include "study/findings.h"
@@ -90,10 +91,6 @@ OrderErrors measure_orders(const OrderCase& order_case) {
     return {error_of(front, exact), error_of(back, exact)};
 }
 
-const char* word_of(OverRounding over) {
-    return over == OverRounding::separate ? "separate" : "fused";
-}
-
 // How many cases each order is better in, by L2.
 struct Score {
     int front = 0, equal = 0, back = 0;
@@ -170,7 +167,7 @@ Json equal_fragments() {
                 int different = 0;
                 for (std::size_t x = 0; x < back.size(); ++x) different += front[x] != back[x];
                 const Curve exact = exact_ramp(color);
-                rows.push_back({{"over", word_of(over)},
+                rows.push_back({{"over", name_of(over)},
                                 {"color", color},
                                 {"samples", samples},
                                 {"different_columns", different},
@@ -187,7 +184,7 @@ Json to_json(const OrderCase& order_case, const OrderErrors& errors, const char*
             {"largest_code", order_case.largest},
             {"colors", order_case.random_colors ? "random" : "white"},
             {"opacities", order_case.whole_codes ? "whole codes" : "truncated"},
-            {"over", word_of(order_case.over)},
+            {"over", name_of(order_case.over)},
             {"front_to_back", to_json(errors.front_to_back)},
             {"back_to_front", to_json(errors.back_to_front)},
             {"better", better}};

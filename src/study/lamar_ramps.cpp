@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene.h"
 #include "study/figure_files.h"
 #include "study/findings.h"
 #include "study/lamar.h"
@@ -85,7 +86,7 @@ Json reproduce_figure2(const std::filesystem::path& folder) {
 Json reproduce_figure3(const std::filesystem::path& folder) {
     std::vector<NamedCurve> curves{{"software", exact_ramp(0.5)}};
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
-        const char* const word = rounding == OverRounding::separate ? "separate" : "fused";
+        const char* const word = name_of(rounding);
         for (const int samples : depths) {
             RampSetting setting{.samples = samples, .color = 0.5};
             setting.emulation.over = rounding;

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of enums are those of the schema, and shaders number enums as C++ does.
+#include "base/enum_words.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/file_bytes.h"
+#include "base/json_text.h"
+#include "scene/project_plan.h"
+#include "scene/scene.h"
+
+namespace lamina {
+namespace {
+
+std::string text_of_shader(const std::string& name) {
+    return read_file_bytes(fmt::format("{}/shaders/{}", LAMINA_SOURCE_DIR, name));
+}
+
+// A line `#define PREFIX_WORD number` for each value, and no number beyond.
+template <typename Enum>
+void expect_numbers(const std::string& shader, const std::string& prefix) {
+    const std::string text = text_of_shader(shader);
+    const std::string start = fmt::format("#define {}", prefix);
+    std::size_t count = 0;
+    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + 1))
+        ++count;
+    const auto words = enum_words<Enum>();
+    EXPECT_EQ(count, words.size()) << shader << " " << prefix;
+    for (const auto& [word, value] : words) {
+        std::string name = prefix;
+        for (const char* c = word; *c != '\0'; ++c)
+            name += static_cast<char>(std::toupper(static_cast<unsigned char>(*c)));
+        const std::string line = fmt::format("#define {} {}", name, static_cast<int>(value));
+        const std::size_t at = text.find(line);
+        ASSERT_NE(at, std::string::npos) << shader << ": " << line;
+        EXPECT_FALSE(std::isalnum(static_cast<unsigned char>(text[at + line.size()]))) << line;
+    }
+}
+
+TEST(EnumWords, ShadersHaveTheNumbersOfTheirTwins) {
+    expect_numbers<NodeCode>("compositing/node_code.glsl", "CODE_");
+    expect_numbers<AlphaRounding>("compositing/codes.glsl", "ROUND_");
+    expect_numbers<SegmentSource>("projection/tet.frag", "SOURCE_");
+    expect_numbers<LengthMapping>("optics/segment_table.glsl", "MAPPING_");
+    expect_numbers<TableStore>("optics/segment_table.glsl", "STORE_");
+}
+
+template <typename Enum>
+std::string words_of() {
+    std::string words;
+    for (const auto& [word, value] : enum_words<Enum>()) {
+        EXPECT_EQ(name_of(value), std::string(word));
+        if (!words.empty()) words += ' ';
+        words += word;
+    }
+    return words;
+}
+
+TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
+    EXPECT_EQ(words_of<Method>(), "slice project trace");
+    EXPECT_EQ(words_of<Target>(), "float32 float16 fixed16 fixed8 emulated");
+    EXPECT_EQ(words_of<Classification>(), "post preintegrated");
+    EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");
+    EXPECT_EQ(words_of<Filter>(), "exact hardware auto");
+    EXPECT_EQ(words_of<NodeArithmetic>(), "shader fixed");
+    EXPECT_EQ(words_of<NodeCode>(), "minimax phi alpha");
+    EXPECT_EQ(words_of<AlphaRounding>(), "truncate nearest stochastic");
+    EXPECT_EQ(words_of<OverRounding>(), "separate fused");
+    EXPECT_EQ(words_of<Coloring>(), "preintegrated attenuation vertex analytic");
+    EXPECT_EQ(words_of<Interpolation>(), "perspective linear");
+    EXPECT_EQ(words_of<Thickness>(), "exact dz");
+    EXPECT_EQ(words_of<ProjectGeometry>(), "auto silhouette triangles");
+    EXPECT_EQ(words_of<ProjectDither>(), "none alpha after_blend");
+    EXPECT_EQ(words_of<LengthMapping>(), "octave log2 linear");
+    EXPECT_EQ(words_of<TableStore>(), "mean_extinction opacity");
+    EXPECT_EQ(words_of<TableFormat>(), "fixed16 fixed8 float16 float32");
+}
+
+}  // namespace
+}  // namespace lamina
