@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "tiles/instruction_set.h"
 
 namespace lamina {
@@ -31,10 +32,11 @@ gl::ContextKind opengl_kind(const std::string& word) {
             return gl::ContextKind::osmesa;
         case ContextChoice::egl:
             return gl::ContextKind::egl;
-        default:
+        case ContextChoice::cpu:
             throw UsageError(
                 fmt::format("--context {}: this needs OpenGL, expected auto, osmesa or egl", word));
     }
+    unreachable_enum();
 }
 
 void restrict_instructions_as_asked() {

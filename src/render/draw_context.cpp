@@ -2,6 +2,7 @@
 #include "render/draw_context.h"
 
 #include "base/error.h"
+#include "base/unreachable.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
@@ -24,9 +25,10 @@ std::unique_ptr<gl::Context> make_opengl(ContextChoice choice) {
             return gl::Context::create(gl::ContextKind::osmesa);
         case ContextChoice::egl:
             return gl::Context::create(gl::ContextKind::egl);
-        default:
+        case ContextChoice::cpu:
             return nullptr;
     }
+    unreachable_enum();
 }
 
 }  // namespace
