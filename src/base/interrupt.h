@@ -22,7 +22,7 @@ class StopScope {
     StopScope(const StopScope&) = delete;
     StopScope& operator=(const StopScope&) = delete;
 
-    // Of this thread; one that nobody stops where there is no scope.
+    // This thread's; one that nobody stops where there is no scope.
     static std::stop_token current();
 
   private:

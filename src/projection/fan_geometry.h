@@ -57,7 +57,7 @@ class FanGeometry : public TetGeometry {
         glm::dvec4 values;  // as in FanVertex, not divided
     };
     using Corners = std::array<Corner, 4>;
-    // What all vertices of a tet have alike.
+    // All vertices of a tet have these alike.
     struct Owner {
         std::int32_t tet;
         glm::vec2 scalars;

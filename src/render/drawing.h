@@ -9,7 +9,8 @@
 
 namespace lamina {
 
-// What slicing and projection do for a session, each in its own way: from measuring to a renderer.
+// Slicing and projection each have one for a session: it measures, plans and makes renderers in
+// their own way.
 // Scenes differ in what the session was told to change alone.
 class Drawing {
   public:
@@ -17,7 +18,7 @@ class Drawing {
 
     virtual const char* activity() const = 0;  // for progress: "slicing"
 
-    // What the data and the transfer function say. The view's facts are those of before no longer.
+    // Measures what the data and the transfer function say. The view must be measured after it.
     virtual void measure_data(const Scene& scene) = 0;
     // What the view says. `planned`: the plan of a view before, null for the first; what it has
     // settled for all views is not measured again.

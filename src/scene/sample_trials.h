@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// What numbers of slabs were tried for what is automatic (slicing/slab_trials.h makes them).
+// Numbers of slabs that were tried where the scene says "auto" (slicing/slab_trials.h tries them).
 struct SampleTrials {
     // For "samples": "auto"; else none.
     std::vector<SlabTrial> exact;
