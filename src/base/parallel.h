@@ -15,9 +15,8 @@
 namespace lamina {
 
 // Calls body(i) for every i in [0, count) on all cores, in no particular order; an exception of one
-// call ends the loop and is rethrown, and so does Ctrl-C
-// or a stop that is requested. `grain`: how many calls make one task
-// (make a task at least some 10 us long).
+// call ends the loop and is rethrown, and so does Ctrl-C or a stop that is requested. `grain`: how
+// many calls make one task (make a task at least some 10 us long).
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;

@@ -10,8 +10,7 @@
 namespace lamina {
 
 // Slicing and projection each have one for a session: it measures, plans and makes renderers in
-// their own way.
-// Scenes differ in what the session was told to change alone.
+// their own way. From call to call scenes differ in what the session was told to change alone.
 class Drawing {
   public:
     virtual ~Drawing() = default;
@@ -24,8 +23,8 @@ class Drawing {
     // settled for all views is not measured again.
     virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
 
-    // Pictures tried for what is automatic.
-    virtual void make_trials(const Scene& scene, const Capabilities& capabilities) = 0;
+    // Draws pictures for what is automatic, where it takes some to choose.
+    virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/) {}
     // `for_people`: with what omissions save.
     virtual Plan plan(const Scene& scene, const Capabilities& capabilities,
                       const OmissionSwitch& omissions, bool for_people) const = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/project_drawing.h"
 
+#include "base/unreachable.h"
 #include "projection/project_renderer.h"
-#include "scene/plan.h"
 
 namespace lamina {
 namespace {
@@ -18,7 +18,7 @@ ProjectOrder order_of(OrderMethod method) {
         case OrderMethod::none:
             return ProjectOrder::none;
     }
-    return ProjectOrder::exact;
+    unreachable_enum();
 }
 
 }  // namespace
@@ -39,8 +39,6 @@ void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
         measure_rays(scene, *mesh_, facts_);
     }
 }
-
-void ProjectDrawing::make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/) {}
 
 Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
                           const OmissionSwitch& omissions, bool /*for_people*/) const {

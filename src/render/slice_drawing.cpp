@@ -2,10 +2,8 @@
 #include "render/slice_drawing.h"
 
 #include "compositing/dither.h"
-#include "scene/planned_work.h"
 #include "slicing/slab_trials.h"
 #include "slicing/slice_renderer.h"
-#include "slicing/tile_slice_renderer.h"
 
 namespace lamina {
 namespace {

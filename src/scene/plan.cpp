@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/plan.h"
 
+#include <utility>
+
 #include "scene/picture_limits.h"
 #include "scene/planned_work.h"
 #include "scene/project_planner.h"
@@ -14,6 +16,17 @@ const Omission no_context{"context", "the tracer runs on the processor: no OpenG
 
 }  // namespace
 
+SlicePlan without_remarks(SlicePlan plan) {
+    plan.slab_trial.reset();
+    plan.filter_reason.clear();
+    plan.filter_error = 0;
+    plan.target_reason.clear();
+    plan.error_bound.reset();
+    plan.tree_reason.clear();
+    plan.table.error = 0;
+    return plan;
+}
+
 SlicePlan of_all_views(SlicePlan plan) {
     const SlicePlan other;
     plan.orthographic = other.orthographic;
@@ -21,14 +34,7 @@ SlicePlan of_all_views(SlicePlan plan) {
     plan.drawn = other.drawn;
     plan.occupied_only = other.occupied_only;
     plan.opaque_depth = other.opaque_depth;
-    plan.slab_trial.reset();
-    plan.filter_reason.clear();
-    plan.filter_error = other.filter_error;
-    plan.target_reason.clear();
-    plan.error_bound.reset();
-    plan.tree_reason.clear();
-    plan.table.error = other.table.error;
-    return plan;
+    return without_remarks(std::move(plan));
 }
 
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,

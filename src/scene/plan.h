@@ -84,8 +84,10 @@ struct SlicePlan : CompositingPlan {
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// The plan with what belongs to one view, or is a remark that changes no picture, as it is by
-// default: what renderers make for all views is a matter of the rest.
+// The plan without remarks that change no picture.
+SlicePlan without_remarks(SlicePlan plan);
+// And with what belongs to one view as it is by default: what renderers make for all views is a
+// matter of the rest.
 SlicePlan of_all_views(SlicePlan plan);
 
 // What will run: a pure function of scene, facts and capabilities, printable.

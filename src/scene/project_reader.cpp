@@ -40,11 +40,7 @@ ProjectSettings read_project(JsonReader reader) {
     project.interpolation =
         reader.choice<Interpolation>("interpolation", enum_words<Interpolation>());
     project.thickness = reader.choice<Thickness>("thickness", enum_words<Thickness>());
-    project.order = reader.choice<ProjectOrder>("order", {{"auto", ProjectOrder::automatic},
-                                                          {"mpvo", ProjectOrder::mpvo},
-                                                          {"exact", ProjectOrder::exact},
-                                                          {"centroid", ProjectOrder::centroid},
-                                                          {"none", ProjectOrder::none}});
+    project.order = reader.choice<ProjectOrder>("order", enum_words<ProjectOrder>());
     project.geometry = reader.choice<ProjectGeometry>("geometry", enum_words<ProjectGeometry>());
     project.dither = reader.choice<ProjectDither>("dither", enum_words<ProjectDither>());
     if (reader.has("table") && reader.value("table") != "auto") {

@@ -38,6 +38,22 @@ const char* name_of(Thickness thickness) {
     return nullptr;
 }
 
+const char* name_of(ProjectOrder order) {
+    switch (order) {
+        case ProjectOrder::automatic:
+            return "auto";
+        case ProjectOrder::mpvo:
+            return "mpvo";
+        case ProjectOrder::exact:
+            return "exact";
+        case ProjectOrder::centroid:
+            return "centroid";
+        case ProjectOrder::none:
+            return "none";
+    }
+    return nullptr;
+}
+
 const char* name_of(ProjectGeometry geometry) {
     switch (geometry) {
         case ProjectGeometry::automatic:

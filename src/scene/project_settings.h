@@ -56,6 +56,7 @@ struct ProjectSettings {
 const char* name_of(Coloring coloring);
 const char* name_of(Interpolation interpolation);
 const char* name_of(Thickness thickness);
+const char* name_of(ProjectOrder order);
 const char* name_of(ProjectGeometry geometry);
 const char* name_of(ProjectDither dither);
 const char* name_of(LengthMapping mapping);

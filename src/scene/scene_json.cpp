@@ -91,22 +91,6 @@ Json slice_json(const SliceSettings& slice) {
     return json;
 }
 
-const char* name_of(ProjectOrder order) {
-    switch (order) {
-        case ProjectOrder::automatic:
-            return "auto";
-        case ProjectOrder::mpvo:
-            return "mpvo";
-        case ProjectOrder::exact:
-            return "exact";
-        case ProjectOrder::centroid:
-            return "centroid";
-        case ProjectOrder::none:
-            return "none";
-    }
-    return "";
-}
-
 Json project_json(const ProjectSettings& project) {
     Json json{{"coloring", name_of(project.coloring)},
               {"interpolation", name_of(project.interpolation)},

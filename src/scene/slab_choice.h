@@ -22,9 +22,9 @@ double slab_error_goal(const Scene& scene, double max_color, int slabs, double r
 // of slabs. Else fewer slabs may by chance be nearer to the truth than more.
 bool are_of_second_order(std::vector<SlabTrial> trials);
 
-// "samples": "auto": of what was tried the fewest slabs that keep their goal;
-// where none does, of two a voxel and more the fewest whose error is near the least. Where nothing
-// was tried, two a voxel, of an error that is not known (NaN).
+// "samples": "auto": of what was tried the fewest slabs that keep their goal; where none does, of
+// two a voxel and more the fewest whose error is near the least. Where nothing was tried, two a
+// voxel, of an error that is not known (NaN).
 SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 
 // "filter": "auto": of what was tried with the weights of texture units the fewest slabs that keep

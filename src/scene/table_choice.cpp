@@ -14,7 +14,7 @@ namespace lamina {
 namespace {
 
 // Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
-// Of fewer segments more rays are tried.
+// Where rays have fewer segments, more rays are tried.
 constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
 
 // So many of the linear pieces are tried one by one, from all over the range.

@@ -32,10 +32,7 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
 
 // Programs are made for what belongs to a view, too.
 bool GlSliceRenderer::take(const Plan& plan) {
-    const SlicePlan& slice = plan.slice;
-    return of_all_views(slice) == of_all_views(plan_) && slice.orthographic == plan_.orthographic &&
-           slice.nothing_visible == plan_.nothing_visible && slice.drawn == plan_.drawn &&
-           slice.occupied_only == plan_.occupied_only && slice.opaque_depth == plan_.opaque_depth;
+    return without_remarks(plan.slice) == without_remarks(plan_);
 }
 
 int GlSliceRenderer::step_count() const {

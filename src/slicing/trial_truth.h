@@ -38,7 +38,7 @@ class TrialTruth {
     double error_of(const Image& picture) const;
 
   private:
-    // Of the pixels that are not there yet, those of the largest values above 0.
+    // Appends pixels that are not there yet: those of the largest values above 0.
     void append_unknown(std::size_t count, std::vector<float> values);
     void trace();
 

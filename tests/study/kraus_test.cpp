@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/session.h"
 #include "study/kraus.h"
+#include "render/session.h"
 
 #include <gtest/gtest.h>
 

@@ -71,8 +71,8 @@ int run(const SelftestOptions& options) {
 
     if (!options.quiet) write_result(table + "\n");
     print_result("{}\n{}: {} of {} cases passed\n", selftest::selftest_summary(results),
-                 renderer_and_threads(context.capabilities()), count_of(results, selftest::Verdict::passed),
-                 results.size());
+                 renderer_and_threads(context.capabilities()),
+                 count_of(results, selftest::Verdict::passed), results.size());
     return count_of(results, selftest::Verdict::passed) == results.size() ? 0 : bound_exceeded;
 }
 
