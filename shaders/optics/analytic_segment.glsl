@@ -10,7 +10,7 @@ uniform vec3 single_color;
 // Associated colour and opacity of a segment on which the scalar, normalised so that the intervals cover [0, 1], runs
 // straight from `front` to `back`: exactly, interval by interval of the transfer function (docs/numerics.md, section
 // 5). Twin of integrate_segment (optics/segment_integral.h) in float32; optical depth is a sum of terms >= 0.
-// Extinction times length is finite (slicing/shader_intervals.h) for lengths up to 1e8.
+// Extinction times length is finite (executors/shader_intervals.h) for lengths up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
     front = clamp(front, 0.0, 1.0);
     back = clamp(back, 0.0, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a ray comes near something that is seen, by the distances of bricks of the volume to the nearest that shows
-// something (scene/occupied_bricks.h).
+// something (facts/occupied_bricks.h).
 uniform sampler3D distances;    // over 255
 uniform float brick_edge;       // cells
 uniform vec3 first_sample;      // of the texture brick, in the volume

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/capabilities.h"
+#include "plan/capabilities.h"
 
 namespace lamina::gl {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "gl/check.h"
-#include "scene/capabilities.h"
+#include "plan/capabilities.h"
 
 namespace lamina::gl {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "slicing/tile_optics-inl.h"
+#include "executors/tile_optics-inl.h"
 #include "tiles/piece_weights-inl.h"
 
 HWY_BEFORE_NAMESPACE();

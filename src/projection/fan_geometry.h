@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <span>
 
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 #include "projection/face_pairs.h"
 #include "projection/tet_geometry.h"
 #include "projection/window_view.h"
-#include "scene/project_plan.h"
+#include "plan/project_plan.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

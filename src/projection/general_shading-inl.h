@@ -14,7 +14,7 @@
 #include "projection/fragment_output-inl.h"
 #include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
-#include "slicing/tile_preintegration-inl.h"
+#include "executors/tile_preintegration-inl.h"
 #include "tiles/segment_table-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -15,8 +15,8 @@
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
-#include "scene/world_unit.h"
-#include "slicing/gl_compositing.h"
+#include "facts/world_unit.h"
+#include "executors/gl_compositing.h"
 
 namespace lamina {
 namespace {

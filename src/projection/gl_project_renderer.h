@@ -11,16 +11,16 @@
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "image/image.h"
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 #include "projection/gl_project_tables.h"
 #include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
 #include "projection/project_renderer.h"
 #include "projection/visible_parts.h"
-#include "scene/capabilities.h"
-#include "scene/plan.h"
+#include "plan/capabilities.h"
+#include "plan/plan.h"
 #include "scene/scene_mesh.h"
-#include "slicing/gl_fixed_tree.h"
+#include "executors/gl_fixed_tree.h"
 
 namespace lamina {
 

@@ -10,7 +10,7 @@
 #include "base/unreachable.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
-#include "slicing/shader_intervals.h"
+#include "executors/shader_intervals.h"
 
 namespace lamina {
 namespace {

@@ -10,8 +10,8 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "optics/transfer_function.h"
-#include "scene/project_plan.h"
-#include "slicing/gl_transfer_tables.h"
+#include "plan/project_plan.h"
+#include "executors/gl_transfer_tables.h"
 
 namespace lamina {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/gl_tet_leaves.h"
 
-#include "slicing/gl_compositing.h"
+#include "executors/gl_compositing.h"
 
 namespace lamina {
 

@@ -6,8 +6,8 @@
 
 #include "gl/program.h"
 #include "projection/gl_tet_stream.h"
-#include "scene/compositing_plan.h"
-#include "slicing/tree_leaves.h"
+#include "plan/compositing_plan.h"
+#include "executors/tree_leaves.h"
 
 namespace lamina {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "mesh/visibility_order.h"
-#include "scene/frame_renderer.h"
-#include "scene/plan.h"
+#include "visibility/visibility_order.h"
+#include "plan/frame_renderer.h"
+#include "plan/plan.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

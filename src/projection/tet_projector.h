@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 #include "mesh/tet_mesh.h"
 #include "projection/fragment_kind.h"
 #include "projection/part_field.h"
@@ -18,7 +18,7 @@
 #include "projection/tet_record.h"
 #include "projection/window_view.h"
 #include "scene/camera.h"
-#include "scene/tet_pieces.h"
+#include "facts/tet_pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -13,7 +13,7 @@
 #include "projection/tet_record.h"
 #include "projection/tile_chunk.h"
 #include "projection/window_view.h"
-#include "scene/tet_pieces.h"
+#include "facts/tet_pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -9,8 +9,8 @@
 
 #include "optics/segment_table.h"
 #include "projection/tile_chunk.h"
-#include "scene/project_plan.h"
-#include "slicing/tile_transfer.h"
+#include "plan/project_plan.h"
+#include "executors/tile_transfer.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_image.h"

@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "projection/tie_shift.h"
-#include "scene/world_unit.h"
+#include "facts/world_unit.h"
 
 namespace lamina {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/progress.h"
 #include "image/image.h"
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 #include "projection/fan_geometry.h"
 #include "projection/project_renderer.h"
 #include "projection/tet_projector.h"
@@ -19,7 +19,7 @@
 #include "projection/tile_project_tables.h"
 #include "projection/tile_tet_tree.h"
 #include "projection/visible_parts.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "scene/scene_mesh.h"
 #include "tiles/tile_image.h"
 

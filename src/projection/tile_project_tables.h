@@ -7,8 +7,8 @@
 
 #include "optics/transfer_function.h"
 #include "projection/tile_fragments.h"
-#include "scene/project_plan.h"
-#include "slicing/tile_transfer.h"
+#include "plan/project_plan.h"
+#include "executors/tile_transfer.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 
 #include "base/progress.h"
 #include "compositing/tree_shape.h"
-#include "slicing/tile_fixed_tree.h"
+#include "executors/tile_fixed_tree.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {

@@ -7,9 +7,9 @@
 
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 #include "projection/tet_part.h"
-#include "scene/tet_pieces.h"
+#include "facts/tet_pieces.h"
 
 namespace lamina {
 

@@ -7,14 +7,14 @@
 
 #include <cstddef>
 
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 #include "mesh/tet.h"
 #include "scene/camera.h"
 
 namespace lamina {
 
 // The view with axes as long as `unit`, so that what is seen of points of the world is in units
-// (scene/world_unit.h).
+// (facts/world_unit.h).
 inline View seeing_in_units(View view, double unit) {
     for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
     if (view.projection == Projection::orthographic) view.pixel *= unit;

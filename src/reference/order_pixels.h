@@ -9,7 +9,7 @@
 #include "mesh/eye.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 #include "scene/camera.h"
 
 namespace lamina {

@@ -5,7 +5,7 @@
 
 #include "gl/context.h"
 #include "render/context_choice.h"
-#include "scene/capabilities.h"
+#include "plan/capabilities.h"
 
 namespace lamina {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "scene/frame_renderer.h"
-#include "scene/plan.h"
+#include "plan/frame_renderer.h"
+#include "plan/plan.h"
 
 namespace lamina {
 

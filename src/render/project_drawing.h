@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/drawing.h"
-#include "scene/mesh_facts.h"
+#include "facts/mesh_facts.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 
 #include "render/drawing.h"
 #include "render/volume_data.h"
-#include "scene/sample_trials.h"
+#include "plan/sample_trials.h"
 
 namespace lamina {
 

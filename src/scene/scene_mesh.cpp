@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/stage.h"
 #include "mesh/cell_average.h"
-#include "mesh/mesh_file.h"
-#include "mesh/volume_mesh.h"
+#include "mesh_files/mesh_file.h"
+#include "meshing/volume_mesh.h"
 
 namespace lamina {
 namespace {

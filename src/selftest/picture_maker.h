@@ -4,8 +4,8 @@
 #include <string>
 
 #include "image/image.h"
-#include "mesh/visibility_order.h"
-#include "scene/capabilities.h"
+#include "visibility/visibility_order.h"
+#include "plan/capabilities.h"
 #include "scene/scene_mesh.h"
 #include "selftest/drawing_way.h"
 #include "volume/volume.h"

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "gl/full_screen.h"
-#include "slicing/gl_compositing.h"
+#include "executors/gl_compositing.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/texture_bricks.h"
 

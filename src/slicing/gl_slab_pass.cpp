@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "slicing/gl_compositing.h"
+#include "executors/gl_compositing.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {

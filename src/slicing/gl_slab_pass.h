@@ -9,7 +9,7 @@
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
-#include "slicing/tree_leaves.h"
+#include "executors/tree_leaves.h"
 
 namespace lamina {
 

@@ -7,9 +7,9 @@
 #include "gl/texture.h"
 #include "optics/transfer_function.h"
 #include "scene/camera.h"
-#include "scene/facts.h"
-#include "scene/plan.h"
-#include "slicing/gl_transfer_tables.h"
+#include "facts/facts.h"
+#include "plan/plan.h"
+#include "executors/gl_transfer_tables.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/slab_polygons.h"
 

@@ -6,8 +6,8 @@
 #include "base/interrupt.h"
 #include "base/stage.h"
 #include "gl/check.h"
-#include "scene/world_unit.h"
-#include "slicing/gl_compositing.h"
+#include "facts/world_unit.h"
+#include "executors/gl_compositing.h"
 
 namespace lamina {
 

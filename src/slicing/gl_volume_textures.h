@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gl/texture.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "volume/volume.h"
 
 namespace lamina {

@@ -6,7 +6,7 @@
 
 #include "compositing/tree_shape.h"
 #include "scene/camera.h"
-#include "scene/facts.h"
+#include "facts/facts.h"
 #include "scene/scene.h"
 #include "volume/grid.h"
 

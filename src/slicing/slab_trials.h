@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/capabilities.h"
-#include "scene/facts.h"
-#include "scene/sample_trials.h"
+#include "plan/capabilities.h"
+#include "facts/facts.h"
+#include "plan/sample_trials.h"
 #include "volume/volume.h"
 
 namespace lamina {

@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "scene/frame_renderer.h"
-#include "scene/plan.h"
+#include "plan/frame_renderer.h"
+#include "plan/plan.h"
 #include "volume/volume.h"
 
 namespace lamina {

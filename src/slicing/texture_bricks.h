@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/camera.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "volume/grid.h"
 
 namespace lamina {

@@ -11,8 +11,8 @@
 
 #include <hwy/highway.h>
 
-#include "slicing/tile_optics-inl.h"
-#include "slicing/tile_preintegration-inl.h"
+#include "executors/tile_optics-inl.h"
+#include "executors/tile_preintegration-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {

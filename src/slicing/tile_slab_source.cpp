@@ -7,9 +7,9 @@
 
 #include "base/stage.h"
 #include "optics/linear_pieces.h"
-#include "scene/drawn_range.h"
-#include "scene/world_unit.h"
-#include "slicing/shader_intervals.h"
+#include "facts/drawn_range.h"
+#include "facts/world_unit.h"
+#include "executors/shader_intervals.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/facts.h"
-#include "scene/plan.h"
+#include "facts/facts.h"
+#include "plan/plan.h"
 #include "slicing/slab_polygons.h"
-#include "slicing/tile_transfer.h"
+#include "executors/tile_transfer.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/stage.h"
-#include "scene/world_unit.h"
+#include "facts/world_unit.h"
 
 namespace lamina {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/progress.h"
 #include "image/image.h"
-#include "scene/frame_renderer.h"
-#include "slicing/tile_fixed_tree.h"
+#include "plan/frame_renderer.h"
+#include "executors/tile_fixed_tree.h"
 #include "slicing/tile_march.h"
 #include "slicing/tile_slab_source.h"
 #include "tiles/tile_image.h"

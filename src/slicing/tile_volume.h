@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "volume/min_max_bricks.h"
 #include "volume/volume.h"
 

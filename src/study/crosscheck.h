@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/capabilities.h"
+#include "plan/capabilities.h"
 #include "study/error_budget.h"
 #include "study/interleaved_times.h"
 #include "study/reference_store.h"

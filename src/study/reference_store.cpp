@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "image/npy.h"
 #include "reference/volume_tracer.h"
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 #include "study/picture_key.h"
 #include "study/text_file.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "render/context_choice.h"
-#include "scene/scene_reader.h"
+#include "scene_files/scene_reader.h"
 #include "study/run_list.h"
 
 namespace lamina {

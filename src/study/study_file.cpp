@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
-#include "scene/scene_reader.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 namespace {

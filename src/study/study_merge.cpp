@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "base/interrupt.h"
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 #include "study/run_list.h"
 #include "study/study_output.h"
 

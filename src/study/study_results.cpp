@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/median.h"
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 #include "study/journal.h"
 #include "study/pareto.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 
 namespace lamina {
 

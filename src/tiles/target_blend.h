@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "scene/compositing_plan.h"
+#include "plan/compositing_plan.h"
 
 namespace lamina {
 

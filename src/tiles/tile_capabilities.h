@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/capabilities.h"
+#include "plan/capabilities.h"
 
 namespace lamina {
 

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "input_parts.h"
-#include "mesh/mesh_file.h"
+#include "mesh_files/mesh_file.h"
 #include "mesh/scalar_range.h"
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 #include "plan_check.h"
 #include "runs.h"
 #include "scratch_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/plan.h"
+#include "plan/plan.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,8 +7,8 @@
 #include "json_paths.h"
 #include "plan_check.h"
 #include "runs.h"
-#include "scene/json_reader.h"
-#include "scene/scene_reader.h"
+#include "scene_files/json_reader.h"
+#include "scene_files/scene_reader.h"
 #include "violation.h"
 
 namespace lamina::fuzz {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene_reader.h"
+#include "scene_files/scene_reader.h"
 
 #include "input_parts.h"
 #include "json_paths.h"
 #include "runs.h"
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 #include "violation.h"
 
 namespace lamina::fuzz {

@@ -2,7 +2,7 @@
 #include "input_parts.h"
 #include "json_paths.h"
 #include "runs.h"
-#include "scene/scene_reader.h"
+#include "scene_files/scene_reader.h"
 #include "study/run_list.h"
 #include "violation.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/adaptive_mesh.h"
+#include "meshing/adaptive_mesh.h"
 
 #include <gtest/gtest.h>
 
-#include "mesh/delaunay_process.h"
+#include "meshing/delaunay_process.h"
 #include "mesh/mesh_checks.h"
-#include "mesh/volume_mesh.h"
+#include "meshing/volume_mesh.h"
 #include "support/expect_error.h"
 #include "volume/generate.h"
 

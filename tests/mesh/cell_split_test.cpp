@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/cell_split.h"
+#include "mesh_files/cell_split.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/delaunay_process.h"
+#include "meshing/delaunay_process.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

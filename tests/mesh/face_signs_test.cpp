@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/interpolation_error.h"
+#include "meshing/interpolation_error.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "mesh/cell_pieces.h"
+#include "meshing/cell_pieces.h"
 #include "support/volume_of.h"
 
 namespace lamina {

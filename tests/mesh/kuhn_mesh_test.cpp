@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/kuhn_mesh.h"
+#include "meshing/kuhn_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "mesh/mesh_checks.h"
-#include "mesh/volume_mesh.h"
+#include "meshing/volume_mesh.h"
 #include "support/expect_error.h"
 
 namespace lamina {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "mesh/cell_split.h"
+#include "mesh_files/cell_split.h"
 #include "mesh_files.h"
 
 namespace lamina {

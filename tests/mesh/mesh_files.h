@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_file.h"
+#include "mesh_files/mesh_file.h"
 #include "mesh_makers.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

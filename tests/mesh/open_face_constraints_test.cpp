@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/open_face_constraints.h"
+#include "visibility/open_face_constraints.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/gap_faces.h"
+#include "visibility/gap_faces.h"
 #include "mesh/predicates.h"
 #include "mesh_eyes.h"
 #include "support/carved_mesh.h"

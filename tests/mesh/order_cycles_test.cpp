@@ -8,9 +8,9 @@
 #include <numeric>
 #include <set>
 
-#include "mesh/order_check.h"
-#include "mesh/order_graph.h"
-#include "mesh/visibility_order.h"
+#include "visibility/order_check.h"
+#include "visibility/order_graph.h"
+#include "visibility/visibility_order.h"
 #include "support/carved_mesh.h"
 
 namespace lamina {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/seen_triangle.h"
+#include "visibility/seen_triangle.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 #include "mesh/predicates.h"
-#include "mesh/seen_area.h"
+#include "visibility/seen_area.h"
 
 namespace lamina {
 namespace {

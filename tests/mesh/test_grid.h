@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/cell_split.h"
+#include "mesh_files/cell_split.h"
 #include "mesh/mesh_data.h"
 
 namespace lamina::testing {

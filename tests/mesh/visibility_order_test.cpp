@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/visibility_order.h"
+#include "visibility/visibility_order.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <random>
 
-#include "mesh/face_signs.h"
+#include "visibility/face_signs.h"
 #include "mesh/mesh_shape.h"
-#include "mesh/order_check.h"
+#include "visibility/order_check.h"
 #include "mesh_eyes.h"
 #include "support/allocation_count.h"
 #include "support/carved_mesh.h"

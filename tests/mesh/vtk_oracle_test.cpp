@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "mesh/text_reader.h"
+#include "mesh_files/text_reader.h"
 #include "mesh_files.h"
 
 namespace lamina {

@@ -14,7 +14,7 @@
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
 #include "reference/mesh_tracer.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "support/transfer_functions.h"
 #include "tiles/tile_capabilities.h"
 

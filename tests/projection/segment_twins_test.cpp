@@ -16,7 +16,7 @@
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "optics/segment_table.h"
-#include "slicing/shader_intervals.h"
+#include "executors/shader_intervals.h"
 #include "support/transfer_functions.h"
 
 namespace lamina {

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/mesh_file.h"
+#include "mesh_files/mesh_file.h"
 #include "mesh/mesh_shape.h"
-#include "mesh/order_check.h"
+#include "visibility/order_check.h"
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a plan composites: emulated targets, dithering, trees.
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "scene_fixture.h"
 #include "support/expect_error.h"
 

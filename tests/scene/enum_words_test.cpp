@@ -11,7 +11,7 @@
 
 #include "base/file_bytes.h"
 #include "base/json_text.h"
-#include "scene/project_plan.h"
+#include "plan/project_plan.h"
 #include "scene/scene.h"
 
 namespace lamina {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/facts.h"
+#include "facts/facts.h"
 
 #include <cmath>
 #include <memory>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "scene/mesh_facts.h"
-#include "scene/plan.h"
+#include "facts/mesh_facts.h"
+#include "plan/plan.h"
 #include "scene/scene_mesh.h"
 #include "scene_fixture.h"
 #include "support/expect_error.h"
@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// A tet as .node/.ele, with two point attributes and one of the tet; names as mesh/node_ele.h has
+// A tet as .node/.ele, with two point attributes and one of the tet; names as mesh_files/node_ele.h has
 // them.
 std::string write_tet(const TemporaryFolder& folder, const std::string& value) {
     std::ofstream(folder / "t.node")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/occupied_bricks.h"
+#include "facts/occupied_bricks.h"
 
 #include <gtest/gtest.h>
 

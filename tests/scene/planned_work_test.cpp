@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/planned_work.h"
+#include "plan/planned_work.h"
 
 #include "scene_fixture.h"
 

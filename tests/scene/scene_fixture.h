@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/json_reader.h"
-#include "scene/scene_reader.h"
+#include "scene_files/json_reader.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/slab_choice.h"
+#include "plan/slab_choice.h"
 
 #include <cmath>
 
-#include "scene/plan.h"
-#include "scene/target_choice.h"
+#include "plan/plan.h"
+#include "plan/target_choice.h"
 #include "scene_fixture.h"
 #include "support/expect_error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // "render.slice.dither", "render.slice.tree", "render.emulate" and "render.max_error".
-#include "scene/slice_reader.h"
+#include "scene_files/slice_reader.h"
 
 #include "scene_fixture.h"
 #include "support/expect_error.h"

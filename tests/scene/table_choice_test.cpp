@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/table_choice.h"
+#include "plan/table_choice.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "optics/segment_integral.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "support/transfer_functions.h"
 #include "volume/generate.h"
 

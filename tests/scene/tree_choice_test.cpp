@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/tree_choice.h"
+#include "plan/tree_choice.h"
 
 #include <algorithm>
 #include <cmath>

@@ -53,7 +53,7 @@ TEST_F(SlicingTest, LinearRunsAreExact) {
     }
 }
 
-// The table's layers of length are good to .0025 (scene/slice_planner.cpp).
+// The table's layers of length are good to .0025 (plan/slice_planner.cpp).
 TEST_F(SlicingTest, LinearRunsAreWhatTheTableSays) {
     std::mt19937 random(5);
     const auto uniform = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };

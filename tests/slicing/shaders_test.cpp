@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "slicing/gl_fixed_tree.h"
+#include "executors/gl_fixed_tree.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing_fixture.h"

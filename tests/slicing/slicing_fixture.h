@@ -10,7 +10,7 @@
 #include "image/metrics.h"
 #include "reference/fixtures.h"
 #include "reference/volume_tracer.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "slicing/gl_slice_renderer.h"
 #include "support/transfer_functions.h"
 

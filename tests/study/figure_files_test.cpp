@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/figure_files.h"
+#include "papers/figure_files.h"
 
 #include <gtest/gtest.h>
 

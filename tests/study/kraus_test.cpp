@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/kraus.h"
+#include "papers/kraus.h"
 #include "render/session.h"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include "image/metrics.h"
 #include "image/png.h"
 #include "mesh/mesh_shape.h"
-#include "study/grid_mesh.h"
-#include "study/kraus_stage.h"
-#include "study/kraus_variants.h"
+#include "papers/grid_mesh.h"
+#include "papers/kraus_stage.h"
+#include "papers/kraus_variants.h"
 #include "study/picture_sheet.h"
 #include "support/temporary_folder.h"
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "gl/gl_fixture.h"
-#include "study/lamar.h"
-#include "study/lamar_stage.h"
-#include "study/palette_slices.h"
+#include "papers/lamar.h"
+#include "papers/lamar_stage.h"
+#include "papers/palette_slices.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/lamar.h"
+#include "papers/lamar.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "study/findings.h"
+#include "papers/findings.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {

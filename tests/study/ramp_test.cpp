@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/ramp.h"
+#include "papers/ramp.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/dither_spans.h"
+#include "papers/dither_spans.h"
 
 namespace lamina {
 namespace {

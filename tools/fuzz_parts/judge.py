@@ -142,7 +142,7 @@ class Judge:
             self.omitted(drawn, plan)
 
     def rounding_bound(self, plan):
-        """What compositing in the plan's target may add, where the scene asked for it (scene/tree_choice.cpp has the
+        """What compositing in the plan's target may add, where the scene asked for it (plan/tree_choice.cpp has the
         same bounds for what is automatic, which max_error counts); None where nothing is promised."""
         target, tree = self.render.get("target", "float32"), plan.get("tree")
         asked_tree = self.render["slice"].get("tree")

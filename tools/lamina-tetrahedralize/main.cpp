@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "base/large_stack.h"
-#include "mesh/tetrahedralize_protocol.h"
+#include "meshing/tetrahedralize_protocol.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "file_report.h"
-#include "mesh/mesh_file.h"
+#include "mesh_files/mesh_file.h"
 #include "scene_files.h"
 #include "verbs.h"
 

@@ -13,8 +13,8 @@
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "optics/segment_integral.h"
-#include "scene/integration_case.h"
-#include "scene/json_reader.h"
+#include "scene_files/integration_case.h"
+#include "scene_files/json_reader.h"
 #include "verbs.h"
 
 namespace lamina {

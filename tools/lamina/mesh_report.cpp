@@ -6,7 +6,7 @@
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
-#include "mesh/mesh_file.h"
+#include "mesh_files/mesh_file.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/scalar_range.h"

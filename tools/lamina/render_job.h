@@ -9,7 +9,7 @@
 #include "render/context_choice.h"
 #include "render_stats.h"
 #include "scene/camera.h"
-#include "scene/plan.h"
+#include "plan/plan.h"
 #include "scene/scene.h"
 
 namespace lamina {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/plan.h"
+#include "plan/plan.h"
 
 namespace lamina {
 

@@ -21,10 +21,10 @@
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "scene_files.h"
-#include "study/kraus.h"
-#include "study/kraus_stage.h"
-#include "study/lamar.h"
-#include "study/lamar_stage.h"
+#include "papers/kraus.h"
+#include "papers/kraus_stage.h"
+#include "papers/lamar.h"
+#include "papers/lamar_stage.h"
 #include "verbs.h"
 
 namespace lamina {

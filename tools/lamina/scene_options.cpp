@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
-#include "scene/json_reader.h"
-#include "scene/scene_reader.h"
+#include "scene_files/json_reader.h"
+#include "scene_files/scene_reader.h"
 
 namespace lamina {
 

@@ -18,7 +18,7 @@
 #include "git_commit.h"
 #include "output_folder.h"
 #include "render/context_choice.h"
-#include "scene/json_reader.h"
+#include "scene_files/json_reader.h"
 #include "scene_files.h"
 #include "study/machine.h"
 #include "study/run_list.h"

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "optics/preintegration_table.h"
+#include "optics/transfer_function.h"
+#include "plan/table_plan.h"
+#include "executors/shader_intervals.h"
+
+namespace lamina {
+
+// The transfer function, and where one is wanted its pre-integration table, as the textures that
+// shaders/optics/intervals.glsl and preintegration.glsl read.
+class GlTransferTables {
+  public:
+    static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
+
+    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: of the pre-integration, or
+    // null. `filtered`: it goes through the texture unit's filter. `step_advance`: see
+    // make_intervals().
+    GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
+                     const TablePlan* table, bool filtered, double step_advance);
+
+    int intervals() const { return interval_count_; }
+    int nodes() const { return node_count_; }  // along an axis of the table; 0 without
+    void bind(gl::Program& program) const;     // textures and uniforms
+
+    // Of the pre-integration table.
+    const std::vector<PreintegrationTable::Anchor>& anchors() const { return anchors_; }
+
+  private:
+    int interval_count_ = 0, node_count_ = 0;
+    float layers_per_length_ = 0;
+    std::vector<PreintegrationTable::Anchor> anchors_;
+    gl::Texture intervals_, interval_starts_, preintegration_;
+};
+
+}  // namespace lamina

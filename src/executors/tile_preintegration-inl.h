@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector form of how shaders/slicing/segment.glsl uses the table of pre-integration.
+#if defined(LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_
+#undef LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_
+#else
+#define LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "slicing/tile_block-inl.h"
+#include "executors/tile_table-inl.h"
+#include "tiles/linear_segment-inl.h"
+#include "tiles/opacity-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+// Coordinates of a scalar: its interval, its node.
+struct TablePlace {
+    Ints interval;
+    Floats node;
+};
+
+template <Lookup kind>
+HWY_INLINE TablePlace table_place(const TileTransfer& transfer, Floats scalar) {
+    const Ints interval = find_interval<kind>(transfer, scalar);
+    const Floats share = share_of_interval<kind>(transfer, interval, scalar);
+    return {interval, mul_add(share, look_up<kind>(transfer.nodes, interval),
+                              look_up<kind>(transfer.first_node, interval))};
+}
+
+// Colour, associated, and optical depth of the part of a segment behind which the next is put.
+struct RunSum {
+    Floats color[3];
+    Floats depth;
+};
+
+// Adds a part with an entry behind `sum`.
+HWY_INLINE void add_entry(const TableEntry& entry, Floats length, RunSum& sum) {
+    const FloatTag d;
+    const Floats depth = hn::Mul(entry.extinction, length);
+    const auto seen = hn::Gt(depth, hn::Zero(d));
+    const Floats transmitted = exp_of(d, hn::Neg(sum.depth));
+    const Floats weight = hn::IfThenElseZero(
+        seen, hn::Div(hn::Mul(transmitted, opacity_from_depth(d, depth)), entry.extinction));
+    for (int channel = 0; channel < 3; ++channel)
+        sum.color[channel] = mul_add(weight, entry.emission[channel], sum.color[channel]);
+    sum.depth = hn::Add(sum.depth, depth);
+}
+
+struct RunEnds {
+    Floats front, back, length;
+    TablePlace front_place, back_place;
+};
+
+// The part of a segment that is looked up at a time.
+struct TableRun {
+    TableCell cell;
+    Floats length;
+};
+
+// A segment before the table is looked up. Where it crosses ends of intervals it is cut at the
+// first and at the last of these: `first` is the part before them, else all of it. Most cross one
+// end, and have nothing `between`.
+struct Segment {
+    TableRun first, between, last;
+    FloatMask seen, cut, parted;  // shows anything at all; is cut; has something between
+    bool some_cut;
+};
+
+HWY_INLINE std::int32_t table_nodes(const TileTransfer& transfer) {
+    return static_cast<std::int32_t>(transfer.table->nodes.size());
+}
+
+// Sets the parts of lanes that are cut.
+template <Lookup kind>
+HWY_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run, Segment& segment) {
+    const IntTag di;
+    const Ints one = hn::Set(di, 1);
+    const std::int32_t nodes = table_nodes(transfer);
+    const auto rising = hn::Lt(run.front, run.back);
+    const auto rising_int = hn::RebindMask(di, rising);
+    const Ints front_interval = run.front_place.interval, back_interval = run.back_place.interval;
+    const Ints first = hn::IfThenElse(rising_int, hn::Add(front_interval, one), front_interval);
+    const Ints last = hn::IfThenElse(rising_int, back_interval, hn::Add(back_interval, one));
+    const Floats first_end = look_up<kind>(transfer.end, first);
+    const Floats last_end = look_up<kind>(transfer.end, last);
+    const auto right_node = [&](Ints interval) {
+        return hn::Add(look_up<kind>(transfer.first_node, interval),
+                       look_up<kind>(transfer.nodes, interval));
+    };
+    const Floats back_end = hn::IfThenElse(
+        rising, look_up<kind>(transfer.first_node, back_interval), right_node(back_interval));
+    const Floats front_end = hn::IfThenElse(rising, right_node(front_interval),
+                                            look_up<kind>(transfer.first_node, front_interval));
+    const Floats per_scalar = hn::Div(run.length, hn::Sub(run.back, run.front));
+    const auto length = [&](Floats from, Floats to)
+                            HWY_ATTR { return hn::Mul(hn::Sub(to, from), per_scalar); };
+    const FloatMask cut = segment.cut;
+    segment.parted = hn::And(cut, hn::Ne(first_end, last_end));
+    segment.first = {table_cell(nodes, run.front_place.node,
+                                hn::IfThenElse(cut, front_end, run.back_place.node)),
+                     hn::IfThenElse(cut, length(run.front, first_end), segment.first.length)};
+    segment.between = {table_cell(nodes, look_up<kind>(transfer.first_node, first), back_end),
+                       length(first_end, last_end)};
+    segment.last = {table_cell(nodes, back_end, run.back_place.node), length(last_end, run.back)};
+}
+
+// Lanes that are not cut must not read beyond the intervals.
+HWY_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
+    const FloatTag d;
+    const auto keep = hn::RebindMask(IntTag(), cut);
+    RunEnds ends = run;
+    ends.front_place.interval = hn::IfThenElseZero(keep, ends.front_place.interval);
+    ends.back_place.interval = hn::IfThenElseZero(keep, ends.back_place.interval);
+    ends.length = hn::IfThenElseZero(cut, ends.length);
+    ends.back = hn::IfThenElse(cut, ends.back, hn::Add(ends.front, hn::Set(d, 1.0f)));
+    return ends;
+}
+
+template <Lookup kind>
+HWY_INLINE Segment segment_of(const TileTransfer& transfer, Floats front, Floats back,
+                              Floats length, FloatMask seen) {
+    const FloatTag d;
+    const RunEnds ends{front, back, length, table_place<kind>(transfer, front),
+                       table_place<kind>(transfer, back)};
+    Segment segment;
+    segment.first.length = length;
+    segment.seen = seen;
+    segment.cut = hn::And(
+        hn::RebindMask(d, hn::Ne(ends.front_place.interval, ends.back_place.interval)), seen);
+    segment.some_cut = kind != Lookup::one && !hn::AllFalse(d, segment.cut);
+    if (segment.some_cut) {
+        cut_segment<kind>(transfer, ends_of_cut(ends, segment.cut), segment);
+    } else {
+        segment.first.cell =
+            table_cell(table_nodes(transfer), ends.front_place.node, ends.back_place.node);
+    }
+    return segment;
+}
+
+// The entries of a segment's first and last parts.
+struct SegmentEntries {
+    TableEntry first, last;
+};
+
+// Colour and depth of the lanes that are cut; others lose their meaning.
+HWY_INLINE RunSum sum_of_parts(const TileTransfer& transfer, bool colored, const Segment& segment,
+                               const SegmentEntries& entries) {
+    const FloatTag d;
+    RunSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
+    const bool some_parted = !hn::AllFalse(d, segment.parted);
+    if (!colored) {
+        const auto add = [&](const TableRun& run) HWY_ATTR {
+            sum.depth = mul_add(table_extinction(*transfer.table, run.cell), run.length, sum.depth);
+        };
+        add(segment.first);
+        if (some_parted) add(segment.between);
+        add(segment.last);
+        return sum;
+    }
+    add_entry(entries.first, segment.first.length, sum);
+    if (some_parted) {
+        const TableRun& run = segment.between;
+        add_entry(table_entry(transfer, run.cell, run.length, segment.parted), run.length, sum);
+    }
+    add_entry(entries.last, segment.last.length, sum);
+    return sum;
+}
+
+// A segment's colour, not associated, and its optical depth; `entries`: of tables with colour.
+HWY_INLINE RunSum integrate_segment(const TileTransfer& transfer, bool colored,
+                                    const Segment& segment, const SegmentEntries& entries) {
+    const FloatTag d;
+    RunSum sum;
+    if (colored) {
+        const TableEntry& entry = entries.first;
+        sum.depth = hn::Mul(entry.extinction, segment.first.length);
+        const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
+                                                  hn::Div(hn::Set(d, 1.0f), entry.extinction));
+        for (int channel = 0; channel < 3; ++channel)
+            sum.color[channel] = hn::Mul(entry.emission[channel], inverse);
+    } else {
+        sum.depth =
+            hn::Mul(table_extinction(*transfer.table, segment.first.cell), segment.first.length);
+    }
+    if (segment.some_cut) {
+        const RunSum parts = sum_of_parts(transfer, colored, segment, entries);
+        sum.depth = hn::IfThenElse(segment.cut, parts.depth, sum.depth);
+        if (colored) {
+            const Floats opacity = opacity_from_depth(d, parts.depth);
+            const auto some = hn::Gt(parts.depth, hn::Zero(d));
+            for (int channel = 0; channel < 3; ++channel) {
+                const Floats color =
+                    hn::IfThenElseZero(some, hn::Div(parts.color[channel], opacity));
+                sum.color[channel] = hn::IfThenElse(segment.cut, color, sum.color[channel]);
+            }
+        }
+    }
+    sum.depth = hn::IfThenElseZero(segment.seen, sum.depth);
+    return sum;
+}
+
+template <Lookup kind>
+HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floats front,
+                                Floats back, Floats length, FloatMask seen) {
+    const Segment segment = segment_of<kind>(transfer, front, back, length, seen);
+    SegmentEntries entries;
+    const auto entry = [&](const TableRun& run, FloatMask wanted)
+                           HWY_ATTR { return table_entry(transfer, run.cell, run.length, wanted); };
+    if (colored) entries.first = entry(segment.first, seen);
+    if (colored && segment.some_cut) entries.last = entry(segment.last, segment.cut);
+    return integrate_segment(transfer, colored, segment, entries);
+}
+
+// Whether there is extinction anywhere between two scalars: in an interval before the last, or in
+// that one, unless it only begins there, with none.
+template <Lookup kind>
+HWY_INLINE FloatMask shows_something(const TileTransfer& transfer, Floats least, Floats largest) {
+    const FloatTag d;
+    const Ints first = find_interval<kind>(transfer, least);
+    const Ints last = find_interval<kind>(transfer, largest);
+    const auto before = hn::Gt(look_up<kind>(transfer.shown_before, last),
+                               look_up<kind>(transfer.shown_before, first));
+    const Floats share = share_of_interval<kind>(transfer, last, largest);
+    const Floats left = look_up<kind>(transfer.left[3], last);
+    const auto begun = hn::Gt(hn::Add(share, left), hn::Zero(d));
+    const auto shown = hn::Gt(look_up<kind>(transfer.shown, last), hn::Zero(d));
+    return hn::Or(before, hn::And(shown, begun));
+}
+
+// The scalars of a segment, normalised; 0 with length 0 where one is no number.
+struct RunScalars {
+    Floats front, middle, back, length;
+};
+
+HWY_INLINE RunScalars run_scalars(const SlabBlock& block, int i, bool nan_transparent) {
+    const FloatTag d;
+    RunScalars run{hn::Load(d, block.edge_scalars + at(i)), hn::Load(d, block.scalars + at(i)),
+                   hn::Load(d, block.edge_scalars + at(i + 1)), hn::Load(d, block.lengths + at(i))};
+    if (!nan_transparent) return run;
+    const Floats sum = hn::Add(hn::Add(run.front, run.middle), run.back);
+    const auto numbers = hn::Eq(sum, sum);
+    for (Floats* const v : {&run.front, &run.middle, &run.back, &run.length})
+        *v = hn::IfThenElseZero(numbers, *v);
+    return run;
+}
+
+// Makes it straight: moved so that its mean is that of the parabola through the three scalars.
+HWY_INLINE void straighten(RunScalars& run) {
+    const FloatTag d;
+    const Floats mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(run.front, run.back));
+    const Floats bend = hn::Mul(hn::Set(d, 2.0f / 3.0f), hn::Sub(run.middle, mean));
+    run.front = clamp01(d, hn::Add(run.front, bend));
+    run.back = clamp01(d, hn::Add(run.back, bend));
+}
+
+// Where the transfer function is one piece: in closed form, as shaders/slicing/segment.glsl.
+HWY_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
+                                   const RunScalars& run) {
+    constexpr Lookup one = Lookup::one;
+    const FloatTag d;
+    const Floats half = hn::Set(d, 0.5f);
+    const Ints piece = hn::Zero(IntTag());
+    const Floats front = share_of_interval<one>(transfer, piece, run.front),
+                 back = share_of_interval<one>(transfer, piece, run.back);
+    const Floats p = hn::Mul(optics_at<one>(transfer, 3, piece, front), run.length),
+                 q = hn::Mul(optics_at<one>(transfer, 3, piece, back), run.length);
+    RunSum sum;
+    sum.depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
+    if (!colored) return sum;
+    const Floats opacity = opacity_from_depth(d, sum.depth);
+    const Floats weight = hn::Min(thin_front_weight(d, p, q), opacity);
+    const Floats of_front = hn::Div(weight, hn::Max(opacity, hn::Set(d, 1e-37f)));
+    const Floats place = mix(back, front, of_front);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        sum.color[channel] = optics_at<one>(transfer, channel, piece, place);
+    return sum;
+}
+
+HWY_INLINE void store_run(const RunSum& run, bool colored, int slab, SlabBlock& block) {
+    const FloatTag d;
+    hn::Store(run.depth, d, block.depths + at(slab));
+    if (!colored) return;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        hn::Store(run.color[channel], d, block.colors[channel] + at(slab));
+}
+
+// By the table, in stages of a few slabs, so that many entries are looked up at a time. What shows
+// nothing between the least and the largest of its three samples shows nothing.
+template <Lookup kind>
+HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, bool nan_transparent,
+                                   SlabBlock& block) {
+    const FloatTag d;
+    constexpr int stage = 8;
+    const Floats zero = hn::Zero(d);
+    Segment segments[stage];
+    EntryPlaces first_places[stage], last_places[stage];
+    alignas(64) float first_entries[stage][4 * most_lanes], last_entries[stage][4 * most_lanes];
+    int slabs[stage];
+    for (int begin = block.from; begin < block.end;) {
+        int count = 0;
+        for (; count < stage && begin < block.end; ++begin) {
+            RunScalars run = run_scalars(block, begin, nan_transparent);
+            const Floats least = clamp01(d, hn::Min(run.middle, hn::Min(run.front, run.back)));
+            const Floats largest = clamp01(d, hn::Max(run.middle, hn::Max(run.front, run.back)));
+            const auto seen =
+                hn::And(hn::Gt(run.length, zero), shows_something<kind>(transfer, least, largest));
+            if (hn::AllFalse(d, seen)) {
+                store_run({{zero, zero, zero}, zero}, colored, begin, block);
+                continue;
+            }
+            straighten(run);
+            Segment& segment = segments[count];
+            segment = segment_of<kind>(transfer, run.front, run.back, run.length, seen);
+            if (colored) {
+                const auto set = [&](const TableRun& part, EntryPlaces& places) HWY_ATTR {
+                    set_places(transfer, part.cell, part.length, places);
+                };
+                set(segment.first, first_places[count]);
+                if (segment.some_cut) set(segment.last, last_places[count]);
+            }
+            slabs[count++] = begin;
+        }
+        for (int i = 0; colored && i < count; ++i) {
+            const Segment& segment = segments[i];
+            look_up_entries(transfer, first_places[i], segment.seen, first_entries[i]);
+            if (segment.some_cut)
+                look_up_entries(transfer, last_places[i], segment.cut, last_entries[i]);
+        }
+        for (int i = 0; i < count; ++i) {
+            SegmentEntries entries;
+            if (colored) entries.first = load_entry(first_entries[i]);
+            if (colored && segments[i].some_cut) entries.last = load_entry(last_entries[i]);
+            store_run(integrate_segment(transfer, colored, segments[i], entries), colored, slabs[i],
+                      block);
+        }
+    }
+}
+
+// The whole block.
+template <Lookup kind>
+HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
+                               SlabBlock& block) {
+    if (kind != Lookup::one || !plan.linear)
+        return integrate_by_table<kind>(transfer, colored, plan.nan_transparent, block);
+    for (int i = block.from; i < block.end; ++i) {
+        RunScalars run = run_scalars(block, i, plan.nan_transparent);
+        straighten(run);
+        store_run(integrate_linear(transfer, colored, run), colored, i, block);
+    }
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

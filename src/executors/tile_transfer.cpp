@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "executors/tile_transfer.h"
+
+#include <algorithm>
+
+#include "executors/shader_intervals.h"
+
+namespace lamina {
+namespace {
+
+// Coloured tables are read entry by entry: extinction stands beside emission.
+TileTransfer::Texels with_extinction(const PreintegrationTable& table) {
+    const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
+    TileTransfer::Texels texels(entries * 4 * layers);
+    for (std::size_t entry = 0; entry < entries; ++entry) {
+        for (std::size_t layer = 0; layer < layers; ++layer) {
+            const auto from = static_cast<std::ptrdiff_t>(3 * (layer * entries + entry));
+            const std::size_t to = 4 * (entry * layers + layer);
+            std::copy_n(table.emission.begin() + from, 3,
+                        texels.begin() + static_cast<std::ptrdiff_t>(to));
+            texels[to + 3] = table.mean_extinction[entry];
+        }
+    }
+    return texels;
+}
+
+}  // namespace
+
+TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
+                           const TablePlan* wanted, double step_advance) {
+    std::vector<PreintegrationTable::Anchor> anchors;
+    if (wanted != nullptr) {
+        table = preintegration_table(transfer_function,
+                                     {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
+                                      wanted->length_layers, wanted->colored});
+        anchors = table->anchors;
+        if (table->colored) texels = with_extinction(*table);
+        if (wanted->max_length > 0) {
+            layers_per_length =
+                static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
+        }
+    }
+    const ShaderIntervals shader = make_intervals(transfer_function, range, anchors, step_advance);
+    intervals = shader.count;
+    const int padded = std::max(intervals, 0) + few;
+    const auto component = [&](int row, int channel) {
+        std::vector<float> values(static_cast<std::size_t>(padded));
+        for (int i = 0; i < padded; ++i) {
+            const int column = std::min(i, intervals - 1);
+            values[static_cast<std::size_t>(i)] =
+                shader.texels[static_cast<std::size_t>(4 * (row * intervals + column) + channel)];
+        }
+        return values;
+    };
+    end = component(0, 0);
+    inverse_width = component(0, 1);
+    first_node = component(0, 2);
+    nodes = component(0, 3);
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        left[c] = component(1, channel);
+        change[c] = component(2, channel);
+        for (std::size_t i = 0; i < left[c].size(); ++i) change[c][i] -= left[c][i];
+    }
+    right_extinction = component(2, 3);
+    float before = 0;
+    for (std::size_t i = 0; i < right_extinction.size(); ++i) {
+        shown_before.push_back(before);
+        shown.push_back(left[3][i] > 0 || right_extinction[i] > 0 ? 1.0f : 0.0f);
+        before += shown.back();
+    }
+    left_rest = component(3, 0);
+    right_rest = component(3, 1);
+    for (const float start : shader.starts) starts.push_back(static_cast<std::int32_t>(start));
+}
+
+std::int64_t TileTransfer::byte_count() const {
+    const std::size_t per_interval = 4 + 8 + 5;
+    return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
+                                     sizeof(std::int32_t) * starts.size()) +
+           (table ? table->byte_count() : 0);
+}
+
+}  // namespace lamina

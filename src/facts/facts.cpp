@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "facts/facts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "optics/front_weights.h"
+#include "optics/linear_pieces.h"
+#include "facts/drawn_range.h"
+#include "facts/world_unit.h"
+
+namespace lamina {
+namespace {
+
+// Interpolated and rescaled values may leave a brick's range by roundings of float32: part of the
+// range that is kept on both sides when asking whether a brick can be seen. Integers are rescaled
+// as they are interpolated, codes from the type's least value on: also a part of the largest.
+constexpr double range_margin = 1e-6;
+
+double margin_of(const Facts& facts) {
+    const ValueRange& range = facts.range;
+    double largest = 0;
+    if (facts.type != SampleType::float32)
+        largest = range.hi + (facts.type == SampleType::int16 ? 32768 : 0);
+    return range_margin * (range.hi - range.lo + largest);
+}
+
+void check_finite(const Scene& scene, const Facts& facts) {
+    const std::string name = scene.volume_file.empty() ? "volume" : scene.volume_file.string();
+    const std::int64_t samples = facts.grid.sample_count();
+    if (facts.non_finite == samples) fail("{}: all {} samples are NaN or infinite", name, samples);
+    if (facts.non_finite > 0 && scene.nan == NanPolicy::error) {
+        fail(
+            "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
+            "in the scene draws "
+            "their cells as transparent",
+            name, facts.non_finite, samples);
+    }
+}
+
+double side_ratio_of(const Grid& grid) {
+    const glm::dvec3 extent = grid.index_max() - grid.index_min();
+    const glm::dvec3 sides{extent.x * glm::length(grid.step[0]),
+                           extent.y * glm::length(grid.step[1]),
+                           extent.z * glm::length(grid.step[2])};
+    return std::max({sides.x, sides.y, sides.z}) / std::min({sides.x, sides.y, sides.z});
+}
+
+// Colour is linear between knots: its extremes are at knots, both sides of steps, and at the ends
+// of the range.
+double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
+    double largest = 0;
+    const auto include = [&](const glm::dvec3& color) {
+        largest = std::max({largest, color.r, color.g, color.b});
+    };
+    include(transfer_function.at(range.lo).color);
+    include(transfer_function.at(range.hi).color);
+    for (const TransferKnot& knot : transfer_function.knots()) {
+        if (knot.value >= range.lo && knot.value <= range.hi) include(knot.optics.color);
+    }
+    return largest;
+}
+
+void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                         Facts& facts) {
+    const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;
+    std::vector<float> extinctions(bricks.ranges.size());
+    const double unit = world_unit(box_diagonal(facts.grid));
+    parallel_for(static_cast<std::int64_t>(extinctions.size()), 4096, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        const MinMaxBricks::Range& range = bricks.ranges[i];
+        if (distance[i] == 0)
+            extinctions[i] =
+                static_cast<float>(transfer_function.max_extinction(range.lo, range.hi) / unit);
+    });
+    const auto quantile = [&](double share) {
+        const auto last = static_cast<double>(extinctions.size() - 1);
+        const auto place =
+            extinctions.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * last));
+        std::nth_element(extinctions.begin(), place, extinctions.end());
+        return *place * unit;
+    };
+    facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
+}
+
+// Where the transfer function rises from 0 at a brick's own least or largest value, roundings that
+// leave its range may show this optical depth on a ray through the whole box, of a brick that is
+// transparent: .026 / 255.
+constexpr double faint_depth = 1e-4;
+
+double faint_extinction(const Facts& facts) {
+    return faint_depth / (box_diagonal(facts.grid) * std::max(facts.max_color, 1.0));
+}
+
+void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                   Facts& facts) {
+    OccupiedBricks& occupied = facts.occupied_bricks;
+    const double margin = margin_of(facts), faint = faint_extinction(facts);
+    const auto shown = [&](const ValueRange& range) {
+        if (range.empty() || facts.max_extinction == 0) return false;
+        const double most = transfer_function.max_extinction(range.lo - margin, range.hi + margin);
+        return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
+    };
+    occupied = {bricks.count, {}};
+    occupied.distance.resize(bricks.ranges.size());
+    parallel_for(static_cast<std::int64_t>(bricks.ranges.size()), 4096, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        occupied.distance[i] = shown(bricks.ranges[i]) ? 0 : OccupiedBricks::farthest;
+    });
+    occupied.measure_distances();
+}
+
+// Of the volume's box, what the bricks first .. last hold.
+IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& count,
+                       const std::array<std::int64_t, 3>& first,
+                       const std::array<std::int64_t, 3>& last) {
+    IndexBox box{grid.index_min(), grid.index_max()};
+    for (int axis = 0; axis < 3; ++axis) {
+        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
+        if (first[axis] > 0) box.min[axis] = static_cast<double>(first[axis] * MinMaxBricks::edge);
+        if (last[axis] + 1 < count[axis])
+            box.max[axis] = static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
+    }
+    return box;
+}
+
+void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
+                      Facts& facts) {
+    find_occupied(transfer_function, bricks, facts);
+    const OccupiedBricks& occupied = facts.occupied_bricks;
+    std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
+    std::int64_t seen = 0;
+    for (std::int64_t z = 0; z < bricks.count[2]; ++z) {
+        for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
+            for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
+                if (occupied.distance_at(x, y, z) > 0) continue;
+                ++seen;
+                const std::array<std::int64_t, 3> brick{x, y, z};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    first[axis] = std::min(first[axis], brick[axis]);
+                    last[axis] = std::max(last[axis], brick[axis]);
+                }
+            }
+        }
+    }
+    facts.occupied_share = static_cast<double>(seen) / static_cast<double>(bricks.ranges.size());
+    facts.occupied = {};
+    if (seen > 0) facts.occupied = box_of_bricks(facts.grid, bricks.count, first, last);
+}
+
+// Of one linear piece the planner needs no table where segments are short; the whole view is the
+// longest of them.
+bool may_need_table(const Scene& scene, const Facts& facts) {
+    const double depth =
+        facts.max_extinction * (facts.far_depth - facts.near_depth) * facts.max_length_per_depth;
+    return scene.slice.classification == Classification::preintegrated && !facts.constant &&
+           !facts.single_color && (facts.pieces > 1 || depth > thin_depth);
+}
+
+}  // namespace
+
+DepthRange depth_range(const Grid& grid, const View& view) {
+    return depth_range(grid, {grid.index_min(), grid.index_max()}, view);
+}
+
+DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view) {
+    const glm::dvec3 lo = box.min, hi = box.max;
+    DepthRange depth{INFINITY, -INFINITY};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 index{(corner & 1) != 0 ? hi.x : lo.x, (corner & 2) != 0 ? hi.y : lo.y,
+                               (corner & 4) != 0 ? hi.z : lo.z};
+        const double z = glm::dot(grid.to_world(index) - view.eye, view.forward);
+        depth.near = std::min(depth.near, z);
+        depth.far = std::max(depth.far, z);
+    }
+    depth.near = std::max(depth.near, 0.0);
+    return depth;
+}
+
+void measure_view(const Scene& scene, Facts& facts) {
+    const View view(scene.camera, scene.width, scene.height);
+    const glm::dvec3 lo = facts.grid.index_min(), hi = facts.grid.index_max();
+    facts.orthographic = view.projection == Projection::orthographic;
+    const glm::dvec3 eye = facts.grid.to_index(view.eye);
+    facts.eye_inside = !facts.orthographic && glm::clamp(eye, lo, hi) == eye;
+    const DepthRange depth = depth_range(facts.grid, view);
+    facts.near_depth = depth.near;
+    facts.far_depth = depth.far;
+    const double index_speed = glm::length(facts.grid.direction_to_index(view.forward));
+    facts.voxels_along_view = std::max(0.0, depth.far - depth.near) * index_speed;
+    facts.occupied_depth = depth_range(facts.grid, facts.occupied, view);
+    facts.max_length_per_depth = 1;
+    if (!facts.orthographic) {
+        const double x = view.x(scene.width - 1), y = view.y(0);
+        facts.max_length_per_depth = std::sqrt(1 + x * x + y * y);
+    }
+}
+
+Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
+    Facts facts = measure_data(scene, volume, bricks);
+    measure_view(scene, facts);
+    measure_rays(scene, volume, facts);
+    return facts;
+}
+
+Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
+    Facts facts;
+    facts.grid = volume.grid();
+    facts.type = volume.type();
+    facts.range = bricks.whole;
+    facts.non_finite = bricks.non_finite;
+    check_finite(scene, facts);
+    facts.side_ratio = side_ratio_of(facts.grid);
+    const TransferFunction& transfer_function = scene.transfer_function;
+    facts.constant = transfer_function.constant(facts.range.lo, facts.range.hi);
+    facts.single_color = transfer_function.single_color(facts.range.lo, facts.range.hi);
+    facts.max_extinction = transfer_function.max_extinction(facts.range.lo, facts.range.hi);
+    facts.max_color = largest_color(transfer_function, facts.range);
+    facts.knots = std::ranges::count_if(transfer_function.knots(), [&](const TransferKnot& knot) {
+        return knot.value > facts.range.lo && knot.value < facts.range.hi;
+    });
+    const ValueRange drawn = drawn_range(transfer_function, facts.range);
+    facts.pieces = 0;
+    for_each_linear_piece(transfer_function.knots(), drawn.lo, drawn.hi,
+                          [&](const LinearPiece&) { ++facts.pieces; });
+    measure_occupied(transfer_function, bricks, facts);
+    measure_extinctions(transfer_function, bricks, facts);
+    // A brick's range knows nothing of its samples that are no numbers.
+    if (facts.non_finite == 0)
+        facts.constant_bricks = find_constant_bricks(transfer_function, bricks,
+                                                     facts.occupied_bricks, margin_of(facts));
+    return facts;
+}
+
+void measure_rays(const Scene& scene, const Volume& volume, Facts& facts) {
+    facts.ray_shares = measure_ray_shares(scene, volume, facts);
+    facts.scalar_rays = {};
+    if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
+}
+
+}  // namespace lamina

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/camera.h"
+#include "facts/constant_bricks.h"
+#include "facts/occupied_bricks.h"
+#include "facts/ray_shares.h"
+#include "facts/scalar_rays.h"
+#include "scene/scene.h"
+#include "volume/min_max_bricks.h"
+#include "volume/volume.h"
+
+namespace lamina {
+
+// A box in index space.
+struct IndexBox {
+    glm::dvec3 min{0}, max{0};
+    bool empty() const { return !(min.x < max.x && min.y < max.y && min.z < max.z); }
+
+    friend bool operator==(const IndexBox&, const IndexBox&) = default;
+};
+
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all
+// behind the eye.
+struct DepthRange {
+    double near = 0;
+    double far = 0;
+};
+DepthRange depth_range(const Grid& grid, const View& view);
+DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
+
+// What the data and the view really contain: measured, not declared.
+struct Facts {
+    Grid grid;
+    SampleType type = SampleType::uint8;
+    ValueRange range;             // of the finite samples
+    std::int64_t non_finite = 0;  // NaN or infinite samples
+
+    double side_ratio = 1;  // longest to shortest side of the box, in the world
+
+    // The transfer function over `range`.
+    bool constant = false;      // one colour, one extinction
+    bool single_color = false;  // one colour wherever there is extinction
+    double max_extinction = 0;  // per world unit
+    double max_color = 0;       // largest component of a colour
+    std::int64_t knots = 0;     // strictly inside the range
+    std::int64_t pieces = 1;    // linear ones over drawn_range()
+
+    // The smallest box, made of whole min/max bricks, outside which the transfer function shows
+    // nothing.
+    IndexBox occupied;
+    OccupiedBricks occupied_bricks;
+    double occupied_share = 0;  // of the bricks
+    DepthRange occupied_depth;  // eye-space depths of `occupied`
+    ConstantBricks constant_bricks;
+    // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
+    std::array<double, 3> extinction_quantiles{};
+
+    // The view: eye-space depths of the box's nearest and farthest point in front of the eye.
+    bool orthographic = false;
+    bool eye_inside = false;
+    double near_depth = 0;
+    double far_depth = 0;          // <= near_depth: the whole box lies behind the eye
+    double voxels_along_view = 0;  // index-space length of the forward direction over that depth
+    double max_length_per_depth =
+        1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+
+    RayShares ray_shares;
+    ScalarRays scalar_rays;  // where segments are pre-integrated and a table may be needed
+};
+
+// Throws Error when the volume has samples that are no finite numbers and the scene does not say
+// what to do with them, or has none but such.
+Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+
+// The same in parts, each of which needs those before: what the volume and the transfer function
+// say; what the view says, but for rays; what rays of the view meet.
+Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
+void measure_view(const Scene& scene, Facts& facts);
+void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
+
+}  // namespace lamina

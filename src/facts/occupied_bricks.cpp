@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "facts/occupied_bricks.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lamina {
+namespace {
+
+constexpr double edge = MinMaxBricks::edge;
+
+std::int64_t brick_of(double place, std::int64_t count) {
+    return static_cast<std::int64_t>(
+        std::clamp(place * (1 / edge), 0.0, static_cast<double>(count - 1)));
+}
+
+std::uint8_t one_more(std::uint8_t distance) {
+    return distance < OccupiedBricks::farthest ? static_cast<std::uint8_t>(distance + 1) : distance;
+}
+
+// Takes over what is near in rows that are known already, each brick and its two neighbours there.
+class RowSweep {
+  public:
+    explicit RowSweep(std::int64_t count) : near_(static_cast<std::size_t>(count)) {}
+
+    void begin() { std::ranges::fill(near_, std::uint8_t{OccupiedBricks::farthest}); }
+
+    void include(const std::uint8_t* row) {
+        for (std::size_t x = 0; x < near_.size(); ++x) near_[x] = std::min(near_[x], row[x]);
+    }
+
+    void finish(std::uint8_t* row) const {
+        const std::size_t count = near_.size();
+        for (std::size_t x = 0; x < count; ++x) {
+            const std::uint8_t left = near_[x > 0 ? x - 1 : x];
+            const std::uint8_t right = near_[x + 1 < count ? x + 1 : x];
+            row[x] = std::min(row[x], one_more(std::min({left, near_[x], right})));
+        }
+        for (std::size_t x = 1; x < count; ++x) row[x] = std::min(row[x], one_more(row[x - 1]));
+        for (std::size_t x = count - 1; x-- > 0;) row[x] = std::min(row[x], one_more(row[x + 1]));
+    }
+
+  private:
+    std::vector<std::uint8_t> near_;
+};
+
+}  // namespace
+
+// The two sweeps of a chamfer transform, which is exact for this distance: a shortest path takes
+// its steps in any order, all that lead on in the first sweep's direction first.
+void OccupiedBricks::measure_distances() {
+    // No structured binding: clang below 16 has none in lambdas.
+    const std::int64_t nx = count[0], ny = count[1], nz = count[2];
+    RowSweep sweep(nx);
+    const auto row = [&](std::int64_t y, std::int64_t z) {
+        return distance.data() + (z * ny + y) * nx;
+    };
+    const auto take_over = [&](std::int64_t y, std::int64_t z, std::int64_t back) {
+        sweep.begin();
+        if (y + back >= 0 && y + back < ny) sweep.include(row(y + back, z));
+        if (z + back >= 0 && z + back < nz) {
+            const std::int64_t end = std::min(y + 2, ny);
+            for (std::int64_t by = std::max<std::int64_t>(y - 1, 0); by < end; ++by)
+                sweep.include(row(by, z + back));
+        }
+        sweep.finish(row(y, z));
+    };
+    for (std::int64_t z = 0; z < nz; ++z) {
+        for (std::int64_t y = 0; y < ny; ++y) take_over(y, z, -1);
+    }
+    for (std::int64_t z = nz; z-- > 0;) {
+        for (std::int64_t y = ny; y-- > 0;) take_over(y, z, 1);
+    }
+}
+
+std::size_t OccupiedBricks::place_of(const glm::dvec3& point) const {
+    return place(brick_of(point.x, count[0]), brick_of(point.y, count[1]),
+                 brick_of(point.z, count[2]));
+}
+
+bool OccupiedBricks::any_in(const glm::dvec3& min, const glm::dvec3& max) const {
+    std::array<std::int64_t, 3> first{}, last{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        first[axis] = brick_of(min[static_cast<int>(axis)], count[axis]);
+        last[axis] = brick_of(max[static_cast<int>(axis)], count[axis]);
+    }
+    for (std::int64_t z = first[2]; z <= last[2]; ++z) {
+        for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+            const std::uint8_t* const row = distance.data() + (z * count[1] + y) * count[0];
+            for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+                if (row[x] == 0) return true;
+            }
+        }
+    }
+    return false;
+}
+
+bool OccupiedBricks::empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const {
+    std::array<std::int64_t, 3> at{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        at[axis] = brick_of(point[static_cast<int>(axis)], count[axis]);
+    const std::int64_t to_shown = distance_at(at[0], at[1], at[2]);
+    const std::int64_t reach = std::max<std::int64_t>(to_shown, 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t first = at[axis] - reach + 1, end = at[axis] + reach;
+        constexpr double everywhere = std::numeric_limits<double>::infinity();
+        min[static_cast<int>(axis)] = first <= 0 ? -everywhere : static_cast<double>(first) * edge;
+        max[static_cast<int>(axis)] =
+            end >= count[axis] ? everywhere : static_cast<double>(end) * edge;
+    }
+    return to_shown > 0;
+}
+
+}  // namespace lamina

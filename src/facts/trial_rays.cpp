@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "mesh/face_tree.h"
+#include "mesh/ray_walk.h"
+#include "facts/mesh_facts.h"
+
+namespace lamina {
+namespace {
+
+// So many rays along each side of the picture: enough to meet what fills a thousandth of it.
+constexpr int rays_along_side = 32;
+
+std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column, int row,
+                                    std::span<const double> scalar) {
+    const View::Ray ray = view.ray(column, row);
+    walk.aim(ray.origin, ray.direction);
+    const double length_per_depth = glm::length(ray.direction);
+    std::vector<TetSegment> segments;
+    walk.list(segments);
+    std::vector<MeshFacts::Run> runs;
+    for (const TetSegment& segment : segments) {
+        if (segment.in.at < 0 || !(segment.out.at > segment.in.at)) continue;
+        const MeshFacts::Run run{segment.in.interpolate(scalar), segment.out.interpolate(scalar),
+                                 (segment.out.at - segment.in.at) * length_per_depth};
+        if (std::isfinite(run.front) && std::isfinite(run.back)) runs.push_back(run);
+    }
+    return runs;
+}
+
+// Tets that show something, evenly from the whole mesh: what few rays meet, narrow peaks say, is
+// met. Each as a ray of its own along its edge of most change, there and back.
+constexpr std::size_t most_trial_tets = 20000;
+
+void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
+                 std::vector<std::vector<MeshFacts::Run>>& rays) {
+    const auto& values = mesh.scalar.values;
+    const auto points = mesh.mesh.points();
+    std::vector<const Tet*> seen;
+    for (const Tet& tet : mesh.mesh.tets()) {
+        if (!pieces.visible(values, tet).empty()) seen.push_back(&tet);
+    }
+    const std::size_t step = seen.size() / most_trial_tets + 1;
+    for (std::size_t i = 0; i < seen.size(); i += step) {
+        const auto value = [&](std::int32_t corner) {
+            return values[static_cast<std::size_t>(corner)];
+        };
+        const auto [low, high] = std::ranges::minmax_element(*seen[i], {}, value);
+        const double length = glm::distance(points[static_cast<std::size_t>(*low)],
+                                            points[static_cast<std::size_t>(*high)]);
+        rays.push_back({{value(*low), value(*high), length}});
+        rays.push_back({{value(*high), value(*low), length}});
+    }
+}
+
+}  // namespace
+
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
+                                                         const TetPieces& pieces) {
+    const View view(scene.camera, scene.width, scene.height);
+    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
+    const int columns = std::min(rays_along_side, view.width);
+    const int rows = std::min(rays_along_side, view.height);
+    std::vector<std::vector<MeshFacts::Run>> rays(static_cast<std::size_t>(columns * rows));
+    parallel_for(rows, 1, [&](std::int64_t row) {
+        RayWalk walk(mesh.mesh, boundary);
+        for (int column = 0; column < columns; ++column) {
+            rays[static_cast<std::size_t>(row * columns + column)] = runs_of(
+                walk, view, (2 * column + 1) * view.width / (2 * columns),
+                static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.scalar.values);
+        }
+    });
+    std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
+    append_tets(mesh, pieces, rays);
+    return rays;
+}
+
+}  // namespace lamina

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "mesh_files/value_type.h"
+
+namespace lamina {
+
+// Reads words and numbers from a text, whatever the locale.
+class TextReader {
+  public:
+    explicit TextReader(std::string_view text)
+        : begin_(text.data()), at_(begin_), end_(begin_ + text.size()) {}
+
+    static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+    // Skips blanks, newlines among them.
+    bool at_end() {
+        while (at_ != end_ && is_blank(*at_)) ++at_;
+        return at_ == end_;
+    }
+    // Whether anything but blanks comes before the next newline. (Not by line(), which looks for
+    // that newline through all of a file that has none.)
+    bool line_goes_on() const {
+        const char* at = at_;
+        while (at != end_ && *at != '\n' && is_blank(*at)) ++at;
+        return at != end_ && *at != '\n';
+    }
+    std::size_t position() const { return static_cast<std::size_t>(at_ - begin_); }
+    std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
+    const char* here() const { return at_; }
+    void skip(std::size_t count) { at_ += count; }  // at most left()
+
+    // The number of the line of the last word read; the first has number 1.
+    std::size_t line_number() const;
+
+    std::string_view word();  // empty at the end
+    std::string_view line();  // from here to the newline, which is skipped
+
+    // The next word as a T (and past it); false, and still before it, where it is none or does not
+    // fit. Numbers too small for a floating-point type become 0; "nan" and "inf" are numbers.
+    template <typename T>
+    bool read(T& value) {
+        if (at_end()) return false;
+        const char* const first = *at_ == '+' ? at_ + 1 : at_;
+        auto [stop, error] = std::from_chars(first, end_, value);
+        if constexpr (std::is_floating_point_v<T>) {
+            if (error == std::errc::result_out_of_range) {
+                long double wide = 0;  // has exponents to spare
+                const auto again = std::from_chars(first, end_, wide);
+                if (again.ec == std::errc{} && std::abs(wide) < 1) {
+                    value = std::copysign(T{0}, static_cast<T>(wide));
+                    error = std::errc{};
+                }
+            }
+        }
+        if (error != std::errc{} || (stop != end_ && !is_blank(*stop))) return false;
+        at_ = stop;
+        return true;
+    }
+
+  private:
+    const char* begin_;
+    const char* at_;
+    const char* end_;
+};
+
+// What stands next, for messages: "'abc'", cut short when it is long, or "the end".
+std::string next_word(TextReader reader);
+
+const char* name_of(ValueType type);
+
+// `count` numbers of `type`. Throws Error; `what`: the file and array, for messages.
+template <typename To>
+std::vector<To> read_text_values(TextReader& reader, ValueType type, std::int64_t count,
+                                 const std::string& what) {
+    if (static_cast<std::uint64_t>(count) > (reader.left() + 1) / 2) {  // "1 2": two bytes each
+        fail("{}: found {} bytes of text, expected {} numbers", what, reader.left(), count);
+    }
+    return with_type(type, [&](auto value) {
+        std::vector<To> values(static_cast<std::size_t>(count));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if ((i & 0xfffff) == 0) check_interrupt();
+            if (!reader.read(value)) {
+                fail("{}: value {} of {}: found {}, expected a number ({})", what, i + 1, count,
+                     next_word(reader), name_of(type));
+            }
+            values[i] = value_as<To>(value);
+        }
+        return values;
+    });
+}
+
+}  // namespace lamina

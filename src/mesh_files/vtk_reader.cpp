@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// "VTK File Formats" (the VTK User's Guide) and, for what it does not say, vtkDataReader.cxx.
+#include "mesh_files/vtk_reader.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file_bytes.h"
+#include "mesh_files/mesh_assembly.h"
+#include "mesh_files/text_reader.h"
+#include "mesh_files/vtk_tokens.h"
+
+namespace lamina {
+namespace {
+
+// How many components a data set attribute has; 0: its line says it.
+struct Attribute {
+    std::string_view keyword;
+    std::int64_t components;
+};
+constexpr Attribute attributes[] = {
+    {"vectors", 3},    {"normals", 3},      {"tensors", 9},    {"tensors6", 6},
+    {"global_ids", 1}, {"pedigree_ids", 1}, {"edge_flags", 1}, {"texture_coordinates", 0},
+    {"scalars", 0}};
+
+class VtkReader {
+  public:
+    VtkReader(const std::string& file, std::string_view text) : tokens_(file, text) {
+        piece_.label = file;
+    }
+
+    MeshPiece read() {
+        read_header();
+        for (std::string word = tokens_.keyword(); !word.empty(); word = tokens_.keyword()) {
+            read_section(word);
+        }
+        if (!has_points_) fail("{}: no POINTS in it", tokens_.file());
+        if (!has_cells_) fail("{}: no CELLS in it", tokens_.file());
+        if (!has_types_) fail("{}: no CELL_TYPES in it", tokens_.file());
+        check_count("CELL_TYPES", piece_.cells.types.size(), piece_.cells.ends.size());
+        for (const MeshScalar& scalar : piece_.point_scalars) {
+            check_count("POINT_DATA", scalar.values.size(), piece_.points.size());
+        }
+        for (const MeshScalar& scalar : piece_.cell_scalars) {
+            check_count("CELL_DATA", scalar.values.size(), piece_.cells.ends.size());
+        }
+        return std::move(piece_);
+    }
+
+  private:
+    void check_count(const char* what, std::size_t found, std::size_t expected) {
+        if (found == expected) return;
+        fail("{}: {}: found {} values, expected {}, as many as there are {}", tokens_.file(), what,
+             found, expected, std::string_view(what) == "POINT_DATA" ? "points" : "cells");
+    }
+
+    void read_header() {
+        const std::string_view magic = tokens_.line();
+        constexpr std::string_view expected = "# vtk DataFile Version ";
+        if (!magic.starts_with(expected)) {
+            fail("{}: not a legacy VTK file: it does not begin with '{}'", tokens_.file(),
+                 expected);
+        }
+        TextReader version(magic.substr(expected.size()));
+        double number = 0;
+        if (!version.read(number) || !(number >= 1 && number < 6)) {
+            fail("{}: version: found {}, expected 1.0 to 5.1", tokens_.file(),
+                 next_word(TextReader(magic.substr(expected.size()))));
+        }
+        offsets_and_connectivity_ = number >= 5;
+        tokens_.line();  // the title
+        const std::string coding = tokens_.keyword();
+        if (coding != "ascii" && coding != "binary") {
+            fail("{}: line 3: found '{}', expected ASCII or BINARY", tokens_.file(),
+                 one_line(coding));
+        }
+        const std::string dataset = tokens_.keyword();
+        const std::string kind = tokens_.keyword();
+        if (dataset != "dataset" || kind != "unstructured_grid") {
+            fail("{}: found '{} {}', expected 'DATASET UNSTRUCTURED_GRID'", tokens_.where(),
+                 one_line(dataset), one_line(kind));
+        }
+        tokens_.set_binary(coding == "binary");
+    }
+
+    void read_section(const std::string& word) {
+        if (word == "points") {
+            read_points();
+        } else if (word == "cells") {
+            read_cells();
+        } else if (word == "cell_types") {
+            once(has_types_, "CELL_TYPES");
+            const std::int64_t count = tokens_.count("CELL_TYPES");
+            piece_.cells.types =
+                tokens_.values<std::int64_t>(ValueType::int32, count, "CELL_TYPES");
+        } else if (word == "point_data" || word == "cell_data") {
+            data_ = word == "point_data" ? Data::point : Data::cell;
+            tuples_ = tokens_.count(data_ == Data::point ? "POINT_DATA" : "CELL_DATA");
+        } else if (word == "field") {
+            read_field();
+        } else if (word == "metadata") {
+            tokens_.skip_metadata();
+        } else if (data_ == Data::none || !read_attribute(word)) {
+            fail("{}: found '{}', expected a keyword (POINTS, CELLS, SCALARS, ...)",
+                 tokens_.where(), printable(word));
+        }
+    }
+
+    static std::string printable(const std::string& word) {
+        std::string text;
+        for (const char c : word) text += c >= ' ' && c <= '~' ? c : '?';
+        return text;
+    }
+
+    void once(bool& seen, const char* section) {
+        if (seen) fail("{}: a second {}, expected one", tokens_.where(), section);
+        seen = true;
+    }
+
+    std::int64_t product(std::int64_t a, std::int64_t b, const std::string& what) {
+        std::int64_t result = 0;
+        if (__builtin_mul_overflow(a, b, &result)) {
+            fail("{}: {}: found {} times {} numbers, more than any file holds", tokens_.where(),
+                 what, a, b);
+        }
+        return result;
+    }
+
+    ValueType number_type(const char* what) {
+        const VtkType type = tokens_.type();
+        if (type.kind != VtkType::Kind::number) {
+            fail("{}: {}: expected a type of numbers", tokens_.where(), what);
+        }
+        return type.value;
+    }
+
+    void read_points() {
+        once(has_points_, "POINTS");
+        const std::int64_t count = product(tokens_.count("POINTS"), 3, "POINTS");
+        const ValueType type = number_type("POINTS");
+        piece_.points = points_from_values(tokens_.values<double>(type, count, "POINTS"));
+    }
+
+    void read_cells() {
+        once(has_cells_, "CELLS");
+        const std::int64_t count = tokens_.count("CELLS");
+        const std::int64_t size = tokens_.count("CELLS");
+        if (offsets_and_connectivity_) {
+            std::vector<std::int64_t> offsets = read_indices("OFFSETS", count);
+            piece_.cells.connectivity = read_indices("CONNECTIVITY", size);
+            if (offsets.empty()) return;
+            if (offsets[0] != 0) {
+                fail("{}: OFFSETS: found {} at the first, expected 0", tokens_.file(), offsets[0]);
+            }
+            offsets.erase(offsets.begin());
+            piece_.cells.ends = std::move(offsets);
+            return;
+        }
+        unpack_cells(count, tokens_.values<std::int64_t>(ValueType::int32, size, "CELLS"));
+    }
+
+    std::vector<std::int64_t> read_indices(const char* section, std::int64_t count) {
+        const std::string word = tokens_.keyword();
+        if (word != (std::string_view(section) == "OFFSETS" ? "offsets" : "connectivity")) {
+            fail("{}: found '{}', expected {}", tokens_.where(), printable(word), section);
+        }
+        const ValueType type = number_type(section);
+        if (!is_integer(type)) fail("{}: {}: expected integers", tokens_.where(), section);
+        return tokens_.values<std::int64_t>(type, count, section);
+    }
+
+    // Each cell as its number of points, then these.
+    void unpack_cells(std::int64_t count, const std::vector<std::int64_t>& list) {
+        if (static_cast<std::uint64_t>(count) > list.size()) {
+            fail("{}: CELLS: found a list of {} numbers for {} cells", tokens_.file(), list.size(),
+                 count);
+        }
+        MeshCells& cells = piece_.cells;
+        cells.ends.reserve(static_cast<std::size_t>(count));
+        cells.connectivity.reserve(list.size() - static_cast<std::size_t>(count));
+        std::size_t at = 0;
+        for (std::int64_t cell = 0; cell < count; ++cell) {
+            const std::int64_t points = at < list.size() ? list[at] : -1;
+            if (points < 0 || static_cast<std::uint64_t>(points) > list.size() - at - 1) {
+                fail("{}: CELLS: cell {} (the first is 0) goes beyond the list of {} numbers",
+                     tokens_.file(), cell, list.size());
+            }
+            const auto first = list.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+            cells.connectivity.insert(cells.connectivity.end(), first, first + points);
+            cells.ends.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+            at += static_cast<std::size_t>(points) + 1;
+        }
+        if (at != list.size()) {
+            fail("{}: CELLS: found {} numbers, its {} cells take {}", tokens_.file(), list.size(),
+                 count, at);
+        }
+    }
+
+    // False where `word` is no attribute.
+    bool read_attribute(const std::string& word) {
+        if (word == "lookup_table") {
+            const std::string name = tokens_.name();
+            skip_colors(name, product(tokens_.count("LOOKUP_TABLE"), 4, name));
+            return true;
+        }
+        if (word == "color_scalars") {
+            const std::string name = tokens_.name();
+            skip_colors(name, product(tokens_.count("COLOR_SCALARS"), tuples_, name));
+            return true;
+        }
+        for (const Attribute& attribute : attributes) {
+            if (word != attribute.keyword) continue;
+            const std::string name = tokens_.name();
+            std::int64_t components = attribute.components;
+            if (word == "texture_coordinates") components = tokens_.count("TEXTURE_COORDINATES");
+            const VtkType type = tokens_.type();
+            if (word == "scalars") components = read_scalars_line();
+            read_array(name, components, tuples_, type);
+            return true;
+        }
+        return false;
+    }
+
+    // "[components]", then the line "LOOKUP_TABLE name".
+    std::int64_t read_scalars_line() {
+        const std::int64_t components = tokens_.count_in_line(1);
+        if (const std::string word = tokens_.keyword(); word != "lookup_table") {
+            fail("{}: found '{}', expected LOOKUP_TABLE after SCALARS", tokens_.where(),
+                 printable(word));
+        }
+        tokens_.name();
+        return components;
+    }
+
+    // Bytes in a binary file, fractions in an ASCII one: as words both are `count` values.
+    void skip_colors(const std::string& name, std::int64_t count) {
+        tokens_.skip_values({VtkType::Kind::number, ValueType::uint8}, count, name);
+    }
+
+    void read_field() {
+        tokens_.name();
+        const std::int64_t arrays = tokens_.count("FIELD");
+        for (std::int64_t i = 0; i < arrays; ++i) {
+            std::string name = tokens_.name();
+            if (name == "METADATA") {  // of the array before
+                tokens_.skip_metadata();
+                name = tokens_.name();
+            }
+            if (name == "NULL_ARRAY") continue;
+            const std::int64_t components = tokens_.count("FIELD");
+            const std::int64_t tuples = tokens_.count("FIELD");
+            read_array(name, components, tuples, tokens_.type());
+        }
+    }
+
+    void read_array(const std::string& name, std::int64_t components, std::int64_t tuples,
+                    VtkType type) {
+        const std::string what = "'" + name + "'";
+        const std::int64_t count = product(components, tuples, what);
+        if (data_ == Data::none || !makes_scalar(components) ||
+            type.kind != VtkType::Kind::number) {
+            tokens_.skip_values(type, count, what);
+            return;
+        }
+        if (tuples != tuples_) {
+            fail("{}: {}: found {} values, expected {}", tokens_.where(), what, tuples, tuples_);
+        }
+        auto& scalars = data_ == Data::point ? piece_.point_scalars : piece_.cell_scalars;
+        scalars.push_back(
+            scalar_from_values(name, components, tokens_.values<double>(type.value, count, what)));
+    }
+
+    enum class Data { none, point, cell };
+
+    VtkTokens tokens_;
+    MeshPiece piece_;
+    bool offsets_and_connectivity_ = false;
+    bool has_points_ = false, has_cells_ = false, has_types_ = false;
+    Data data_ = Data::none;
+    std::int64_t tuples_ = 0;
+};
+
+}  // namespace
+
+MeshData read_vtk(const std::filesystem::path& path) {
+    const std::string bytes = read_file_bytes(path);
+    MeshAssembly assembly(path.string());
+    assembly.add(VtkReader(path.string(), bytes).read());
+    return assembly.finish();
+}
+
+}  // namespace lamina

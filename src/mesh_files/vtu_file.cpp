@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/vtu_file.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/file_bytes.h"
+#include "base/warning.h"
+#include "mesh_files/text_reader.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::ptrdiff_t most_marks = 1'000'000;  // of tags and attributes, 100 bytes or so each
+
+std::optional<ValueType> type_named(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(ValueType::float64); ++i) {
+        if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
+    }
+    return std::nullopt;
+}
+
+// The text in an element; VTK's writer may put information keys before or after it.
+std::string text_of(pugi::xml_node node, std::string_view& text) {
+    std::string joined;
+    int parts = 0;
+    for (const pugi::xml_node child : node.children()) {
+        if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) continue;
+        if (parts++ > 0) joined.append(text).append(" ");
+        text = child.value();
+    }
+    if (parts > 1) joined.append(text);
+    return parts > 1 ? joined : std::string();
+}
+
+std::string said(const char* value) {
+    return *value == '\0' ? "''" : next_word(TextReader(value));
+}
+
+// Counts what is no blank.
+void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
+    const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
+    if (surplus == 0) return;
+    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
+                     surplus, behind));
+}
+
+}  // namespace
+
+VtuFile::VtuFile(const std::filesystem::path& path)
+    : name_(path.string()), bytes_(read_file_bytes(path)), file_bytes_(bytes_.size()) {
+    constexpr std::string_view last_tag = "</VTKFile>";
+    const std::size_t end = bytes_.rfind(last_tag);
+    if (end != std::string::npos) {
+        warn_of_surplus(name_, std::string_view(bytes_).substr(end + last_tag.size()),
+                        "</VTKFile>");
+    }
+    cut_off_appended_data();
+    parse();
+}
+
+// Raw appended data are no XML.
+void VtuFile::cut_off_appended_data() {
+    const std::size_t tag = bytes_.find("<AppendedData");
+    if (tag == std::string::npos) {
+        xml_ = std::move(bytes_);
+        return;
+    }
+    const std::size_t tag_end = bytes_.find('>', tag);
+    const std::size_t mark =
+        tag_end == std::string::npos ? tag_end : bytes_.find_first_not_of(" \t\r\n", tag_end + 1);
+    if (mark == std::string::npos || bytes_[mark] != '_') {
+        fail("{}: AppendedData: no underscore before its data", name_);
+    }
+    const std::size_t end = bytes_.rfind("</AppendedData");
+    if (end == std::string::npos || end <= mark ||
+        bytes_.find("</VTKFile", end) == std::string::npos) {
+        fail("{}: truncated: no </AppendedData> and </VTKFile> after its {} bytes of appended data",
+             name_, bytes_.size() - mark - 1);
+    }
+    has_appended_ = true;
+    appended_ = std::string_view(bytes_).substr(mark + 1, end - mark - 1);
+    xml_ = bytes_.substr(0, tag_end + 1) + "</AppendedData></VTKFile>";
+}
+
+void VtuFile::parse() {
+    const std::ptrdiff_t marks =
+        std::count_if(xml_.begin(), xml_.end(), [](char c) { return c == '<' || c == '='; });
+    if (marks > most_marks) {
+        fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
+    }
+    if (xml_.find("<VTKFile") == std::string::npos) {
+        fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
+    }
+    const pugi::xml_parse_result result = document_.load_buffer_inplace(
+        xml_.data(), xml_.size(), pugi::parse_escapes | pugi::parse_cdata, pugi::encoding_utf8);
+    if (!result) {
+        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml_.size(),
+             result.description());
+    }
+    read_root(document_.child("VTKFile"));
+}
+
+void VtuFile::read_root(pugi::xml_node root) {
+    const std::string type = root.attribute("type").value();
+    if (type != "UnstructuredGrid") {
+        fail("{}: VTKFile type: found {}, expected 'UnstructuredGrid'", name_, said(type.c_str()));
+    }
+    grid_ = root.child("UnstructuredGrid");
+    if (!grid_) fail("{}: no <UnstructuredGrid> in it", name_);
+    const std::string order = root.attribute("byte_order").as_string("LittleEndian");
+    if (order != "LittleEndian" && order != "BigEndian") {
+        fail("{}: byte_order: found {}, expected 'LittleEndian' or 'BigEndian'", name_,
+             said(order.c_str()));
+    }
+    encoding_.swap_bytes = (order == "BigEndian") != (std::endian::native == std::endian::big);
+    const std::string header = root.attribute("header_type").as_string("UInt32");
+    if (header != "UInt32" && header != "UInt64") {
+        fail("{}: header_type: found {}, expected 'UInt32' or 'UInt64'", name_,
+             said(header.c_str()));
+    }
+    encoding_.header_type = header == "UInt32" ? ValueType::uint32 : ValueType::uint64;
+    encoding_.compressor = root.attribute("compressor").value();
+    if (!has_appended_) return;
+    const std::string appended = root.child("AppendedData").attribute("encoding").value();
+    if (appended != "raw" && appended != "base64") {
+        fail("{}: AppendedData encoding: found {}, expected 'raw' or 'base64'", name_,
+             said(appended.c_str()));
+    }
+    appended_base64_ = appended == "base64";
+}
+
+std::int64_t VtuFile::count_in(pugi::xml_node node, const char* attribute,
+                               const std::string& what) const {
+    const char* const text = node.attribute(attribute).value();
+    TextReader reader(text);
+    std::int64_t count = 0;
+    if (!reader.read(count) || !reader.at_end() || count < 0) {
+        fail("{}: {}: found {}, expected a whole number >= 0", what, attribute,
+             node.attribute(attribute) ? said(text) : "none");
+    }
+    return count;
+}
+
+std::int64_t VtuFile::components_of(pugi::xml_node array, const std::string& what) const {
+    if (!array.attribute("NumberOfComponents")) return 1;
+    const std::int64_t count = count_in(array, "NumberOfComponents", what);
+    return count == 0 ? 1 : count;  // VTK takes 0 for 1
+}
+
+ValueType VtuFile::type_of(pugi::xml_node array, const std::string& what) const {
+    const char* const text = array.attribute("type").value();
+    if (const auto type = type_named(text)) return *type;
+    fail("{}: type: found {}, expected Int8 ... UInt64, Float32 or Float64", what, said(text));
+}
+
+VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) const {
+    if (!has_appended_) fail("{}: format 'appended', but the file has no AppendedData", what);
+    const std::int64_t offset = count_in(array, "offset", what);
+    if (static_cast<std::uint64_t>(offset) > appended_.size()) {
+        fail("{}: offset: found {}, the file has {} bytes of appended data", what, offset,
+             appended_.size());
+    }
+    return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
+}
+
+// Arrays that share their bytes would let a small file fill any memory.
+void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
+    appended_used_ += bytes;
+    if (appended_used_ > appended_.size()) {
+        fail(
+            "{}: offset: the arrays up to this one take {} bytes of appended data, the file has {}",
+            what, appended_used_, appended_.size());
+    }
+}
+
+// zlib makes a thousand equal bytes into one, and each may be a value of 8 bytes: a small file
+// could fill any memory. Points and corners of real meshes are far from that.
+void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
+    constexpr std::uint64_t most_expansion = 256;
+    values_kept_ += static_cast<std::uint64_t>(count);
+    if (values_kept_ / most_expansion > file_bytes_ / sizeof(double) + 1) {
+        fail(
+            "{}: the arrays up to this one promise {} values, {} bytes each, more than {} times "
+            "the file's {} bytes",
+            what, values_kept_, sizeof(double), most_expansion, file_bytes_);
+    }
+}
+
+template <typename To>
+std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                                const std::string& what) const {
+    std::int64_t count = 0;
+    if (__builtin_mul_overflow(tuples, components, &count)) {
+        fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
+             components);
+    }
+    count_kept(count, what);
+    const ValueType type = type_of(array, what);
+    if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
+        fail("{}: type: found {}, expected an integer type", what, name_of(type));
+    }
+    const std::string format = array.attribute("format").as_string("ascii");
+    if (format == "appended") {
+        VtuSource source = appended_at(array, what);
+        const std::size_t from = source.text.size();
+        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        count_appended(from - source.text.size(), what);
+        return values;
+    }
+    std::string_view text;
+    const std::string joined = text_of(array, text);
+    if (!joined.empty()) text = joined;
+    if (format == "binary") {
+        VtuSource source{text, true};
+        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        warn_of_surplus(what, source.text, "its base64 data");
+        return values;
+    }
+    if (format != "ascii") {
+        fail("{}: format: found {}, expected 'ascii', 'binary' or 'appended'", what,
+             said(format.c_str()));
+    }
+    TextReader reader(text);
+    auto values = read_text_values<To>(reader, type, count, what);
+    if (!reader.at_end()) {
+        fail("{}: found more than the {} values expected: {}", what, count, next_word(reader));
+    }
+    return values;
+}
+
+template std::vector<double> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                             const std::string&) const;
+template std::vector<std::int64_t> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,
+                                                   const std::string&) const;
+
+}  // namespace lamina

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh_files/value_type.h"
+#include "mesh_files/vtu_data.h"
+
+namespace lamina {
+
+// A VTK XML file of an unstructured grid: its elements, and the numbers of its DataArrays however
+// they are coded. Throws Error for whatever is not as it should be.
+class VtuFile {
+  public:
+    explicit VtuFile(const std::filesystem::path& path);
+
+    const std::string& name() const { return name_; }
+    pugi::xml_node grid() const { return grid_; }
+
+    // A whole number >= 0 in an attribute.
+    std::int64_t count_in(pugi::xml_node node, const char* attribute,
+                          const std::string& what) const;
+    std::int64_t components_of(pugi::xml_node array, const std::string& what) const;
+
+    // The values (tuples times components) of a DataArray as To: double or int64. `what`: the file
+    // and array, for messages.
+    template <typename To>
+    std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                           const std::string& what) const;
+
+  private:
+    void cut_off_appended_data();
+    void parse();
+    void read_root(pugi::xml_node root);
+    ValueType type_of(pugi::xml_node array, const std::string& what) const;
+    VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
+    void count_appended(std::size_t bytes, const std::string& what) const;
+    void count_kept(std::int64_t count, const std::string& what) const;
+
+    std::string name_;
+    std::string bytes_;          // of the file
+    std::string xml_;            // without appended data; xml_nodes point into it
+    std::string_view appended_;  // what follows the underscore
+    bool has_appended_ = false, appended_base64_ = false;
+    mutable std::size_t appended_used_ = 0;  // by all arrays that were read
+    std::size_t file_bytes_;
+    mutable std::uint64_t values_kept_ = 0;  // of all arrays that were read
+    pugi::xml_document document_;
+    pugi::xml_node grid_;
+    VtuEncoding encoding_;
+};
+
+}  // namespace lamina

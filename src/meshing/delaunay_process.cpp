@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meshing/delaunay_process.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/temporary_file.h"
+#include "meshing/tetrahedralize_protocol.h"
+
+extern char** environ;
+
+namespace lamina {
+namespace {
+
+void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
+    static_assert(sizeof(glm::dvec3) == sizeof(TetrahedralizePoint));
+    const auto count = static_cast<TetrahedralizeCount>(points.size());
+    file.write(&count, sizeof count);
+    file.write(points.data(), points.size_bytes());
+    file.rewind();
+}
+
+// The last line that has something on it: after TetGen's own chatter, the reason.
+std::string last_line(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line, last;
+    while (std::getline(lines, line)) {
+        if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+    }
+    return one_line(last);
+}
+
+// The child's messages come through a pipe, as a full disk has no room for the reason why it
+// failed.
+class Messages {
+  public:
+    Messages() {
+        if (pipe2(ends_, O_CLOEXEC) != 0) fail("cannot make a pipe: {}", std::strerror(errno));
+        fcntl(ends_[0], F_SETFL, O_NONBLOCK);
+    }
+    ~Messages() {
+        close(ends_[0]);
+        close(ends_[1]);
+    }
+    Messages(const Messages&) = delete;
+    Messages& operator=(const Messages&) = delete;
+
+    int writing_end() const { return ends_[1]; }
+    // Returns what has come since, without waiting for more.
+    void collect() {
+        char block[4096];
+        for (ssize_t count; (count = read(ends_[0], block, sizeof block)) > 0;) {
+            text_.append(block, static_cast<std::size_t>(count));
+            if (text_.size() > 65536) text_.erase(0, text_.size() - 32768);
+        }
+    }
+    const std::string& text() const { return text_; }
+
+  private:
+    int ends_[2] = {-1, -1};
+    std::string text_;
+};
+
+// A child that does not outlive this, nor this process: see tetrahedralize_parent_option.
+class Child {
+  public:
+    Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
+        posix_spawn_file_actions_t actions;
+        posix_spawn_file_actions_init(&actions);
+        posix_spawn_file_actions_adddup2(&actions, fileno(in), STDIN_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, fileno(out), STDOUT_FILENO);
+        posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+        std::string name = program.string(), option = tetrahedralize_parent_option,
+                    parent = std::to_string(getpid());
+        char* const argv[] = {name.data(), option.data(), parent.data(), nullptr};
+        const int failure = posix_spawn(&id_, name.c_str(), &actions, nullptr, argv, environ);
+        posix_spawn_file_actions_destroy(&actions);
+        if (failure != 0) {
+            id_ = -1;
+            fail("{}: cannot be started: {}", name, std::strerror(failure));
+        }
+    }
+    ~Child() {
+        if (id_ < 0) return;
+        kill(id_, SIGKILL);
+        while (waitpid(id_, nullptr, 0) < 0 && errno == EINTR) {
+        }
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    // Its status as waitpid() gives it. Throws Interrupted.
+    int wait(Messages& messages) {
+        using namespace std::chrono_literals;
+        for (std::chrono::microseconds pause = 200us;;
+             pause = std::min<decltype(pause)>(2 * pause, 20ms)) {
+            int status = 0;
+            const pid_t ended = waitpid(id_, &status, WNOHANG);
+            messages.collect();  // also afterwards: a full pipe would stop it
+            if (ended == id_) {
+                id_ = -1;
+                check_interrupt();  // Ctrl-C ends the child as well: that is no failure of its own
+                return status;
+            }
+            if (ended < 0 && errno != EINTR) fail("waitpid: {}", std::strerror(errno));
+            check_interrupt();
+            std::this_thread::sleep_for(pause);
+        }
+    }
+
+  private:
+    pid_t id_ = -1;
+};
+
+std::string outcome_of(int status) {
+    return WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
+                               : fmt::format("exit code {}", WEXITSTATUS(status));
+}
+
+template <typename Element>
+void read_list(std::FILE* file, std::vector<Element>& list, std::size_t count) {
+    list.resize(count);
+    if (std::fread(list.data(), sizeof(Element), count, file) != count) {
+        fail("cannot read the answer of {}", tetrahedralize_program);
+    }
+}
+
+DelaunayTets read_tets(std::FILE* file, std::size_t points) {
+    std::fseek(file, 0, SEEK_END);
+    const long length = std::ftell(file);
+    std::rewind(file);
+    TetrahedralizeCount count = 0;
+    if (length < static_cast<long>(sizeof count) ||
+        std::fread(&count, sizeof count, 1, file) != 1) {
+        fail("{} gave no answer", tetrahedralize_program);
+    }
+    const std::int64_t present = (length - static_cast<long>(sizeof count)) /
+                                 static_cast<long>(2 * sizeof(TetrahedralizeTet));
+    if (count <= 0 || count != present) {
+        fail("{} promised {} tets and gave {}", tetrahedralize_program, count, present);
+    }
+    DelaunayTets answer;
+    read_list(file, answer.tets, static_cast<std::size_t>(count));
+    read_list(file, answer.neighbors, static_cast<std::size_t>(count));
+    const auto check = [](const auto& lists, std::int64_t first, std::int64_t end) {
+        for (const auto& list : lists) {
+            for (const std::int32_t index : list) {
+                if (index < first || index >= end) {
+                    fail("{}: index {} is out of range", tetrahedralize_program, index);
+                }
+            }
+        }
+    };
+    check(answer.tets, 0, static_cast<std::int64_t>(points));
+    check(answer.neighbors, -1, count);
+    return answer;
+}
+
+bool is_program(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_tetrahedralizer() {
+    std::error_code failure;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
+    if (!failure && is_program(self.parent_path() / tetrahedralize_program)) {
+        return self.parent_path() / tetrahedralize_program;
+    }
+    const char* const folders = std::getenv("PATH");
+    std::istringstream list(folders ? folders : "");
+    for (std::string folder; std::getline(list, folder, ':');) {
+        // Shells take an empty entry for the current folder: whatever lies there is not meant.
+        if (folder.empty()) continue;
+        const auto path = std::filesystem::path(folder) / tetrahedralize_program;
+        if (is_program(path)) return path;
+    }
+    return std::nullopt;
+}
+
+std::filesystem::path require_tetrahedralizer() {
+    const auto program = find_tetrahedralizer();
+    if (!program) {
+        fail(
+            "{} is neither beside lamina nor in PATH: build lamina with TetGen (libtet1.5-dev, "
+            "-DLAMINA_WITH_TETGEN=ON), or use --kuhn (mesh.kuhn), which needs none",
+            tetrahedralize_program);
+    }
+    return *program;
+}
+
+DelaunayTets delaunay_by_process(const std::filesystem::path& program,
+                                 std::span<const glm::dvec3> points) {
+    TemporaryFile in, out;
+    Messages messages;
+    write_points(in, points);
+    Child child(program, in.stream(), out.stream(), messages.writing_end());
+    const int status = child.wait(messages);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        const std::string reason = last_line(messages.text());
+        if (WIFEXITED(status) && WEXITSTATUS(status) == tetrahedralize_no_room) {
+            fail(
+                "{}: no room for the tetrahedra of {} points: {}: set TMPDIR to a folder with more",
+                temporary_folder(), points.size(), reason);
+        }
+        fail("no tetrahedra from {} points: {} ({})", points.size(),
+             reason.empty() ? tetrahedralize_program : reason, outcome_of(status));
+    }
+    return read_tets(out.stream(), points.size());
+}
+
+}  // namespace lamina

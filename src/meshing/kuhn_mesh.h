@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "mesh/mesh_data.h"
+#include "meshing/trilinear_field.h"
+
+namespace lamina {
+
+// Of the meshes made from volumes.
+inline constexpr const char* mesh_scalar_name = "scalar";
+
+std::int64_t kuhn_tet_count(const TrilinearField& field);
+
+// Each cell between the field's planes cut into six tets around its diagonal from the lowest to the
+// highest corner (Kuhn 1960, Freudenthal 1942): conforming, since every face gets the diagonal from
+// its lowest to its highest corner. Points at all crossings of planes, x fastest, in index space.
+// Throws Error when that makes more than `max_tets` tets or 2^31 points. Parallel.
+MeshData make_kuhn_mesh(const TrilinearField& field, std::int64_t max_tets);
+
+}  // namespace lamina

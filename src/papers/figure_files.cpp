@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "papers/figure_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/atomic_file.h"
+#include "image/png.h"
+#include "study/error_json.h"
+#include "study/line_plot.h"
+#include "study/text_file.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string csv_of(const std::vector<NamedCurve>& curves) {
+    std::vector<std::string> names{"x"};
+    for (const NamedCurve& named : curves) names.push_back(named.name);
+    CsvTable table(names);
+    for (std::size_t x = 0; x < ramp_width; ++x) {
+        std::vector<std::string> cells{std::to_string(x)};
+        for (const NamedCurve& named : curves) cells.push_back(fmt::format("{}", named.curve[x]));
+        table.add_row(cells);
+    }
+    return table.text();
+}
+
+std::string svg_of(const std::string& title, const std::vector<NamedCurve>& curves) {
+    double high = 0;
+    for (const NamedCurve& named : curves) {
+        high = std::max(high, *std::max_element(named.curve.begin(), named.curve.end()));
+    }
+    LinePlot plot(title, {"wanted opacity of the ray, in 1/255", 0, 255},
+                  {"shown, in 1/255", 0, std::max(high, 1.0)});
+    Curve x(ramp_width);
+    std::iota(x.begin(), x.end(), 0.0);
+    for (const NamedCurve& named : curves) plot.add(named.name, x, named.curve);
+    return plot.svg();
+}
+
+// Strips 32 pixels high, one above the other, white between them; values are the codes themselves.
+CodedImage strips_of(const std::vector<NamedCurve>& curves) {
+    constexpr int strip = 32, gap = 4;
+    const int count = static_cast<int>(curves.size());
+    CodedImage image(ramp_width, count * (strip + gap) - gap, 1, 8);
+    std::fill(image.codes.begin(), image.codes.end(), std::uint16_t{255});
+    for (int i = 0; i < count; ++i) {
+        const Curve& curve = curves[static_cast<std::size_t>(i)].curve;
+        for (int row = i * (strip + gap); row < i * (strip + gap) + strip; ++row) {
+            std::transform(curve.begin(), curve.end(), image.codes.begin() + row * ramp_width,
+                           [](double v) { return static_cast<std::uint16_t>(std::lround(v)); });
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+std::vector<std::string> ramp_figure_files(const std::string& name) {
+    return {name + ".csv", name + ".svg", name + ".png"};
+}
+
+Json write_ramp_figure(const std::filesystem::path& folder, const std::string& name,
+                       const std::string& title, const std::vector<NamedCurve>& curves) {
+    write_text(folder / (name + ".csv"), csv_of(curves));
+    write_text(folder / (name + ".svg"), svg_of(title, curves));
+    AtomicFile png(folder / (name + ".png"));
+    write_png(png, strips_of(curves));
+    png.commit();
+    Json values;
+    values["files"] = ramp_figure_files(name);
+    for (const NamedCurve& named : curves) values["curves"][named.name] = named.curve;
+    for (std::size_t i = 1; i < curves.size(); ++i) {
+        values["errors"][curves[i].name] = to_json(error_of(curves[i].curve, curves[0].curve));
+    }
+    return values;
+}
+
+}  // namespace lamina

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "papers/kraus_stage.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <utility>
+
+#include "papers/grid_mesh.h"
+
+namespace lamina {
+namespace {
+
+constexpr double graded_ratio = 1e4, bump = 0.25;
+const std::vector<std::string> data_sets{"bluntfin", "combustor", "torso"};
+
+std::filesystem::path file_of(const std::filesystem::path& data, const std::string& name) {
+    return data / (name + ".vtu");
+}
+
+}  // namespace
+
+KrausStage::KrausStage(const Capabilities& capabilities, KrausSizes sizes,
+                       std::filesystem::path data)
+    : capabilities_(capabilities), sizes_(std::move(sizes)), data_(std::move(data)) {}
+
+std::filesystem::path KrausStage::data_folder() {
+    const char* const data = std::getenv("LAMINA_DATA");
+    return data == nullptr ? std::filesystem::path() : std::filesystem::path(data);
+}
+
+bool KrausStage::has(const std::string& data_set) const {
+    return !data_.empty() && std::filesystem::exists(file_of(data_, data_set));
+}
+
+KrausSubject KrausStage::make(const std::string& name) const {
+    const auto subject = [&](SceneMesh mesh, bool measured_data) {
+        return make_kraus_subject(std::move(mesh), kraus_view(name), measured_data, sizes_.width,
+                                  sizes_.height);
+    };
+    if (name == "graded" || name == "plate") {
+        return subject(make_graded_mesh(sizes_.graded_cells, sizes_.graded_layers, graded_ratio,
+                                        name == "graded" ? bump : 0),
+                       false);
+    }
+    if (name == "box") {
+        return subject(make_box_mesh({sizes_.box_cells, sizes_.box_cells, sizes_.box_cells}),
+                       false);
+    }
+    Scene scene;
+    scene.mesh_file = file_of(data_, name);
+    return subject(load_mesh(scene), true);
+}
+
+KrausSubject& KrausStage::subject(const std::string& name) {
+    const bool generated = name == "graded" || name == "plate";
+    const std::string there = generated || has(name) ? name : "box";
+    auto& subject = subjects_[there];
+    if (!subject) subject = std::make_unique<KrausSubject>(make(there));
+    return *subject;
+}
+
+std::vector<KrausSubject*> KrausStage::subjects() {
+    std::vector<KrausSubject*> found;
+    for (const std::string& name : data_sets) {
+        if (has(name)) found.push_back(&subject(name));
+    }
+    if (found.empty()) found.push_back(&subject("box"));
+    for (const char* name : {"graded", "plate"}) found.push_back(&subject(name));
+    return found;
+}
+
+nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const KrausStage& stage,
+                                      const std::vector<std::string>& wanted,
+                                      const std::string& instead) {
+    std::vector<std::string> missing;
+    for (const std::string& name : wanted) {
+        if (!stage.has(name)) missing.push_back(name + ".vtu");
+    }
+    if (missing.empty()) return result;
+    result["agrees"] = nullptr;
+    result["note"] =
+        fmt::format("Set LAMINA_DATA to a folder that holds {}; {}. {}", fmt::join(missing, ", "),
+                    instead, result["note"].get<std::string>());
+    return result;
+}
+
+}  // namespace lamina

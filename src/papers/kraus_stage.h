@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "plan/capabilities.h"
+#include "papers/kraus_subject.h"
+
+namespace lamina {
+
+// How large pictures and generated meshes are; tests want less.
+struct KrausSizes {
+    int width = 640, height = 480;              // of pictures and what is measured in them
+    int timed_width = 800, timed_height = 600;  // the paper's
+    std::int32_t graded_cells = 24, graded_layers = 40;
+    std::int32_t box_cells = 31;  // along an edge of the box that stands in: 178,746 tets
+    // Of Table 2: 20,250 tets; then as many as the paper's heat sink, cylinder and X38 have.
+    std::vector<std::int32_t> timed_box_cells{15, 27, 47, 69};
+    int rounds = 3;
+};
+
+// What the items share: the context that is current, and meshes with their traced pictures.
+class KrausStage {
+  public:
+    // Meshes of data sets are read from `data`; none, where it is empty or lacks them.
+    explicit KrausStage(const Capabilities& capabilities, KrausSizes sizes = {},
+                        std::filesystem::path data = data_folder());
+
+    const Capabilities& capabilities() const { return capabilities_; }
+    const KrausSizes& sizes() const { return sizes_; }
+
+    bool has(const std::string& data_set) const;
+    // One of kraus_view(): made when first asked for. Where a data set is not there, "box" stands
+    // in. "graded" has a bump, "plate" none; the edge ratio of both is 1e4.
+    KrausSubject& subject(const std::string& name);
+    // All of these that are there; "box" where no data set is.
+    std::vector<KrausSubject*> subjects();
+
+    static std::filesystem::path data_folder();  // LAMINA_DATA, or empty
+
+  private:
+    KrausSubject make(const std::string& name) const;
+    Capabilities capabilities_;
+    KrausSizes sizes_;
+    std::filesystem::path data_;
+    std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
+};
+
+// The result of an item that wants these data sets: where one is missing, the note says what stands
+// in for it or is left out, and `agrees` is null.
+nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const KrausStage& stage,
+                                      const std::vector<std::string>& data_sets,
+                                      const std::string& instead);
+
+}  // namespace lamina

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "papers/kraus_subject.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace lamina {
+namespace {
+
+constexpr double faint_opacity = 0.1;
+constexpr double smooth_opacity = 0.48;  // found on a coarse picture: a finer one has a little more
+constexpr double dense_opacity = 0.95;
+constexpr int coarse = 4;  // pixels
+
+TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
+    return {value, {color, extinction}};
+}
+
+// Blue below, orange above: an isosurface of which the two sides can be told apart.
+std::vector<TransferKnot> peak(double value, double half_width) {
+    const glm::dvec3 below(.1, .35, 1), above(1, .55, .1);
+    return {knot(value - half_width, below, 0), knot(value, 0.5 * (below + above), 1),
+            knot(value + half_width, above, 0)};
+}
+
+Camera camera(const glm::dvec3& eye, const glm::dvec3& center, double fov_y) {
+    Camera made;
+    made.eye = eye;
+    made.center = center;
+    made.up = {0, 0, 1};
+    made.fov_y = fov_y;
+    return made;
+}
+
+double largest_opacity(const PreciseImage& image) {
+    double largest = 0;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+        largest = std::max(largest, image.rgba[i]);
+    }
+    return largest;
+}
+
+TransferFunction scaled(std::span<const TransferKnot> knots, double factor) {
+    std::vector<TransferKnot> changed(knots.begin(), knots.end());
+    for (TransferKnot& changed_knot : changed) changed_knot.optics.extinction *= factor;
+    return TransferFunction::linear(std::move(changed));
+}
+
+// Of all rays of a coarse picture, with extinctions `thin` times those of `knots`.
+double largest_depth(TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
+                     double thin) {
+    scene.width = std::max(1, scene.width / coarse);
+    scene.height = std::max(1, scene.height / coarse);
+    scene.transfer_function = scaled(knots, thin);
+    return -std::log1p(-largest_opacity(mesh.exact(scene)));
+}
+
+}  // namespace
+
+TableSettings paper_table() {
+    TableSettings table;
+    table.store = TableStore::opacity;
+    return table;
+}
+
+KrausView kraus_view(const std::string& name) {
+    KrausView view;
+    view.name = name;
+    if (name == "bluntfin") {
+        view.camera = view.isosurface_camera = camera({-9, -12, 8}, {1.5, 3.5, 2.3}, 45);
+        view.smooth = {knot(.2, {.05, .1, .6}, .1), knot(1, {.1, .4, .8}, .2),
+                       knot(2, {.1, .8, .5}, .5), knot(3.5, {.9, .8, .2}, 1),
+                       knot(5, {1, .2, .05}, 1.5)};
+        view.isosurface = peak(1.6, .15);
+    } else if (name == "combustor") {
+        view.camera = camera({-3, -15, 42}, {8, 0, 30}, 45);
+        view.isosurface_camera = camera({-1, -7, 35}, {9, 0, 29}, 60);
+        view.smooth = {knot(.2, {.1, .2, .8}, 1), knot(.35, {.1, .7, .6}, .4),
+                       knot(.5, {.9, .8, .2}, .4), knot(.71, {1, .2, .05}, 1.5)};
+        view.isosurface = peak(.4, .015);
+        view.isosurface_opacity = 0.9999;
+    } else if (name == "torso") {
+        view.camera = view.isosurface_camera = camera({450, -800, 550}, {0, 0, 295}, 45);
+        view.smooth = {knot(-5000, {.05, .2, .9}, 4), knot(-600, {.1, .5, .9}, 2),
+                       knot(0, {.8, .8, .8}, .3), knot(600, {.9, .4, .1}, 2),
+                       knot(1800, {1, .2, 0}, 4)};
+        view.isosurface = peak(-160, 130);
+    } else if (name == "graded" || name == "plate") {
+        view.camera = view.isosurface_camera = camera({-.25, -.6, 1.15}, {.5, .48, .05}, 45);
+        view.smooth = {knot(0, {.1, .2, .9}, 0), knot(.4, {.1, .8, .5}, .4),
+                       knot(1, {1, .4, .1}, 1)};
+        view.isosurface = peak(.6, .1);
+        // Rays that graze the bump cross the peak many times.
+        view.isosurface_opacity = name == "graded" ? 0.99999 : 0.98;
+    } else {
+        assert(name == "box");
+        view.camera = view.isosurface_camera = camera({-.6, -1.1, 1.3}, {.5, .5, .45}, 45);
+        view.smooth = {knot(0, {.1, .2, .9}, .05), knot(.4, {.1, .8, .5}, .4),
+                       knot(1, {1, .4, .1}, 1)};
+        view.isosurface = peak(.5, .04);
+    }
+    return view;
+}
+
+KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
+                                int width, int height) {
+    KrausSubject subject{view.name, measured_data, TracedMesh(std::move(mesh)), {}, {}, {}, {}};
+    Scene scene;
+    scene.method = Method::project;
+    scene.camera = view.camera;
+    scene.width = width;
+    scene.height = height;
+    scene.project.table = paper_table();
+    // Optical depth is proportional to extinction; the relative ones are some 1.
+    const auto& bounds = subject.mesh.tets().bounds();
+    const double thin = 1e-3 / glm::distance(bounds.min, bounds.max);
+    const auto with = [&](const std::vector<TransferKnot>& knots, double depth, double opacity) {
+        Scene made = scene;
+        made.transfer_function = scaled(knots, thin * -std::log1p(-opacity) / depth);
+        return made;
+    };
+    const double depth = largest_depth(subject.mesh, scene, view.smooth, thin);
+    subject.smooth = with(view.smooth, depth, smooth_opacity);
+    subject.faint = with(view.smooth, depth, faint_opacity);
+    subject.dense = with(view.smooth, depth, dense_opacity);
+    scene.camera = view.isosurface_camera;
+    subject.isosurface =
+        with(view.isosurface, largest_depth(subject.mesh, scene, view.isosurface, thin),
+             view.isosurface_opacity);
+    return subject;
+}
+
+}  // namespace lamina

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "study/traced_mesh.h"
+
+namespace lamina {
+
+// A mesh as the study of Kraus 2004 shows it: method `project`, target float32, the paper's table
+// (256 x 256 x 16, opacity, 16 bits, exactly made, octaves).
+struct KrausSubject {
+    std::string name;
+    bool measured_data;  // read from a file, not generated
+    TracedMesh mesh;
+    Scene smooth;      // total opacity up to .5
+    Scene faint;       // the same, up to .1
+    Scene dense;       // the same up to .95
+    Scene isosurface;  // a sharp peak, nearly opaque; its camera may be another one
+};
+
+// What subjects are made from. The transfer functions' extinctions are relative: they are scaled
+// so that the picture's largest opacity is as wanted.
+struct KrausView {
+    std::string name;
+    Camera camera, isosurface_camera;
+    std::vector<TransferKnot> smooth, isosurface;
+    double isosurface_opacity = 0.98;
+};
+// Of the meshes "bluntfin", "combustor", "torso", "graded", "plate" and "box" (papers/grid_mesh.h).
+KrausView kraus_view(const std::string& name);
+
+KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
+                                int width, int height);
+
+TableSettings paper_table();
+
+}  // namespace lamina

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "render/session.h"
+#include "papers/paper_hardware.h"
+
+namespace lamina {
+
+// The mixing liquids, exact (float32) and as the paper's hardware dithers them.
+struct DitheredMixing {
+    Scene scene;  // of the exact picture
+    Image exact;
+    std::vector<int> periods;  // 1: none
+    std::vector<Image> dithered;
+};
+
+// What the items that draw share: the context that is current, and pictures that two of them show.
+class LamarStage {
+  public:
+    // Pictures of the mixing liquids have `pixels` x `pixels` pixels.
+    explicit LamarStage(const Capabilities& capabilities, int pixels = 160)
+        : capabilities_(capabilities), pixels_(pixels) {}
+
+    const Capabilities& capabilities() const { return capabilities_; }
+    int pixels() const { return pixels_; }
+    Image draw_mixing(const Scene& scene);    // of a volume that is made when first asked for
+    const DitheredMixing& dithered_mixing();  // likewise: of Table 4 and Figure 6
+
+  private:
+    Capabilities capabilities_;
+    int pixels_;
+    std::shared_ptr<const VolumeData> mixing_;
+    std::optional<DitheredMixing> dithered_mixing_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times of the techniques of LaMar 2004, which the paper does not report, and of ours.
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "render/session.h"
+#include "papers/findings.h"
+#include "study/interleaved_times.h"
+#include "papers/lamar.h"
+#include "papers/lamar_stage.h"
+#include "papers/palette_slices.h"
+#include "study/text_file.h"
+
+namespace lamina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int pixels = 512, slices = 1024, rounds = 3;
+constexpr int barrier_pixels = 64;
+constexpr int palette_period = 16;
+// The volume's square covers a quarter of the picture; what a tree does once a node is done over
+// all of it.
+constexpr double volume_in_picture = 0.5;
+constexpr double nearly_nothing = 64;  // times the camera's height
+
+// Optical depth 1.45 through the heavy liquid, as in mixing_scene.h, but with two points only.
+Scene timed_scene(bool white) {
+    Scene scene;
+    const auto color = [&](const glm::dvec3& c) { return white ? glm::dvec3(1) : c; };
+    scene.transfer_function =
+        TransferFunction::linear({{0, {color({0, 1, 0}), .02}}, {255, {color({1, 0, 0}), 1.45}}});
+    scene.camera.projection = Projection::orthographic;
+    scene.camera.eye = {0.5, 0.5, 2};
+    scene.camera.center = glm::dvec3(0.5);
+    scene.camera.height = 1 / volume_in_picture;
+    scene.width = scene.height = pixels;
+    scene.slice.samples = slices;
+    return scene;
+}
+
+// How to composite; `blend` keeps float32 from being marched in registers.
+struct Technique {
+    std::string name;
+    Target target = Target::fixed8;
+    bool white = false;
+    std::vector<int> factors{};
+    NodeArithmetic nodes = NodeArithmetic::shader;
+    bool dither = false;
+    bool blend = false;
+};
+
+std::vector<Technique> techniques() {
+    const std::vector<int> binary(10, 2), quaternary(5, 4), two{32, 32};
+    const auto fixed = NodeArithmetic::fixed;
+    return {{"straight fixed8"},
+            {"straight float16", Target::float16},
+            {.name = "straight float32, blended", .target = Target::float32, .blend = true},
+            {"straight float32, in registers", Target::float32},
+            {"emulated 8 bits, fetch", Target::emulated},
+            {.name = "emulated 8 bits, dithered", .target = Target::emulated, .dither = true},
+            {.name = "fixed8, dithered", .dither = true},
+            {.name = "shader tree 2^10", .factors = binary},
+            {.name = "shader tree 4^5", .factors = quaternary},
+            {.name = "shader tree 32x32", .factors = two},
+            {.name = "shader tree 1024", .factors = {slices}},
+            {.name = "straight fixed8, white", .white = true},
+            {.name = "fixed tree 32x32, white", .white = true, .factors = two, .nodes = fixed},
+            {.name = "fixed tree 2^10, white", .white = true, .factors = binary, .nodes = fixed}};
+}
+
+Scene scene_of(const Technique& technique) {
+    Scene scene = timed_scene(technique.white);
+    scene.target = technique.target;
+    if (technique.dither) scene.slice.dither = DitherSettings{.period = palette_period};
+    if (!technique.factors.empty()) {
+        scene.slice.tree = TreeSettings{.factors = technique.factors, .nodes = technique.nodes};
+    }
+    return scene;
+}
+
+// The same of next to nothing in the picture is drawn by a session of its own: a change of the
+// camera would be part of the times.
+TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
+                    const Scene& scene, const Capabilities& capabilities,
+                    const OmissionSwitch& omissions) {
+    const auto session = std::make_shared<Session>(scene, volume, capabilities, omissions);
+    Scene far = scene;
+    far.camera.height *= nearly_nothing;
+    const auto far_session = std::make_shared<Session>(far, volume, capabilities, omissions);
+    session->set_up();
+    far_session->set_up();
+    return {name, [far_session] { far_session->draw(); }, [session] { session->draw(); }};
+}
+
+Json time_techniques(const std::shared_ptr<const VolumeData>& volume,
+                     const Capabilities& capabilities) {
+    std::vector<TimedFrame> frames;
+    for (const Technique& technique : techniques()) {
+        OmissionSwitch omissions;
+        if (technique.blend) omissions.kept = {"blending"};
+        frames.push_back(
+            frame_of(technique.name, volume, scene_of(technique), capabilities, omissions));
+    }
+    return time_rows(frames, time_interleaved("times: techniques", frames, rounds));
+}
+
+// A context that cannot read its own pixel needs a barrier after each slab.
+Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
+                   const Capabilities& capabilities) {
+    Scene scene = timed_scene(false);
+    scene.width = scene.height = barrier_pixels;
+    std::vector<TimedFrame> frames;
+    const auto add = [&](const char* name, Target target, const Capabilities& of) {
+        scene.target = target;
+        frames.push_back(frame_of(name, volume, scene, of, {}));
+    };
+    Capabilities without_fetch = capabilities;
+    without_fetch.framebuffer_fetch = false;
+    add("straight fixed8", Target::fixed8, capabilities);
+    if (capabilities.framebuffer_fetch)
+        add("emulated 8 bits, fetch", Target::emulated, capabilities);
+    add("emulated 8 bits, texture barriers", Target::emulated, without_fetch);
+    return time_rows(frames, time_interleaved("times: barriers", frames, rounds));
+}
+
+// Section 5 leaves open what a palette for every slice costs.
+Json time_palettes(bool& same_picture) {
+    using Way = PaletteSlices::Way;
+    std::vector<TimedFrame> frames;
+    std::array<Image, 2> images;
+    const auto add = [&](const char* name, Way way, Image& image) {
+        const auto all = std::make_shared<PaletteSlices>(way, pixels, slices, palette_period);
+        const auto few = std::make_shared<PaletteSlices>(way, pixels, 1, palette_period);
+        frames.push_back({name, [few] { few->draw(); }, [all, &image] { image = all->draw(); }});
+    };
+    add("one dependent lookup", Way::lookup, images[0]);
+    add("an upload a slice", Way::upload, images[1]);
+    const std::vector<FrameTimes> times = time_interleaved("times: palettes", frames, rounds);
+    same_picture = images[0].rgba == images[1].rgba;
+    return time_rows(frames, times);
+}
+
+}  // namespace
+
+Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
+    const auto volume = std::make_shared<const VolumeData>(
+        generate({"mixing", std::array<std::int64_t, 3>{128, 128, 128}, SampleType::uint8}));
+    Json values{{"files", {"times.csv", "times_barriers.csv", "times_palettes.csv"}},
+                {"renderer", renderer_and_threads(stage.capabilities())},
+                {"pixels", pixels},
+                {"covered_share", volume_in_picture * volume_in_picture},
+                {"samples", slices},
+                {"rounds", rounds}};
+    values["techniques"] = time_techniques(volume, stage.capabilities());
+    values["barriers"] = time_barriers(volume, stage.capabilities());
+    bool same_picture = false;
+    values["palettes"] = time_palettes(same_picture);
+    write_text(folder / "times.csv", csv_of_rows(values["techniques"]));
+    write_text(folder / "times_barriers.csv", csv_of_rows(values["barriers"]));
+    write_text(folder / "times_palettes.csv", csv_of_rows(values["palettes"]));
+    Findings findings;
+    findings.add("A palette uploaded for each slice and a dependent lookup give one picture",
+                 same_picture, same_picture ? "the same codes" : "codes differ");
+    const double upload = values["palettes"][1]["ratio"];
+    return findings.result(
+        values, nullptr,
+        fmt::format("The paper gives no times. Here an upload a slice takes {:.2f} times as long "
+                    "as a dependent lookup; ratios in `techniques` are to straight fixed8.",
+                    upload));
+}
+
+}  // namespace lamina

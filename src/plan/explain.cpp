@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "base/printable.h"
+#include "base/unreachable.h"
+#include "compositing/tree_shape.h"
+#include "plan/plan.h"
+
+namespace lamina {
+namespace {
+
+const char* text_of(VolumeSampling sampling, const Capabilities& capabilities) {
+    if (capabilities.tiles && sampling == VolumeSampling::fetch)
+        return "8 samples, float arithmetic";
+    if (capabilities.tiles && sampling == VolumeSampling::hardware)
+        return "8 samples, weights of 8 bits as graphics hardware has them";
+    switch (sampling) {
+        case VolumeSampling::none:
+            return "none";
+        case VolumeSampling::fetch:
+            return "8 fetches, float arithmetic";
+        case VolumeSampling::filtered:
+            return "linear filter of a float texture (measured exact)";
+        case VolumeSampling::hardware:
+            return "hardware linear filter";
+    }
+    unreachable_enum();
+}
+
+std::string line(const char* what, const std::string& value) {
+    return fmt::format("  {:<14} {}\n", what, printable(value));
+}
+
+std::string with_reason(const char* name, const std::string& reason) {
+    return reason.empty() ? name : fmt::format("{}: {}", name, reason);
+}
+
+std::string work_and_left_out(const Plan& plan) {
+    const std::string work = plan.work.amounts().empty()
+                                 ? ""
+                                 : line("work", to_text(plan.work) + " a frame, as predicted");
+    if (plan.omitted.empty()) return work + "left out\n  nothing\n";
+    std::string text = work + "left out         saves a frame, as predicted           because\n";
+    for (const Omission& omission : plan.omitted)
+        text += fmt::format("  {:<17} {:<36} {}\n", omission.name, to_text(omission.saves),
+                            omission.reason);
+    return text;
+}
+
+const char* text_of(Blending blending) {
+    switch (blending) {
+        case Blending::native:
+            return "the blending unit";
+        case Blending::fetch:
+            return "framebuffer fetch";
+        case Blending::barrier:
+            return "texture barriers";
+        case Blending::tiles:
+            return "the native engine";
+    }
+    unreachable_enum();
+}
+
+std::string text_of_codes(const CompositingPlan& plan) {
+    return fmt::format("{} bits, alpha {}, over {}, by {}", plan.emulation->bits,
+                       name_of(plan.emulation->alpha), name_of(plan.emulation->over),
+                       text_of(plan.blending));
+}
+
+template <typename Row>
+void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
+    const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
+    row("slab depth",
+        fmt::format("{:.3g}, {:.3g}, {:.3g} at most in half, nine tenths, all of "
+                    "the bricks",
+                    length * facts.extinction_quantiles[0], length * facts.extinction_quantiles[1],
+                    length * facts.extinction_quantiles[2]));
+    if (slice.emulation) row("codes", text_of_codes(slice));
+    if (slice.dither) {
+        row("dither", fmt::format("period {}, seed {}, increment {}{}", slice.dither->period,
+                                  slice.dither->seed, slice.dither->increment,
+                                  slice.dither->color ? ", colour too" : ""));
+    }
+    if (slice.tree) {
+        const TreePlan& tree = *slice.tree;
+        const TreeShape shape(tree.factors, slice.slabs);
+        std::vector<int> factors;  // with the level that takes the rest
+        for (int level = 0; level < shape.levels(); ++level) factors.push_back(shape.factor(level));
+        std::string text = fmt::format("{}, nodes {}", to_text(factors), name_of(tree.nodes));
+        if (tree.nodes == NodeArithmetic::shader) {
+            text += fmt::format(", code {}", name_of(tree.code));
+            if (slice.target == Target::fixed8)
+                text += fmt::format(", alpha {} bits", tree.alpha_bits);
+        }
+        row("tree", text);
+    }
+    if (slice.error_bound) {
+        row("error",
+            fmt::format("at most {:.3g} / 255: {}", *slice.error_bound, slice.tree_reason));
+    }
+}
+
+std::string text_of_table(const ProjectPlan& project) {
+    if (project.source == SegmentSource::cut_table) {
+        return fmt::format(
+            "nodes on the transfer function's points, some {0} x {0} scalars, {1} lengths",
+            project.aligned.scalar_nodes, project.aligned.length_layers);
+    }
+    const SegmentTableRequest& table = project.table;
+    const std::string lengths =
+        table.length_layers > 1
+            ? fmt::format(", {} lengths ({})", table.length_layers, name_of(table.mapping))
+            : std::string();
+    return fmt::format("{0} x {0} scalars{1}, {2}, {3}", table.scalar_nodes, lengths,
+                       name_of(table.store), name_of(table.format));
+}
+
+template <typename Row>
+void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool tiles,
+                        const Row& row) {
+    row("target", with_reason(name_of(project.target), project.target_reason));
+    row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
+                             facts.convexity == Convexity::none ? "not " : ""));
+    row("geometry", tiles && project.geometry == ProjectGeometry::silhouette
+                        ? "where a ray enters and leaves a tet, pixel by pixel"
+                        : name_of(project.geometry));
+    row("interpolation", fmt::format("{}, thickness {}", name_of(project.interpolation),
+                                     name_of(project.thickness)));
+    row("edges", fmt::format("from {:.3g} to {:.3g}: optical depth of a tet at most {:.3g}",
+                             facts.shortest_edge, facts.longest_edge,
+                             facts.longest_edge * facts.max_extinction));
+    row("segments", name_of(project.source));
+    if (project.source == SegmentSource::parts) {
+        row("parts", fmt::format("{} visible tets cut at the transfer function's points into {}",
+                                 facts.tets - facts.transparent_tets, facts.parts));
+        if (!project.single_color) {
+            row("weight error",
+                fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
+        }
+    }
+    if (project.source == SegmentSource::table || project.source == SegmentSource::cut_table) {
+        row("table", text_of_table(project));
+        row("table error",
+            fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
+    }
+    if (project.emulation) row("codes", text_of_codes(project));
+    if (project.dither != ProjectDither::none) row("dither", name_of(project.dither));
+    if (!project.tree.empty()) {
+        row("tree", fmt::format("{}, nodes fixed, leaves {}", to_text(project.tree),
+                                project.scattered ? "scattered" : "in order"));
+    }
+}
+
+}  // namespace
+
+std::string explain(const Plan& plan, const Facts& facts, const Capabilities& capabilities) {
+    std::string text = "uses\n";
+    const auto row = [&](const char* what, const std::string& value) { text += line(what, value); };
+    row("method", name_of(plan.method));
+    if (plan.method == Method::slice) {
+        const SlicePlan& slice = plan.slice;
+        row("context", capabilities.renderer);
+        row("slabs",
+            fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
+                        facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
+        if (slice.slab_trial) {
+            row("slab error", fmt::format("{:.2g} / 255 found on {} rays, {} of them traced",
+                                          slice.slab_trial->error, slice.slab_trial->rays,
+                                          slice.slab_trial->traced));
+        }
+        row("target", with_reason(name_of(slice.target), slice.target_reason));
+        row("classification", name_of(slice.classification));
+        row("order", name_of(slice.order));
+        row("rays", slice.precise_rays ? "double" : "float");
+        row("scalar", with_reason(text_of(slice.sampling, capabilities), slice.filter_reason));
+        if (!capabilities.tiles) {
+            row("textures", fmt::format("{} of {}", slice.bricks.size(),
+                                        slice.float_texture ? "float" : name_of(facts.type)));
+        }
+        explain_compositing(slice, facts, row);
+        if (slice.uses_table()) {
+            row("table",
+                fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
+                            slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
+            row("table error",
+                fmt::format("{:.2g} / 255 at most on rays all over this view and on segments of "
+                            "all pieces",
+                            slice.table.error));
+        }
+    }
+    return text + work_and_left_out(plan);
+}
+
+std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities& capabilities) {
+    std::string text = "uses\n";
+    const auto row = [&](const char* what, const std::string& value) { text += line(what, value); };
+    row("method", fmt::format("{} of the mesh", name_of(plan.method)));
+    row("mesh", fmt::format("{} tets, {} points", facts.tets, facts.points));
+    row("scalar",
+        fmt::format("\"{}\" from {:.6g} to {:.6g}", facts.scalar, facts.range.lo, facts.range.hi));
+    if (plan.method == Method::project) {
+        row("context", capabilities.renderer);
+        explain_projection(plan.project, facts, capabilities.tiles, row);
+    }
+    return text + work_and_left_out(plan);
+}
+
+}  // namespace lamina

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plan/capabilities.h"
+#include "facts/facts.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// Slabs that one fragment can march through. llvmpipe ends all loops of a fragment after 65535
+// rounds together (LP_MAX_TGSI_LOOP_ITERATIONS) and says nothing; others have no such limit.
+int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
+
+}  // namespace lamina

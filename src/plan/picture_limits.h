@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plan/capabilities.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// Throws Error where the picture does not fit the context's render targets.
+void check_limits(const Scene& scene, const Capabilities& capabilities);
+
+}  // namespace lamina

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/plan.h"
+
+#include <utility>
+
+#include "plan/picture_limits.h"
+#include "plan/planned_work.h"
+#include "plan/project_planner.h"
+#include "plan/slice_planner.h"
+#include "plan/target_choice.h"
+
+namespace lamina {
+namespace {
+
+const Omission no_context{"context", "the tracer runs on the processor: no OpenGL context is made"};
+
+}  // namespace
+
+SlicePlan without_remarks(SlicePlan plan) {
+    plan.slab_trial.reset();
+    plan.filter_reason.clear();
+    plan.filter_error = 0;
+    plan.target_reason.clear();
+    plan.error_bound.reset();
+    plan.tree_reason.clear();
+    plan.table.error = 0;
+    return plan;
+}
+
+SlicePlan of_all_views(SlicePlan plan) {
+    const SlicePlan other;
+    plan.orthographic = other.orthographic;
+    plan.nothing_visible = other.nothing_visible;
+    plan.drawn = other.drawn;
+    plan.occupied_only = other.occupied_only;
+    plan.opaque_depth = other.opaque_depth;
+    return without_remarks(std::move(plan));
+}
+
+Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+               const OmissionSwitch& omissions, const SampleTrials& trials) {
+    Plan plan;
+    if (scene.method == Method::slice) {
+        plan = plan_alone(scene, facts, capabilities, omissions, trials);
+        add_savings(plan, with_target(scene, plan.slice.target), facts, capabilities, omissions,
+                    trials);
+        return plan;
+    }
+    plan.method = scene.method;
+    plan.omitted.push_back(no_context);
+    if (scene.has_mesh())
+        plan.omitted.push_back({"mesh", "the volume is traced: the mesh is not read"});
+    return plan;
+}
+
+Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                const OmissionSwitch& omissions, const SampleTrials& trials) {
+    const TargetChoice choice = choose_target(scene, facts, trials);
+    Plan plan =
+        plan_slicing(with_target(scene, choice.target), facts, capabilities, omissions, trials);
+    plan.slice.target_reason = choice.reason;
+    return plan;
+}
+
+Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
+               const OmissionSwitch& omissions) {
+    Plan plan;
+    plan.method = scene.method;
+    if (scene.method == Method::project) {
+        check_limits(scene, capabilities);
+        const TargetChoice choice = choose_project_target(scene);
+        plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,
+                                       omissions, plan.omitted);
+        plan.project.target_reason = choice.reason;
+        add_savings(plan, scene, facts);
+        return plan;
+    }
+    plan.omitted.push_back(no_context);
+    if (scene.has_volume() && !scene.mesh_request)
+        plan.omitted.push_back({"volume", "the mesh is traced: the volume is not read"});
+    return plan;
+}
+
+}  // namespace lamina

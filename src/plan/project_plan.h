@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "visibility/visibility_order.h"
+#include "optics/segment_table.h"
+#include "plan/compositing_plan.h"
+#include "scene/project_settings.h"
+#include "plan/table_plan.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// How the fragments of a tet are integrated between its front and its back.
+enum class SegmentSource {
+    constant,   // the transfer function is constant over the mesh: no scalar is needed
+    table,      // one look-up in a table with equally spaced scalars
+    parts,      // tets are cut where the scalar is at the transfer function's points: opacity
+                // in closed form, colour by one look-up in a table that knows no transfer
+                // function (optics/front_weights.h)
+    cut_table,  // up to three look-ups in a table whose nodes lie on those points
+    analytic,   // the pieces between those points, each in closed form
+    mean,       // means of what front and back show: Coloring::attenuation
+    vertices    // no integration: Coloring::vertex
+};
+
+struct ProjectPlan : CompositingPlan {
+    std::string target_reason;  // of "target": "auto"
+    SegmentSource source = SegmentSource::table;
+    Interpolation interpolation = Interpolation::perspective;
+    Thickness thickness = Thickness::exact;
+    OrderMethod visibility = OrderMethod::exact;
+    ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
+    ProjectDither dither = ProjectDither::none;
+    std::uint32_t seed = 1;         // of dithering and stochastic rounding
+    std::vector<int> tree;          // bifurcation factors of fixed-point nodes; empty: none
+    bool scattered = false;         // a leaf's tets are anywhere in the mesh
+    bool orthographic = false;      // rays are parallel: no division per fragment
+    bool single_color = false;      // colour is a constant of the program
+    bool plain = true;              // tets whose faces can be found in float32 are
+    bool draw_transparent = false;  // what shows nothing is drawn, too
+    bool nothing_visible = false;   // no tet is drawn
+    bool table_filtered = false;    // tables go through the texture unit's filter
+    double near_depth = 0;          // of the near plane, in the plan's units, as in tables
+    ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
+    SegmentTableRequest table;      // for SegmentSource::table
+    TablePlan aligned;              // for SegmentSource::cut_table
+    double segment_error = 0;       // measured on rays of the view, in 1/255
+    std::string segment_reason;
+
+    // Opacity is rounded to codes in the program, not by the blending unit.
+    bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
+
+    friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
+};
+
+// The plan without remarks that change no picture.
+ProjectPlan without_remarks(ProjectPlan plan);
+
+const char* name_of(SegmentSource source);
+
+}  // namespace lamina

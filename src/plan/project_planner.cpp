@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/project_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/vec4.hpp>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "optics/front_weights.h"
+#include "optics/linear_pieces.h"
+#include "optics/opacity.h"
+#include "optics/preintegration_table.h"
+#include "facts/drawn_range.h"
+#include "plan/tree_check.h"
+#include "facts/world_unit.h"
+
+namespace lamina {
+namespace {
+
+// Scene files have no near plane: it is the eye's plane, moved by so much of the mesh's diagonal
+// (docs/numerics.md, section 7).
+constexpr double near_share = 1e-6;
+
+// What a table may add to the picture's error, in 1/255.
+constexpr double most_segment_error = 0.5;
+
+// What a table is tried on is a sample: the rest of the picture may be this much worse.
+constexpr double sampling_margin = 1.25;
+
+// Of a tet that shows something, on the average: where the transfer function's points cut tets into
+// more, a table that knows the transfer function is faster.
+constexpr std::int64_t most_parts = 8;
+
+// Of a transfer function: with more, a table takes longer to build than it saves.
+constexpr std::size_t most_table_points = 200;
+
+// Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
+// their faces are always found in double, which takes some third longer.
+constexpr std::int64_t fewest_plain_tets = 10000;
+
+class ProjectPlanner {
+  public:
+    ProjectPlanner(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
+                   const OmissionSwitch& omissions, std::vector<Omission>& omitted)
+        : scene_(scene),
+          settings_(scene.project),
+          facts_(facts),
+          capabilities_(capabilities),
+          omissions_(omissions),
+          omitted_(omitted) {
+        plan_.unit = world_unit(facts.diagonal);
+        transfer_function_ = in_units(scene.transfer_function, plan_.unit);
+    }
+
+    ProjectPlan make() {
+        plan_.target = scene_.target;
+        plan_.seed = scene_.emulate.seed;
+        plan_.interpolation = settings_.interpolation;
+        plan_.thickness = settings_.thickness;
+        plan_.table_filtered = capabilities_.exact_float_filter;
+        plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
+        plan_.range = drawn_range(scene_.transfer_function, facts_.range);
+        check_size();
+        choose_geometry();
+        choose_precision();
+        choose_visibility();
+        choose_compositing();
+        if (settings_.tree) choose_tree();
+        choose_source();
+        // Leaves take so many parts each: there, more parts would be another picture.
+        if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
+        return std::move(plan_);
+    }
+
+  private:
+    // True, and said, where the scene does not need `name`.
+    bool leave_out(bool unneeded, const std::string& name, const std::string& reason) {
+        if (!unneeded || !omissions_.allows(name)) return false;
+        omitted_.push_back({name, reason});
+        return true;
+    }
+
+    // Products of four lengths decide the order of tets.
+    void check_size() const {
+        constexpr double least = 1e-60, most = 1e60;
+        if (facts_.diagonal == 0 || (facts_.diagonal >= least && facts_.diagonal <= most)) return;
+        fail("{}: the diagonal of the mesh is {}, expected {} to {} for method project",
+             name_of_mesh(scene_), facts_.diagonal, least, most);
+    }
+
+    void choose_geometry() {
+        // Of Shirley's and Tuchman's triangles colour and opacity themselves are interpolated,
+        // which belong to no depth.
+        if (settings_.coloring == Coloring::vertex) plan_.interpolation = Interpolation::linear;
+        // What is interpolated between the vertices of a fan, a silhouette cannot carry.
+        const bool fan = settings_.interpolation == Interpolation::linear ||
+                         settings_.coloring == Coloring::vertex ||
+                         settings_.coloring == Coloring::attenuation;
+        plan_.geometry = settings_.geometry;
+        if (plan_.geometry == ProjectGeometry::automatic)
+            plan_.geometry = fan ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
+        plan_.orthographic = facts_.orthographic;  // the other way is for no such view
+        if (plan_.orthographic) {
+            omitted_.push_back({"perspective",
+                                "parallel rays: depth is linear in the picture, nothing is divided "
+                                "per fragment, with --no-omit neither"});
+        }
+        const bool transparent = facts_.transparent_tets == facts_.tets;
+        plan_.nothing_visible =
+            leave_out(transparent || !facts_.in_front, "drawing",
+                      transparent ? "the transfer function shows no value that the mesh has"
+                                  : "the mesh lies behind the eye");
+        const bool left_out =
+            leave_out(facts_.transparent_tets > 0, "transparent_tets",
+                      fmt::format("{} of {} tets show nothing: they are not projected",
+                                  facts_.transparent_tets, facts_.tets));
+        // Where a value is no finite number, there is nothing that could be drawn.
+        plan_.draw_transparent = !left_out && facts_.non_finite == 0;
+    }
+
+    void choose_precision() {
+        const bool fan = plan_.geometry == ProjectGeometry::triangles;
+        plan_.plain = leave_out(!fan && facts_.tets >= fewest_plain_tets, "double_precision",
+                                fmt::format("{} tets: only where a face is seen nearly edge-on are "
+                                            "faces found in double",
+                                            facts_.tets)) ||
+                      fan;
+    }
+
+    void choose_visibility() {
+        switch (settings_.order) {
+            case ProjectOrder::automatic:
+                plan_.visibility =
+                    facts_.convexity == Convexity::none ? OrderMethod::exact : OrderMethod::mpvo;
+                break;
+            case ProjectOrder::mpvo:
+                plan_.visibility = OrderMethod::mpvo;
+                break;
+            case ProjectOrder::exact:
+                plan_.visibility = OrderMethod::exact;
+                break;
+            case ProjectOrder::centroid:
+                plan_.visibility = OrderMethod::centroid;
+                break;
+            case ProjectOrder::none:
+                plan_.visibility = OrderMethod::none;
+                break;
+        }
+        const bool asked = settings_.order == ProjectOrder::automatic;
+        if (asked && scene_.target == Target::float32 &&
+            leave_out(
+                facts_.single_color, "order",
+                "one colour: OVER gives the same whatever comes first, to float32's rounding"))
+            plan_.visibility = OrderMethod::none;
+    }
+
+    void choose_compositing() {
+        if (scene_.target == Target::emulated) plan_.emulation = scene_.emulate;
+        plan_.dither = settings_.dither;
+        if (!is_fixed_point(scene_.target) && plan_.dither != ProjectDither::none) {
+            plan_.dither = ProjectDither::none;
+            omitted_.push_back(
+                {"dither", "tets are composited in float: there is nothing to dither"});
+        }
+        if (plan_.emulation || plan_.dither == ProjectDither::after_blend) {
+            plan_.blending = programmable_blending(capabilities_);
+        }
+    }
+
+    void choose_tree() {
+        check_project_tree(scene_, facts_.single_color);
+        plan_.tree = settings_.tree->factors;
+        plan_.scattered =
+            settings_.order == ProjectOrder::automatic &&
+            leave_out(true, "order",
+                      "one colour: leaves take tets from all over the mesh, so that every ray "
+                      "meets some of each leaf; codes are rounded in another order");
+        if (plan_.scattered) plan_.visibility = OrderMethod::none;
+    }
+
+    void choose_source() {
+        plan_.single_color =
+            leave_out(facts_.single_color, "color",
+                      "one colour in all that can be seen: only extinction is looked up");
+        if (settings_.coloring == Coloring::vertex) {
+            plan_.source = SegmentSource::vertices;
+        } else if (settings_.coloring == Coloring::attenuation) {
+            plan_.source = SegmentSource::mean;
+        } else if (leave_out(facts_.constant && facts_.non_finite == 0, "scalars",
+                             "the transfer function is constant over the mesh: opacity has a "
+                             "closed form of the length alone")) {
+            plan_.source = SegmentSource::constant;
+        } else if (settings_.coloring == Coloring::analytic) {
+            plan_.source = SegmentSource::analytic;
+        } else if (plan_.nothing_visible) {
+            return;
+        } else if (settings_.table) {
+            plan_.table = request_of(*settings_.table);
+            plan_.segment_error = error_of(plan_.table);
+            plan_.segment_reason = "as the scene asks";
+        } else {
+            choose_table();
+        }
+    }
+
+    SegmentTableRequest request_of(const TableSettings& settings) const {
+        return {.lo = plan_.range.lo,
+                .hi = plan_.range.hi,
+                .max_length = facts_.longest_edge * plan_.unit,
+                .scalar_nodes = settings.scalar,
+                .length_layers = settings.length,
+                .mapping = settings.mapping,
+                .store = settings.store,
+                .format = settings.format,
+                .construction = settings.construction,
+                .colored = !plan_.single_color};
+    }
+
+    // The exact integral of a run whose length is in the plan's units.
+    using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
+
+    // In 1/255: the largest difference in colour or opacity that a way of integrating tets makes on
+    // the trial rays.
+    double error_of(const Lookup& lookup) const {
+        std::vector<double> errors(facts_.trial_rays.size());
+        parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
+            const auto ray = static_cast<std::size_t>(index);
+            glm::dvec4 exact(0), found(0);
+            for (MeshFacts::Run run : facts_.trial_rays[ray]) {
+                run.length *= plan_.unit;
+                append(exact,
+                       integrate_segment(*transfer_function_, run.front, run.back, run.length));
+                append(found, lookup(run));
+            }
+            for (int channel = 0; channel < 4; ++channel)
+                errors[ray] = std::max(errors[ray], std::abs(exact[channel] - found[channel]));
+        });
+        return errors.empty() ? 0 : 255 * *std::ranges::max_element(errors);
+    }
+
+    // Puts a segment behind what a ray has met.
+    static void append(glm::dvec4& sum, const SegmentIntegral& segment) {
+        sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
+    }
+
+    double error_of(const SegmentTableRequest& wanted) const {
+        const auto table = segment_table(*transfer_function_, wanted);
+        return error_of([&](const MeshFacts::Run& run) {
+            return table->lookup(run.front, run.back, run.length);
+        });
+    }
+
+    void choose_table() {
+        const bool whole = plan_.geometry == ProjectGeometry::triangles;
+        plan_.segment_reason = fmt::format("at most on {} rays of this view and tets of this mesh",
+                                           facts_.trial_rays.size());
+        if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
+            plan_.source = SegmentSource::parts;
+            plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
+        } else if (plan_.plain && try_cut_table()) {
+            plan_.source = SegmentSource::cut_table;
+        } else {
+            plan_.source = SegmentSource::analytic;  // slower, and right whatever the scene
+        }
+    }
+
+    // Nodes lie on the transfer function's points: with equal steps, a large part of a mesh that
+    // has a value next to one would be off by several codes.
+    bool try_cut_table() {
+        if (scene_.transfer_function.knots().size() > most_table_points) return false;
+        const double depth = facts_.max_extinction * facts_.longest_edge;
+        const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
+        plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,
+                         !plan_.single_color};
+        plan_.segment_error = error_of_aligned();
+        return plan_.segment_error <=
+               std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
+    }
+
+    double error_of_parts() const {
+        const FrontWeightTable& weights = FrontWeightTable::get();
+        return error_of([&](const MeshFacts::Run& run) {
+            SegmentIntegral segment;
+            for_each_linear_piece(
+                transfer_function_->knots(), run.front, run.back, [&](const LinearPiece& piece) {
+                    const double share = run.front == run.back
+                                             ? 1
+                                             : (piece.to - piece.from) / (run.back - run.front);
+                    const double p = share * run.length * piece.at_from.extinction,
+                                 q = share * run.length * piece.at_to.extinction;
+                    const double alpha = opacity_from_depth(p / 2 + q / 2);
+                    const bool thin = plan_.plain && p / 2 + q / 2 <= thin_depth;
+                    const double weight = thin ? thin_front_weight(p, q) : weights.lookup(p, q);
+                    segment.color +=
+                        (1 - segment.alpha) * (alpha * piece.at_to.color +
+                                               weight * (piece.at_from.color - piece.at_to.color));
+                    segment.alpha += (1 - segment.alpha) * alpha;
+                });
+            return segment;
+        });
+    }
+
+    double error_of_aligned() const {
+        const auto table = preintegration_table(*transfer_function_, request_of(plan_.aligned));
+        return error_of([&](const MeshFacts::Run& run) {
+            return table->lookup(run.front, run.back, run.length);
+        });
+    }
+
+    PreintegrationRequest request_of(const TablePlan& table) const {
+        return {plan_.range.lo,     plan_.range.hi,      table.max_length,
+                table.scalar_nodes, table.length_layers, table.colored};
+    }
+
+    const Scene& scene_;
+    const ProjectSettings& settings_;
+    const MeshFacts& facts_;
+    const Capabilities& capabilities_;
+    const OmissionSwitch& omissions_;
+    std::vector<Omission>& omitted_;
+    std::optional<TransferFunction> transfer_function_;  // in the plan's units
+    ProjectPlan plan_;
+};
+
+}  // namespace
+
+ProjectPlan without_remarks(ProjectPlan plan) {
+    plan.target_reason.clear();
+    plan.segment_error = 0;
+    plan.segment_reason.clear();
+    return plan;
+}
+
+const char* name_of(SegmentSource source) {
+    switch (source) {
+        case SegmentSource::constant:
+            return "constant";
+        case SegmentSource::table:
+            return "table";
+        case SegmentSource::parts:
+            return "parts";
+        case SegmentSource::cut_table:
+            return "cut_table";
+        case SegmentSource::analytic:
+            return "analytic";
+        case SegmentSource::mean:
+            return "mean";
+        case SegmentSource::vertices:
+            return "vertices";
+    }
+    return nullptr;  // enum_words() ends here
+}
+
+ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
+                            const Capabilities& capabilities, const OmissionSwitch& omissions,
+                            std::vector<Omission>& omitted) {
+    return ProjectPlanner(scene, facts, capabilities, omissions, omitted).make();
+}
+
+}  // namespace lamina

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/slab_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plan/target_choice.h"
+#include "plan/tree_choice.h"
+
+namespace lamina {
+namespace {
+
+// Of the goal what is used: the pictures and rays that trials are compared with have errors, too,
+// and the context that draws the picture rounds otherwise than the trials'.
+constexpr double used_share = 0.96;
+
+// The largest error on a quarter of a picture's rays was up to 1.37 times below that on all
+// (docs/precision.md): a maximum that grows with a power of the number of rays.
+constexpr double rays_power = 0.25;
+
+// What more slabs gain less than is not worth their time.
+constexpr double near_least = 1.2;
+
+// Errors of second order fall by such a power of the number of slabs.
+constexpr double least_order = 1.5, most_order = 3;
+
+}  // namespace
+
+int slabs_per_voxel(const Facts& facts, double slabs) {
+    return static_cast<int>(
+        std::clamp(std::ceil(slabs * facts.voxels_along_view), 1.0, double{max_slabs}));
+}
+
+double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays) {
+    const double all_rays = static_cast<double>(scene.width) * scene.height;
+    const double share = used_share * std::pow(std::min(rays / all_rays, 1.0), rays_power);
+    const auto& tree = scene.slice.tree;
+    if (scene.automatic_target) {
+        const double unknown = tree && !tree->automatic ? target_share * scene.max_error : 0;
+        const double rounding = choose_target(scene, max_color, slabs).error;
+        return share * (scene.max_error - std::max(rounding, unknown));
+    }
+    if (!tree || !tree->automatic) return share * scene.max_error;
+    TreeQuestion question;  // of a tree that needs no more than its root's rounding
+    question.target = scene.target;
+    question.emulation = scene.emulate;
+    const double root = one_level_error_bound(question);
+    return share * std::max(scene.max_error - root, scene.max_error * target_share);
+}
+
+SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials) {
+    const SlabTrial two_per_voxel{slabs_per_voxel(facts, 2), NAN};
+    if (trials.exact.empty()) return two_per_voxel;
+    const double least = std::ranges::min(trials.exact, {}, &SlabTrial::error).error;
+    const bool kept = std::ranges::any_of(trials.exact, &SlabTrial::keeps_goal);
+    const auto unwanted = [&](const SlabTrial& trial) {
+        if (kept) return !trial.keeps_goal();
+        return trial.error > near_least * least || trial.slabs < two_per_voxel.slabs;
+    };
+    SlabTrial chosen{std::numeric_limits<int>::max()};
+    for (const SlabTrial& trial : trials.exact) {
+        if (!unwanted(trial) && trial.slabs < chosen.slabs) chosen = trial;
+    }
+    if (chosen.rays > 0) return chosen;
+    return std::ranges::min(trials.exact, {}, &SlabTrial::error);
+}
+
+bool are_of_second_order(std::vector<SlabTrial> trials) {
+    std::ranges::sort(trials, {}, &SlabTrial::slabs);
+    const auto odd = [](const SlabTrial& a, const SlabTrial& b) {
+        const double order = std::log(a.error / b.error) / std::log(double(b.slabs) / a.slabs);
+        return !(order >= least_order && order <= most_order);
+    };
+    return std::ranges::adjacent_find(trials, odd) == trials.end();
+}
+
+std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials) {
+    std::optional<SlabTrial> fewest;
+    for (const SlabTrial& trial : trials.hardware) {
+        if (trial.keeps_goal() && (!fewest || trial.slabs < fewest->slabs)) fewest = trial;
+    }
+    return fewest;
+}
+
+}  // namespace lamina

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/table_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "optics/linear_pieces.h"
+#include "optics/preintegration_table.h"
+#include "optics/segment_integral.h"
+#include "facts/world_unit.h"
+
+namespace lamina {
+namespace {
+
+// Segments of a ray are tried one by one up to so many; of more, some that stand for the others.
+// Where rays have fewer segments, more rays are tried.
+constexpr int most_tried = 64, most_tried_of_all_rays = 1 << 14;
+
+// So many of the linear pieces are tried one by one, from all over the range.
+constexpr std::size_t most_pieces_tried = 64;
+
+// A table's colours cost this many pieces of segment integrals at most, some .2 s on two cores, and
+// these bytes: choosing the number of slabs takes several tables.
+constexpr double most_table_work = 4e6, most_table_bytes = 128 << 20;
+constexpr double most_nodes = 2048;  // of a texture
+
+// Layers so close that linear interpolation between them is good to .0025 (steps of depth 1 or
+// less), as far as that is affordable; deeper segments are nearly opaque and change little with
+// length.
+constexpr double usual_length_layers = 9, most_length_layers = 33;
+
+// Another table is tried with so many times the nodes.
+constexpr int finer_nodes = 4;
+
+struct Segment {
+    double front = 0, back = 0, length = 0;
+    double transmittance = 1;  // of what the volume has in front
+};
+
+// Cuts a ray at the boundaries of slabs, and where it enters and leaves the box.
+class RayCutter {
+  public:
+    RayCutter(const ScalarRays::Ray& ray, const Facts& facts, int slabs)
+        : ray_(ray),
+          near_(facts.near_depth),
+          thickness_((facts.far_depth - facts.near_depth) / slabs),
+          range_(facts.range) {}
+
+    // In slab i; of length <= 0 outside of the box. Its ends are moved as renderers move them: to
+    // the mean of the parabola through both and the middle (docs/precision.md).
+    Segment segment(int i) const {
+        const double from = std::max(near_ + i * thickness_, ray_.near);
+        const double to = std::min(near_ + (i + 1) * thickness_, ray_.far);
+        if (!(from < to)) return {};
+        const double front = at(ray_.scalars, from), back = at(ray_.scalars, to);
+        const double bend = (2 * at(ray_.scalars, (from + to) / 2) - front - back) / 3;
+        return {std::clamp(front + bend, range_.lo, range_.hi),
+                std::clamp(back + bend, range_.lo, range_.hi), (to - from) * ray_.length_per_depth,
+                std::exp(-at(ray_.optical_depths, from))};
+    }
+
+  private:
+    double at(const std::vector<float>& values, double depth) const {
+        const auto steps = static_cast<double>(values.size() - 1);
+        const double place =
+            std::clamp((depth - ray_.near) / (ray_.far - ray_.near), 0.0, 1.0) * steps;
+        const auto before = std::min(static_cast<std::size_t>(place), values.size() - 2);
+        const double weight = place - static_cast<double>(before);
+        if (weight == 0) return values[before];
+        if (weight == 1) return values[before + 1];
+        return (1 - weight) * values[before] + weight * values[before + 1];
+    }
+
+    const ScalarRays::Ray& ray_;
+    double near_, thickness_;  // of the slabs
+    ValueRange range_;
+};
+
+double largest(const glm::dvec3& error) {
+    return std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
+}
+
+// Segments around places of every linear piece, of three widths up to `widest`: few rays meet what
+// is narrow.
+std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
+                                        const ValueRange& range, double widest) {
+    std::vector<LinearPiece> pieces;
+    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
+                          [&](const LinearPiece& piece) { pieces.push_back(piece); });
+    std::vector<Segment> segments;
+    const std::size_t step = pieces.size() / most_pieces_tried + 1;
+    for (std::size_t i = 0; i < pieces.size(); i += step) {
+        const LinearPiece& piece = pieces[i];
+        for (const double place : {.03, .3, .7, .97}) {
+            const double middle = piece.from + place * (piece.to - piece.from);
+            for (const double width :
+                 {std::min(widest, .1 * (piece.to - piece.from)), .1 * widest, widest}) {
+                const double lower = std::max(middle - width / 2, range.lo);
+                const double upper = std::min(middle + width / 2, range.hi);
+                segments.push_back({lower, upper});
+                segments.push_back({upper, lower});
+            }
+        }
+    }
+    return segments;
+}
+
+double most_nodes_of(const TablePlan& table, double knots) {
+    return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // optics/preintegration_table.h
+}
+
+// Fewer layers where more would take too long or too much memory.
+int affordable_layers(const TablePlan& table, double knots, double wanted) {
+    const double nodes = most_nodes_of(table, knots);
+    // Pairs within each of the pieces, and from point to point through all pieces between.
+    const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
+    const double bytes = nodes * nodes * 3 * sizeof(float);
+    return static_cast<int>(std::max(
+        1.0, std::floor(std::min({wanted, most_table_work / work, most_table_bytes / bytes}))));
+}
+
+}  // namespace
+
+double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
+    const double unit = world_unit(box_diagonal(facts.grid));
+    const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
+    const auto table = preintegration_table(
+        transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
+                            plan.length_layers, plan.colored});
+    const auto looked_up = [&](const Segment& segment) {
+        return table->lookup(segment.front, segment.back, segment.length).color;
+    };
+    const auto integrated = [&](const Segment& segment) {
+        return integrate_segment(transfer_function, segment.front, segment.back, segment.length);
+    };
+    const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
+    const int stride = (slabs + most_tried - 1) / most_tried;
+    const auto tried_rays =
+        static_cast<std::size_t>(most_tried_of_all_rays / std::min(slabs, most_tried));
+    const std::size_t ray_stride = (rays.size() + tried_rays - 1) / tried_rays;
+    struct Found {
+        double error = 0, widest = 0;  // of its segments, in scalars
+    };
+    std::vector<Found> found(rays.empty() ? 0 : (rays.size() - 1) / ray_stride + 1);
+    parallel_for(static_cast<std::int64_t>(found.size()), 8, [&](std::int64_t number) {
+        Found& of_ray = found[static_cast<std::size_t>(number)];
+        const ScalarRays::Ray& ray = rays[ray_stride * static_cast<std::size_t>(number)];
+        const RayCutter cutter(ray, facts, slabs);
+        glm::dvec3 error(0);
+        double transmittance = 1;  // of the segments before, as they are drawn
+        for (int i = stride / 2; i < slabs; i += stride) {
+            Segment segment = cutter.segment(i);
+            segment.length *= unit;
+            if (!(segment.length > 0) || !std::isfinite(segment.front + segment.back)) continue;
+            const SegmentIntegral integral = integrated(segment);
+            if (stride > 1) transmittance = segment.transmittance;
+            error += stride * transmittance * (looked_up(segment) - integral.color);
+            transmittance *= 1 - integral.alpha;
+            of_ray.widest = std::max(of_ray.widest, std::abs(segment.back - segment.front));
+        }
+        of_ray.error = largest(error);
+    });
+    Found all;
+    for (const Found& of_ray : found) {
+        all.error = std::max(all.error, of_ray.error);
+        all.widest = std::max(all.widest, of_ray.widest);
+    }
+    std::vector<Segment> single = segments_of_pieces(transfer_function, facts.range, all.widest);
+    std::vector<double> errors(single.size());
+    parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
+        single[i].length = plan.max_length;
+        errors[i] = largest(looked_up(single[i]) - integrated(single[i]).color);
+    });
+    return 255 * std::max(all.error, errors.empty() ? 0 : std::ranges::max(errors));
+}
+
+void refine_table(const Scene& scene, const Facts& facts, int slabs, double depth,
+                  TablePlan& table) {
+    const auto knots = static_cast<double>(facts.knots);
+    const double steps = std::ceil(depth);  // of depth 1 or less
+    TablePlan tried = table;
+    double wanted = std::min(steps + 1, usual_length_layers);
+    const auto try_it = [&] {
+        tried.length_layers = affordable_layers(tried, knots, wanted);
+        tried.error = table_error(scene, facts, slabs, tried);
+    };
+    const auto keep_better = [&] {
+        try_it();
+        if (tried.error < table.error) table = tried;
+    };
+    try_it();
+    table = tried;
+    const double goal = table_share * scene.max_error;
+    if (table.error > goal) {
+        const auto room = static_cast<int>((most_nodes - 3 * (knots + 1)) / 1.5);
+        tried.scalar_nodes =
+            std::max(tried.scalar_nodes, std::min(finer_nodes * tried.scalar_nodes, room));
+        keep_better();
+    }
+    if (table.error > goal && steps > 0) {
+        wanted = std::min(4 * steps + 1, most_length_layers);
+        keep_better();
+    }
+}
+
+void take_table(const Scene& scene, const Facts& facts, int slabs, double longest, double unit,
+                TablePlan& table) {
+    const SliceTableSettings& asked = *scene.slice.table;
+    table.scalar_nodes = asked.scalars;
+    table.length_layers = asked.lengths;
+    double most = asked.max_length;
+    const bool short_alone = asked.lengths == 1 && facts.max_extinction * longest >= short_depth;
+    if (longest > most || short_alone) {
+        most = std::max(longest, box_diagonal(facts.grid) / slabs * facts.max_length_per_depth);
+        const double as_close = asked.lengths > 1 && asked.max_length > 0
+                                    ? (asked.lengths - 1) * most / asked.max_length
+                                    : 0;
+        const double steps = std::max(as_close, facts.max_extinction * most);
+        const bool none = asked.lengths == 1 && facts.max_extinction * most < short_depth;
+        table.length_layers =
+            none ? 1 : static_cast<int>(std::min(std::ceil(steps) + 1, most_length_layers));
+    }
+    table.max_length = most * unit;
+    if (!facts.scalar_rays.rays.empty()) table.error = table_error(scene, facts, slabs, table);
+}
+
+}  // namespace lamina

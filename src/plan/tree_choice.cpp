@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/tree_choice.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/unreachable.h"
+#include "plan/target_choice.h"
+
+namespace lamina {
+namespace {
+
+constexpr double full_scale = 255;
+
+// The largest error of storing one value in [0, 1]. Halves: llvmpipe truncates them, by up to one
+// unit in the last place just below 1.
+double storage_error(const TreeQuestion& question) {
+    switch (question.target) {
+        case Target::float32:
+            return 0x1p-24;
+        case Target::float16:
+            return 0x1p-11;
+        case Target::fixed16:
+            return 0.5 / 65535;
+        case Target::fixed8:
+            return 0.5 / 255;
+        case Target::emulated:
+            return 0.5 / largest_code(question.emulation.bits);
+    }
+    unreachable_enum();
+}
+
+// How far a slab's opacity may be from its value, in storage errors: half a code where it is
+// rounded to nearest, else up to a code.
+double opacity_roundings(const TreeQuestion& question) {
+    if (question.dither) return 2.0 * question.dither->increment;
+    const bool whole_code =
+        question.target == Target::emulated && question.emulation.alpha != AlphaRounding::nearest;
+    return whole_code ? 2 : 1;
+}
+
+// Storage errors per slab: of its opacity, its colour and what it leaves of the rest. Front to
+// back, the opacity that is there is rounded, too, and hides what comes behind.
+double roundings_per_slab(const TreeQuestion& question) {
+    return 2 + opacity_roundings(question) + (question.order == Order::front_to_back ? 1 : 0);
+}
+
+// Storage errors of colours before they are weighted by opacity: these weights' sum is at most 1.
+double color_roundings(const TreeQuestion& question) {
+    if (question.dither && question.dither->color) return 2.0 * question.dither->increment;
+    return question.target == Target::emulated ? 1 : 0;
+}
+
+// Registers of a leaf: transmittance, colour and optical depth are rounded once a slab each.
+constexpr double leaf_roundings = 3 * 0x1p-24;
+
+// Fixed-point targets hold colours up to 1; the others round in proportion to what they hold.
+double scaled_for_color(const TreeQuestion& question, double bound) {
+    const double largest = std::max(question.largest_color, 1.0);
+    const double scaled = is_fixed_point(question.target) ? bound + (largest - 1) : bound * largest;
+    return full_scale * std::min(scaled, largest);
+}
+
+// By a node, which emulated buffers do not have, or by blending.
+double best_error_bound(const TreeQuestion& question) {
+    const double straight = straight_error_bound(question);
+    if (question.target == Target::emulated) return straight;
+    return std::min(straight, one_level_error_bound(question));
+}
+
+// The others that would keep max_error, "" where none does.
+std::string targets_that_keep(TreeQuestion question) {
+    std::vector<const char*> names;
+    for (const Target target :
+         {Target::fixed8, Target::fixed16, Target::float16, Target::float32}) {
+        question.target = target;
+        if (best_error_bound(question) <= question.max_error) names.push_back(name_of(target));
+    }
+    return names.empty() ? "" : fmt::format("target {}", fmt::join(names, " or "));
+}
+
+bool more_bits_keep(TreeQuestion question) {
+    question.emulation.bits = max_code_bits;
+    return straight_error_bound(question) <= question.max_error;
+}
+
+[[noreturn]] void fail_for(const TreeQuestion& question) {
+    std::vector<std::string> remedies;
+    if (best_error_bound(question) <= full_scale) remedies.emplace_back("a larger max_error");
+    TreeQuestion clamped = question;
+    clamped.largest_color = std::min(question.largest_color, 1.0);
+    const bool clamps = is_fixed_point(question.target) && question.largest_color > 1;
+    if (clamps && best_error_bound(clamped) <= question.max_error)
+        remedies.emplace_back("colours up to 1");
+    if (question.target == Target::emulated && more_bits_keep(question))
+        remedies.emplace_back("more bits");
+    TreeQuestion one_slab = question;
+    one_slab.visible_slabs = 1;
+    if (best_error_bound(one_slab) <= question.max_error) remedies.emplace_back("fewer slabs");
+    if (const std::string targets = targets_that_keep(question); !targets.empty())
+        remedies.push_back(targets);
+    if (remedies.empty()) remedies.emplace_back("colours up to 1 and a larger max_error");
+    const std::string bits = question.target == Target::emulated
+                                 ? fmt::format(" of {} bits", question.emulation.bits)
+                                 : "";
+    const std::string clamping =
+        clamps ? fmt::format(", and clamps colours (up to {:.4g}) to 1", question.largest_color)
+               : "";
+    fail(
+        "render.max_error: {:.4g} cannot be kept: over {} visible slabs the target {}{} is off by "
+        "up to {:.4g} / 255 at best{}: take {}",
+        question.max_error, question.visible_slabs, name_of(question.target), bits,
+        best_error_bound(question), clamping, fmt::join(remedies, ", or "));
+}
+
+}  // namespace
+
+double straight_error_bound(const TreeQuestion& question) {
+    const double roundings =
+        question.visible_slabs * roundings_per_slab(question) + color_roundings(question);
+    return scaled_for_color(question, roundings * storage_error(question));
+}
+
+double one_level_error_bound(const TreeQuestion& question) {
+    return scaled_for_color(question,
+                            storage_error(question) + question.visible_slabs * leaf_roundings);
+}
+
+TreeChoice choose_tree(const TreeQuestion& question) {
+    const double straight = straight_error_bound(question);
+    const double best = best_error_bound(question);
+    // Nothing has more bits than float32: it is taken even so, as it is without a tree.
+    if (best > question.max_error && question.target != Target::float32) fail_for(question);
+    if (question.target == Target::emulated)
+        return {{}, straight, "an emulated buffer has no nodes computed in a shader"};
+    const double left =
+        std::max(question.max_error - question.slab_error, question.max_error * target_share);
+    // One node that marches all slabs reads and writes each pixel once; blending does so once a
+    // slab, and is measured to be slower for every number of slabs but one (docs/precision.md).
+    const double one_level = one_level_error_bound(question);
+    if ((question.slabs > 1 && one_level <= left) || straight > left) {
+        return {TreePlan{.factors = {question.slabs}}, one_level,
+                fmt::format("one node of {} slabs, in float, takes less time than blending, whose "
+                            "bound is {:.3g}",
+                            question.slabs, straight)};
+    }
+    return {{}, straight, fmt::format("{} visible slabs round little", question.visible_slabs)};
+}
+
+}  // namespace lamina

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene_files/json_reader.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// The keys "volume", "mesh", "scalar" and "nan": what is drawn. Throws KeyError.
+void read_data(JsonReader& reader, Scene& scene);
+
+}  // namespace lamina

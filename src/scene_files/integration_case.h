@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "optics/transfer_function.h"
+#include "scene_files/json_reader.h"
+
+namespace lamina {
+
+// A segment of `lamina integrate`.
+struct IntegrationCase {
+    TransferFunction transfer_function;
+    double front = 0, back = 0;           // scalars, up to 1e300
+    double length = 0;                    // world units, >= 0
+    std::filesystem::path colormap_file;  // of the transfer function; empty: none
+};
+
+// {"transfer_function", "sf", "sb", "length"}; closes the reader. `warnings` as of
+// read_transfer_function().
+IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings);
+
+}  // namespace lamina

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/json_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "base/shortened.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t most_of_path = 100;  // that a message shows
+const nlohmann::json empty_object = nlohmann::json::object();
+
+// Levenshtein distance, for suggestions.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+// The nearest of the known words where it is likely to be meant, else all of them.
+std::string suggestion(const std::set<std::string>& words, const std::string& word) {
+    if (words.empty()) return "";
+    const auto distance = [&](const std::string& known) { return edit_distance(known, word); };
+    const std::string& nearest = *std::ranges::min_element(words, {}, distance);
+    if (distance(nearest) <= std::max<std::size_t>(2, word.size() / 3)) {
+        return fmt::format(", did you mean \"{}\"?", nearest);
+    }
+    return fmt::format(", expected one of {}", fmt::join(words, ", "));
+}
+
+// The value as it stands in the file, cut where it is long.
+std::string shown(const nlohmann::json& value) {
+    return shortened(json_text(value));
+}
+
+std::string expand_data_folder(JsonReader& reader, const std::string& key, std::string text) {
+    static const std::string variable = "${LAMINA_DATA}";
+    const std::size_t at = text.find(variable);
+    if (at == std::string::npos) return text;
+    const char* const folder = std::getenv("LAMINA_DATA");
+    if (folder == nullptr || *folder == '\0') {
+        reader.fail_at(key,
+                       "names ${LAMINA_DATA}, which is not set: set the environment variable "
+                       "LAMINA_DATA to the folder with the data sets");
+    }
+    return text.replace(at, variable.size(), folder);
+}
+
+}  // namespace
+
+JsonReader::JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
+                       std::string path, std::set<std::string>* known)
+    : object_(object), file_(file), path_(std::move(path)), known_(known) {
+    if (!object_.is_object()) {
+        throw KeyError(path_,
+                       fmt::format("{}: {}found {}, expected an object {{...}}", file_.string(),
+                                   path_.empty() ? "" : shortened(path_, most_of_path) + ": ",
+                                   shown(object_)));
+    }
+}
+
+std::string JsonReader::path_to(const std::string& key) const {
+    return path_.empty() ? key : path_ + "." + key;
+}
+
+void JsonReader::fail_at(const std::string& key, const std::string& message) const {
+    throw KeyError(path_to(key), fmt::format("{}: {}: {}", file_.string(),
+                                             shortened(path_to(key), most_of_path), message));
+}
+
+void JsonReader::reject(const std::string& key, const std::string& expected) {
+    fail_at(key, has(key) ? fmt::format("found {}, expected {}", shown(object_[key]), expected)
+                          : fmt::format("is missing, expected {}", expected));
+}
+
+bool JsonReader::has(const std::string& key) {
+    asked_.insert(key);
+    if (known_ != nullptr) known_->insert(path_to(key));
+    return object_.contains(key);
+}
+
+const nlohmann::json& JsonReader::value(const std::string& key) {
+    if (!has(key)) fail_at(key, "is missing");
+    return object_[key];
+}
+
+JsonReader JsonReader::object(const std::string& key) {
+    const nlohmann::json& found = has(key) ? object_[key] : empty_object;
+    return JsonReader(found, file_, path_to(key), known_);
+}
+
+std::vector<JsonReader> JsonReader::objects(const std::string& key) {
+    if (!has(key) || !object_[key].is_array()) reject(key, "a list [...]");
+    std::vector<JsonReader> readers;
+    readers.reserve(object_[key].size());
+    for (const nlohmann::json& element : object_[key]) {
+        readers.emplace_back(element, file_, fmt::format("{}.{}", path_to(key), readers.size()),
+                             known_);
+    }
+    return readers;
+}
+
+double JsonReader::number(const std::string& key) {
+    if (!has(key) || !object_[key].is_number()) reject(key, "a number");
+    const double found = object_[key].get<double>();
+    if (!std::isfinite(found)) reject(key, "a finite number");
+    return found;
+}
+
+double JsonReader::number_or(const std::string& key, double otherwise) {
+    return has(key) ? number(key) : otherwise;
+}
+
+std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int64_t hi) {
+    const std::string expected = fmt::format("a whole number from {} to {}", lo, hi);
+    if (!has(key) || !object_[key].is_number()) reject(key, expected);
+    const double found = object_[key].get<double>();  // 8.0 and 8e0 are whole, too
+    if (!(found >= static_cast<double>(lo) && found <= static_cast<double>(hi)) ||
+        found != std::floor(found)) {
+        reject(key, expected);
+    }
+    return static_cast<std::int64_t>(found);
+}
+
+bool JsonReader::flag_or(const std::string& key, bool otherwise) {
+    if (!has(key)) return otherwise;
+    if (!object_[key].is_boolean()) reject(key, "true or false");
+    return object_[key].get<bool>();
+}
+
+std::string JsonReader::text(const std::string& key) {
+    if (!has(key) || !object_[key].is_string()) reject(key, "a string");
+    return object_[key].get<std::string>();
+}
+
+glm::dvec3 JsonReader::vector(const std::string& key) {
+    const bool three_numbers =
+        has(key) && object_[key].is_array() && object_[key].size() == 3 &&
+        std::all_of(object_[key].begin(), object_[key].end(), [](const nlohmann::json& element) {
+            return element.is_number() && std::isfinite(element.get<double>());
+        });
+    if (!three_numbers) reject(key, "three finite numbers [x, y, z]");
+    return {object_[key][0].get<double>(), object_[key][1].get<double>(),
+            object_[key][2].get<double>()};
+}
+
+glm::dvec3 JsonReader::vector_or(const std::string& key, const glm::dvec3& otherwise) {
+    return has(key) ? vector(key) : otherwise;
+}
+
+std::filesystem::path JsonReader::path_of(const std::string& key) {
+    const std::filesystem::path path = expand_data_folder(*this, key, text(key));
+    if (path.empty() || path.native().find('\0') != std::string::npos)
+        reject(key, "the path of a file");
+    return path.is_absolute() ? path : file_.parent_path() / path;
+}
+
+void JsonReader::close() const {
+    for (const auto& [key, ignored] : object_.items()) {
+        if (asked_.contains(key)) continue;
+        throw UnknownKeyError(path_to(key), fmt::format("{}: {}: unknown key{}", file_.string(),
+                                                        shortened(path_to(key), most_of_path),
+                                                        suggestion(asked_, key)));
+    }
+}
+
+}  // namespace lamina

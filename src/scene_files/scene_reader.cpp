@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/scene_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/enum_words.h"
+#include "base/json_text.h"
+#include "base/shortened.h"
+#include "image/image_limits.h"
+#include "scene_files/data_reader.h"
+#include "scene_files/json_reader.h"
+#include "scene_files/project_reader.h"
+#include "scene_files/slice_reader.h"
+#include "scene_files/transfer_function_json.h"
+
+namespace lamina {
+namespace {
+
+// Far beyond, squares of distances are no longer numbers.
+constexpr double max_coordinate = 1e100;
+
+Camera read_camera(JsonReader reader) {
+    Camera camera;
+    camera.projection = reader.choice<Projection>(
+        "projection",
+        {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
+    camera.eye = reader.vector("eye");
+    camera.center = reader.vector("center");
+    camera.up = reader.vector_or("up", camera.up);
+    camera.fov_y = reader.number_or("fov_y", camera.fov_y);
+    if (!(camera.fov_y > 0 && camera.fov_y < 180))
+        reader.reject("fov_y", "degrees between 0 and 180");
+    if (camera.projection == Projection::orthographic)
+        camera.height = reader.number("height");
+    else
+        camera.height = reader.number_or("height", camera.height);
+    if (!(camera.height > 0)) reader.reject("height", "world units > 0");
+    for (const char* key : {"eye", "center", "up"}) {
+        const glm::dvec3 place = reader.vector_or(key, camera.up);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(place[axis]) > max_coordinate)
+                reader.reject(key, "coordinates up to 1e100");
+        }
+    }
+    if (camera.height > max_coordinate) reader.reject("height", "at most 1e100 world units");
+    reader.close();
+    return camera;
+}
+
+void read_image(JsonReader reader, Scene& scene) {
+    const std::int64_t width = reader.whole("width", 1, max_image_side);
+    const std::int64_t height = reader.whole("height", 1, max_image_side);
+    if (width * height > max_image_pixels) {
+        reader.fail_at("width", fmt::format("found {} x {} pixels, expected at most {} in all",
+                                            width, height, max_image_pixels));
+    }
+    scene.width = static_cast<int>(width);
+    scene.height = static_cast<int>(height);
+    scene.background = reader.vector_or("background", scene.background);
+    reader.close();
+}
+
+TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
+    if (!trace.has("of")) return scene.has_volume() ? TraceOf::volume : TraceOf::mesh;
+    const TraceOf of =
+        trace.choice<TraceOf>("of", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+    if (of == TraceOf::volume && !scene.has_volume())
+        trace.reject("of", "\"mesh\": the scene has no volume");
+    if (of == TraceOf::mesh && !scene.has_mesh())
+        trace.reject("of", "\"volume\": the scene has no mesh");
+    return of;
+}
+
+void check_project_dither(JsonReader& reader, const Scene& scene) {
+    if (scene.method != Method::project || scene.target != Target::emulated) return;
+    if (scene.project.dither == ProjectDither::alpha) {
+        reader.fail_at("project.dither",
+                       "found \"alpha\" with the target \"emulated\", expected \"none\" or "
+                       "\"after_blend\": render.emulate.alpha says how opacity is rounded there");
+    }
+}
+
+void read_target(JsonReader& reader, Scene& scene) {
+    std::vector<std::pair<const char*, std::optional<Target>>> words;
+    for (const auto& [word, target] : enum_words<Target>()) words.emplace_back(word, target);
+    words.emplace_back("auto", std::nullopt);
+    const auto target = reader.choice<std::optional<Target>>("target", words);
+    scene.automatic_target = !target;
+    scene.target = target.value_or(Target::float32);
+}
+
+void read_render(JsonReader reader, Scene& scene) {
+    scene.method = reader.choice<Method>("method", enum_words<Method>());
+    read_target(reader, scene);
+    scene.emulate = read_emulation(reader.object("emulate"));
+    scene.max_error = reader.number_or("max_error", scene.max_error);
+    if (!(scene.max_error > 0 && scene.max_error <= 255)) {
+        reader.reject("max_error", "a number above 0 and up to 255 (in 1/255 of full scale)");
+    }
+    scene.slice = read_slice(reader.object("slice"));
+    scene.project = read_project(reader.object("project"));
+    JsonReader trace = reader.object("trace");
+    scene.trace_of = read_trace_of(trace, scene);
+    scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
+    // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
+    if (!(scene.trace_tolerance >= 1e-12 && scene.trace_tolerance <= 1)) {
+        trace.reject("tolerance", "a number from 1e-12 to 1");
+    }
+    trace.close();
+    if (scene.method == Method::slice && !scene.has_volume())
+        reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
+    if (scene.method == Method::project && !scene.has_mesh())
+        reader.reject("method", "\"slice\" or \"trace\" for a scene without a mesh");
+    check_project_dither(reader, scene);
+    reader.close();
+}
+
+std::vector<std::string> parts_of(const std::string& key) {
+    // Parts make objects in each other, and these are held to the depth of a file.
+    const auto count = static_cast<std::size_t>(std::ranges::count(key, '.')) + 1;
+    if (count > most_json_depth) {
+        throw UsageError(fmt::format("--set {}: found {} parts between dots, expected at most {}",
+                                     shortened(key), count, most_json_depth));
+    }
+    std::vector<std::string> parts;
+    std::size_t start = 0;
+    while (true) {
+        const std::size_t dot = std::min(key.find('.', start), key.size());
+        parts.push_back(key.substr(start, dot - start));
+        if (parts.back().empty()) {
+            throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8",
+                                         shortened(key)));
+        }
+        if (dot == key.size()) return parts;
+        start = dot + 1;
+    }
+}
+
+// JSON, or the text itself where it is none.
+nlohmann::json value_of(const std::string& key, const std::string& text) {
+    try {
+        return parse_json(text);
+    } catch (const JsonSyntaxError&) {
+        return text;
+    } catch (const Error& error) {
+        throw UsageError(fmt::format("--set {}: {}", shortened(key), error.what()));
+    }
+}
+
+}  // namespace
+
+Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
+                 std::set<std::string>* known) {
+    JsonReader reader(document, file, "", known);
+    Scene scene;
+    scene.file = file;
+    reader.whole("version", 1, 1);
+    read_data(reader, scene);
+    if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
+    JsonReader transfer_function = reader.object("transfer_function");
+    if (transfer_function.has("colormap"))
+        scene.colormap_file = transfer_function.path_of("colormap");
+    scene.transfer_function = read_transfer_function(transfer_function, &scene.warnings);
+    if (!reader.has("camera")) reader.reject("camera", "an object {...}");
+    scene.camera = read_camera(reader.object("camera"));
+    if (!reader.has("image")) reader.reject("image", "an object {...}");
+    read_image(reader.object("image"), scene);
+    read_render(reader.object("render"), scene);
+    reader.close();
+    try {
+        View(scene.camera, scene.width, scene.height);
+    } catch (const Error& error) {
+        throw KeyError("camera", fmt::format("{}: {}", file.string(), error.what()));
+    }
+    return scene;
+}
+
+void set_key(nlohmann::json& document, const std::string& key, const std::string& value) {
+    nlohmann::json* node = &document;
+    for (const std::string& part : parts_of(key)) {
+        if (node->is_array()) {
+            const bool number =
+                part.find_first_not_of("0123456789") == std::string::npos && part.size() < 9;
+            if (!number || std::stoul(part) >= node->size()) {
+                throw UsageError(
+                    fmt::format("--set {}: found \"{}\", expected the number of one of {} elements",
+                                shortened(key), shortened(part), node->size()));
+            }
+            node = &(*node)[std::stoul(part)];
+        } else if (node->is_object()) {
+            node = &(*node)[part];
+        } else if (node->is_null()) {
+            *node = nlohmann::json::object();
+            node = &(*node)[part];
+        } else {
+            throw UsageError(fmt::format("--set {}: \"{}\" is not inside an object", shortened(key),
+                                         shortened(part)));
+        }
+    }
+    *node = value_of(key, value);
+}
+
+void remove_key(nlohmann::json& document, const std::string& key) {
+    nlohmann::json::json_pointer place;
+    for (const std::string& part : parts_of(key)) place /= part;
+    if (!document.contains(place)) return;
+    nlohmann::json& object = document[place.parent_pointer()];
+    if (object.is_object()) object.erase(place.back());
+}
+
+}  // namespace lamina

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene_files/json_reader.h"
+#include "scene/scene.h"
+
+namespace lamina {
+
+// "render.slice" and "render.emulate" of a scene file (docs/scene.md).
+SliceSettings read_slice(JsonReader reader);
+Emulation read_emulation(JsonReader reader);
+
+}  // namespace lamina

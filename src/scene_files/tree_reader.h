@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "scene_files/json_reader.h"
+#include "scene/tree_settings.h"
+
+namespace lamina {
+
+// "tree" of "render.slice" or "render.project" (docs/scene.md), if it is there.
+std::optional<TreeSettings> read_tree(JsonReader& method);
+
+}  // namespace lamina

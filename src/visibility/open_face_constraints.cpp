@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "visibility/open_face_constraints.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "visibility/gap_faces.h"
+#include "visibility/seen_box.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t grain = 256;             // faces that are looked at in one task
+constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
+constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
+constexpr std::size_t most_looks = 200'000'000;
+
+std::vector<TetFace> faces_of(const TetMesh& mesh, std::span<const std::int32_t> open_faces) {
+    std::vector<TetFace> faces;
+    faces.reserve(open_faces.size());
+    for (const std::int32_t face : open_faces)
+        faces.push_back(mesh.open_faces()[static_cast<std::size_t>(face)]);
+    return faces;
+}
+
+}  // namespace
+
+OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh)
+    : OpenFaceConstraints(mesh, gap_faces(mesh)) {}
+
+OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::int32_t> gap_faces)
+    : mesh_(mesh),
+      open_faces_(std::move(gap_faces)),
+      tree_(mesh, faces_of(mesh, open_faces_)),
+      bounds_{mesh.bounds().min, mesh.bounds().max},
+      boxes_(tree_.node_count()),
+      seen_boxes_(open_faces_.size()),
+      seen_(open_faces_.size()),
+      signs_(open_faces_.size()),
+      found_((open_faces_.size() + faces_per_run - 1) / faces_per_run) {
+    triangles_.reserve(open_faces_.size());
+    for (const std::int32_t face : open_faces_)
+        triangles_.push_back(mesh.corners(mesh.open_faces()[static_cast<std::size_t>(face)]));
+}
+
+void OpenFaceConstraints::look_from(const Eye& eye) {
+    const SeenBoxes seen_boxes(eye, 0.5 * bounds_.min + 0.5 * bounds_.max);
+    parallel_for(static_cast<std::int64_t>(seen_.size()), grain, [&](std::int64_t index) {
+        const auto face = static_cast<std::size_t>(index);
+        seen_[face] = SeenTriangle(eye, triangles_[face]);
+        seen_boxes_[face] = seen_boxes.of(triangles_[face]);
+        signs_[face] = static_cast<std::int8_t>(seen_[face].sign());
+    });
+    const Boxes nothing{FaceTree::nothing(), FaceTree::nothing()};
+    tree_.sum(std::span(boxes_), nothing, [&](std::int32_t index, Boxes& node) {
+        const auto face = static_cast<std::size_t>(index);
+        if (signs_[face] < 0) node.add({FaceTree::box_around(triangles_[face]), seen_boxes_[face]});
+    });
+}
+
+std::span<const OpenFaceConstraint> OpenFaceConstraints::find(const Eye& eye) {
+    look_from(eye);
+    std::atomic<std::size_t> total{0}, looked_at{0};
+    parallel_for(static_cast<std::int64_t>(found_.size()), 1, [&](std::int64_t index) {
+        const auto run = static_cast<std::size_t>(index);
+        found_[run].clear();
+        const std::size_t end = std::min(seen_.size(), (run + 1) * faces_per_run);
+        for (std::size_t face = run * faces_per_run; face < end; ++face) {
+            if (signs_[face] <= 0) continue;
+            const std::size_t before = found_[run].size();
+            const std::size_t looked = find_from(face, eye, found_[run]);
+            const std::size_t added = found_[run].size() - before;
+            if (looked_at.fetch_add(looked, std::memory_order_relaxed) + looked > most_looks ||
+                total.fetch_add(added, std::memory_order_relaxed) + added > most_pairs) {
+                fail(
+                    "more than {} pairs of open faces are seen one through the other, or {} may "
+                    "be: the exact order is not for a mesh with so many gaps, mpvo is",
+                    most_pairs, most_looks);
+            }
+        }
+    });
+    all_.clear();
+    for (const auto& found : found_) all_.insert(all_.end(), found.begin(), found.end());
+    return all_;
+}
+
+std::size_t OpenFaceConstraints::find_from(std::size_t index, const Eye& eye,
+                                           std::vector<OpenFaceConstraint>& found) const {
+    const SeenTriangle& exit = seen_[index];
+    const FaceTree::Box& box = seen_boxes_[index];
+    const SeenThrough behind(exit, bounds_);
+    const auto tet_of = [&](std::int32_t open_face) {
+        return mesh_.open_faces()[static_cast<std::size_t>(open_face)].tet;
+    };
+    const std::int32_t face = open_faces_[index];
+    std::size_t looked = 0;
+    const auto reaches = [&](std::size_t node) {
+        return may_show(box, boxes_[node].seen) && behind.reaches(boxes_[node].world);
+    };
+    tree_.visit_nodes(reaches, [&](std::int32_t other) {
+        ++looked;
+        const auto entry = static_cast<std::size_t>(other);
+        if (signs_[entry] >= 0 || !may_show(box, seen_boxes_[entry]) ||
+            !behind.reaches(triangles_[entry]))
+            return;
+        const std::int32_t entered = open_faces_[entry];
+        if (tet_of(entered) != tet_of(face) && exit.shows(eye, seen_[entry]))
+            found.push_back({face, entered});
+    });
+    return looked;
+}
+
+}  // namespace lamina

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "visibility/visibility_order.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/stage.h"
+#include "mesh/mesh_shape.h"
+#include "visibility/view_distance.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t grain = 4096;  // tets a task
+
+}  // namespace
+
+const char* name_of(OrderMethod method) {
+    switch (method) {
+        case OrderMethod::mpvo:
+            return "mpvo";
+        case OrderMethod::exact:
+            return "exact";
+        case OrderMethod::centroid:
+            return "centroid";
+        case OrderMethod::none:
+            break;
+    }
+    return "none";
+}
+
+VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
+    : mesh_(mesh), method_(method), order_(mesh.tets().size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    if (method == OrderMethod::centroid) distances_.resize(order_.size());
+    if (method != OrderMethod::mpvo && method != OrderMethod::exact) return;
+    const Stage building("order graph");
+    const Convexity shape = convexity(mesh);
+    graph_ = std::make_unique<OrderGraph>(
+        mesh, method == OrderMethod::exact && shape != Convexity::exact);
+    if (method == OrderMethod::mpvo && shape == Convexity::none)
+        farthest_first_ = std::make_unique<FarthestFirst>(mesh);
+}
+
+std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
+                                                    const std::function<void()>& meanwhile) {
+    report_ = {};
+    cycles_.forget();
+    if (graph_) {
+        graph_->look_from(eye);
+        parallel_invoke([&] { farthest_first_ ? sort_farthest_first() : sort_topologically(); },
+                        meanwhile);
+        return order_;
+    }
+    if (method_ == OrderMethod::centroid) sort_centroids(eye);
+    meanwhile();
+    return order_;
+}
+
+// VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views too;
+// the distance from the eye is the better guess there, and needs no axis.
+void VisibilityOrder::sort_centroids(const Eye& eye) {
+    const auto points = mesh_.points();
+    parallel_for(static_cast<std::int64_t>(order_.size()), grain, [&](std::int64_t index) {
+        glm::dvec3 sum(0);
+        for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(index)])
+            sum += points[static_cast<std::size_t>(corner)];
+        distances_[static_cast<std::size_t>(index)] = {view_distance(eye, 0.25 * sum),
+                                                       static_cast<std::int32_t>(index)};
+    });
+    parallel_sort(distances_.begin(), distances_.end(), [](const auto& a, const auto& b) {
+        return a.distance != b.distance ? a.distance > b.distance : a.tet < b.tet;
+    });
+    std::transform(distances_.begin(), distances_.end(), order_.begin(),
+                   [](const Distance& entry) { return entry.tet; });
+}
+
+void VisibilityOrder::sort_farthest_first() {
+    const std::int64_t broken = farthest_first_->sort(*graph_, order_);
+    if (broken == 0) return;
+    find_cycles();  // for the report: the order stays the search's
+    report_.broken = broken;
+    report_.broken_area = 0;
+}
+
+void VisibilityOrder::sort_topologically() {
+    const std::size_t drawn = draw_free();
+    if (drawn == order_.size()) return;
+    find_cycles();
+    const auto rest = cycles_.sequence();
+    std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
+}
+
+// Draws every tet when all that are farther have been drawn (Kahn 1962), and returns how many: all,
+// unless there are cycles. Those that may be drawn wait on a stack, so that the next is mostly a
+// neighbour of the last one; it grows from the end of the order, which has room for both.
+std::size_t VisibilityOrder::draw_free() {
+    const auto counts = graph_->farther_counts();
+    const auto neighbors = mesh_.neighbors();
+    const std::size_t tets = order_.size();
+    std::size_t drawn = 0, top = tets;
+    const auto count_down = [&](std::int32_t tet) {
+        if (--counts[static_cast<std::size_t>(tet)] == 0) order_[--top] = tet;
+    };
+    for (std::size_t tet = 0; tet < tets; ++tet) {
+        if (counts[tet] == 0) order_[--top] = static_cast<std::int32_t>(tet);
+    }
+    while (top < tets) {
+        const std::int32_t tet = order_[top++];
+        order_[drawn++] = tet;
+        const auto& across = neighbors[static_cast<std::size_t>(tet)];
+        // The bits of the nearer faces, one after the other.
+        for (FaceSigns left = graph_->signs(tet) & 0xf; left != 0; left &= left - 1)
+            count_down(across[static_cast<std::size_t>(std::countr_zero(left))]);
+        for (std::int32_t edge = graph_->first_gap_edge(tet); edge != OrderGraph::no_edge;
+             edge = graph_->next_edge(tet, edge))
+            count_down(graph_->nearer(tet, edge));
+    }
+    return drawn;
+}
+
+void VisibilityOrder::find_cycles() {
+    const OrderCycles::Found found = cycles_.order(*graph_);
+    report_.cycles = found.cycles;
+    report_.cyclic_tets = found.cyclic_tets;
+    report_.broken = found.broken.edges;
+    report_.broken_area = found.broken.area;
+}
+
+}  // namespace lamina
