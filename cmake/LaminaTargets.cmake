@@ -22,7 +22,7 @@ endif()
 set(LAMINA_HARDENED OFF)
 if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$")
     set(LAMINA_HARDENED ON)
-    target_compile_options(lamina_options INTERFACE -fstack-protector-strong -fPIE)
+    target_compile_options(lamina_options INTERFACE -fstack-protector-strong)
     target_link_options(lamina_options INTERFACE -pie -Wl,-z,relro,-z,now)
     # Where the distribution has chosen a level already, that stays.
     set(CMAKE_REQUIRED_FLAGS -O2)

@@ -11,7 +11,9 @@
 
 #include <type_traits>
 
-#include "slicing/tile_scalars-inl.h"
+#include "executors/tile_transfer.h"
+#include "executors/tile_vectors-inl.h"
+#include "tiles/arithmetic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {

@@ -16,8 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-using FloatMask = hn::Mask<FloatTag>;
-
 // A cell of the table and where in it.
 struct TableCell {
     Ints corner;  // front node + nodes * back node

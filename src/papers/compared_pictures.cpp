@@ -10,7 +10,7 @@
 #include "study/picture_sheet.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -116,7 +116,7 @@ CodedImage magnified(const Image& image, const Inset& inset, double gain) {
             }
         }
     }
-    return shown(large);
+    return study::shown(large);
 }
 
 CodedImage framed(CodedImage picture, const Inset& inset) {
@@ -153,13 +153,13 @@ void write_picture_sheet(const std::filesystem::path& path, const std::vector<Im
     const double gain = gain_of(exact, inset);
     std::vector<std::vector<CodedImage>> rows(3);
     const auto add = [&](const Image& picture) {
-        rows[0].push_back(framed(shown(picture), inset));
+        rows[0].push_back(framed(study::shown(picture), inset));
         rows[1].push_back(magnified(picture, inset, gain));
     };
     for (const Image& picture : pictures) add(picture);
     add(exact);
     for (const Difference& e : differences) rows[2].push_back(framed(false_color(e, scale), inset));
-    write_sheet(path, rows);
+    study::write_sheet(path, rows);
 }
 
 }  // namespace
@@ -223,7 +223,7 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     const double scale = shown_scale(differences.front());
     write_picture_sheet(folder / (name + ".png"), pictures, exact_picture, differences, inset,
                         scale);
-    write_text(folder / (name + ".csv"), csv_of_rows(rows));
+    study::write_text(folder / (name + ".csv"), study::csv_of_rows(rows));
     made.values = {{"files", compared_picture_files(name)},
                    {"mesh", subject.name},
                    {"pixels", {scene.width, scene.height}},
@@ -233,4 +233,4 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     return made;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "image/metrics.h"
-#include "render/session.h"
 #include "papers/kraus_subject.h"
+#include "render/session.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // One way to draw what another picture shows, too.
 struct Variant {
@@ -53,4 +53,4 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
                                          const std::vector<Variant>& variants,
                                          const Capabilities& capabilities);
 
-}  // namespace lamina
+}  // namespace lamina::papers

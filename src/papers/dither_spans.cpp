@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamina {
+namespace lamina::papers {
 
 SpanLoss span_loss(const SpanSetting& setting) {
     const int period = setting.dither.period;
@@ -34,4 +34,4 @@ SpanLoss span_loss(const SpanSetting& setting) {
     return loss;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,7 +5,7 @@
 
 #include "compositing/dither.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 struct SpanSetting {
     double code = 0.1;  // opacity of its samples in codes of 8 bits, 0 < code < 1
@@ -23,4 +23,4 @@ struct SpanLoss {
 
 SpanLoss span_loss(const SpanSetting& setting);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -13,7 +13,7 @@
 #include "study/line_plot.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 std::string csv_of(const std::vector<NamedCurve>& curves) {
     std::vector<std::string> names{"x"};
     for (const NamedCurve& named : curves) names.push_back(named.name);
-    CsvTable table(names);
+    study::CsvTable table(names);
     for (std::size_t x = 0; x < ramp_width; ++x) {
         std::vector<std::string> cells{std::to_string(x)};
         for (const NamedCurve& named : curves) cells.push_back(fmt::format("{}", named.curve[x]));
@@ -35,8 +35,8 @@ std::string svg_of(const std::string& title, const std::vector<NamedCurve>& curv
     for (const NamedCurve& named : curves) {
         high = std::max(high, *std::max_element(named.curve.begin(), named.curve.end()));
     }
-    LinePlot plot(title, {"wanted opacity of the ray, in 1/255", 0, 255},
-                  {"shown, in 1/255", 0, std::max(high, 1.0)});
+    study::LinePlot plot(title, {"wanted opacity of the ray, in 1/255", 0, 255},
+                         {"shown, in 1/255", 0, std::max(high, 1.0)});
     Curve x(ramp_width);
     std::iota(x.begin(), x.end(), 0.0);
     for (const NamedCurve& named : curves) plot.add(named.name, x, named.curve);
@@ -67,8 +67,8 @@ std::vector<std::string> ramp_figure_files(const std::string& name) {
 
 Json write_ramp_figure(const std::filesystem::path& folder, const std::string& name,
                        const std::string& title, const std::vector<NamedCurve>& curves) {
-    write_text(folder / (name + ".csv"), csv_of(curves));
-    write_text(folder / (name + ".svg"), svg_of(title, curves));
+    study::write_text(folder / (name + ".csv"), csv_of(curves));
+    study::write_text(folder / (name + ".svg"), svg_of(title, curves));
     AtomicFile png(folder / (name + ".png"));
     write_png(png, strips_of(curves));
     png.commit();
@@ -76,9 +76,10 @@ Json write_ramp_figure(const std::filesystem::path& folder, const std::string& n
     values["files"] = ramp_figure_files(name);
     for (const NamedCurve& named : curves) values["curves"][named.name] = named.curve;
     for (std::size_t i = 1; i < curves.size(); ++i) {
-        values["errors"][curves[i].name] = to_json(error_of(curves[i].curve, curves[0].curve));
+        values["errors"][curves[i].name] =
+            study::to_json(error_of(curves[i].curve, curves[0].curve));
     }
     return values;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

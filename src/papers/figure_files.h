@@ -8,7 +8,7 @@
 
 #include "papers/ramp.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 struct NamedCurve {
     std::string name;
@@ -25,4 +25,4 @@ nlohmann::ordered_json write_ramp_figure(const std::filesystem::path& folder,
                                          const std::string& name, const std::string& title,
                                          const std::vector<NamedCurve>& curves);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace lamina {
+namespace lamina::papers {
 
 using Json = nlohmann::ordered_json;
 
@@ -51,4 +51,4 @@ Json Findings::result(Json values, Json printed, const std::string& more) const 
     return result;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

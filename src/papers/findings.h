@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lamina {
+namespace lamina::papers {
 
 // What a paper says of one table or figure, statement by statement, each against what was measured.
 class Findings {
@@ -33,4 +33,4 @@ class Findings {
     std::vector<Finding> findings_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::papers

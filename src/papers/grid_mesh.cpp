@@ -8,10 +8,10 @@
 #include <memory>
 #include <utility>
 
-#include "meshing/kuhn_mesh.h"
 #include "mesh/mesh_shape.h"
+#include "meshing/kuhn_mesh.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 // The points of an index-space grid with `cells` cells go to place(index), where the scalar is
@@ -101,4 +101,4 @@ SceneMesh make_graded_mesh(std::int32_t cells, std::int32_t layers, double ratio
     return made(longest / ratio);
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -7,7 +7,7 @@
 
 #include "scene/scene_mesh.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // cells[0] x cells[1] x cells[2] cubes that fill the unit cube, six tets each (Kuhn), with a field
 // of a few smooth blobs, 0 to about 1.
@@ -20,4 +20,4 @@ SceneMesh make_box_mesh(const std::array<std::int32_t, 3>& cells);
 // from .001 to .003 in waves: most of it lies in the thin cells.
 SceneMesh make_graded_mesh(std::int32_t cells, std::int32_t layers, double ratio, double bump);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -3,7 +3,7 @@
 
 #include "papers/compared_pictures.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 // The files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
@@ -38,4 +38,4 @@ const std::vector<KrausItem>& kraus_items() {
     return items;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

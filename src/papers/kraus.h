@@ -9,7 +9,7 @@
 
 #include "papers/paper_item.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 class KrausStage;
 using KrausItem = PaperItem<KrausStage>;
@@ -36,4 +36,4 @@ nlohmann::ordered_json draw_kraus_preintegration(const std::filesystem::path& fo
                                                  KrausStage& stage);
 nlohmann::ordered_json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage);
 
-}  // namespace lamina
+}  // namespace lamina::papers

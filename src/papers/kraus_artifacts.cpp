@@ -14,7 +14,7 @@
 #include "papers/kraus_variants.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -131,7 +131,7 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
         judge_faint(findings, *subject, add("faint", buffers(subject->faint)));
         add("isosurface", ladder(subject->isosurface));
     }
-    write_text(folder / "artifacts.csv", csv_of_rows(rows));
+    study::write_text(folder / "artifacts.csv", study::csv_of_rows(rows));
     return with_data_note(
         findings.result(
             {{"files", {"artifacts.csv"}},
@@ -143,4 +143,4 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
         stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -11,7 +11,7 @@
 #include "papers/kraus_stage.h"
 #include "papers/kraus_variants.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -155,4 +155,4 @@ Json draw_kraus_figure10(const std::filesystem::path& folder, KrausStage& stage)
         stage, {"bluntfin"}, "that mesh is left out");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

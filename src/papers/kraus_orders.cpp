@@ -9,7 +9,7 @@
 #include "papers/kraus_variants.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -55,7 +55,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
         2 * right > meshes,
         fmt::format("within {} / 255 on {} of {} meshes ({})", right_linf, right, meshes,
                     williams));
-    write_text(folder / "orders.csv", csv_of_rows(rows));
+    study::write_text(folder / "orders.csv", study::csv_of_rows(rows));
     return with_data_note(
         findings.result({{"files", files},
                          {"pixels", {stage.sizes().width, stage.sizes().height}},
@@ -64,4 +64,4 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
         stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

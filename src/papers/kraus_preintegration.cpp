@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "optics/segment_table.h"
 #include "facts/world_unit.h"
+#include "optics/segment_table.h"
 #include "papers/compared_pictures.h"
 #include "papers/findings.h"
 #include "papers/kraus.h"
@@ -13,7 +13,7 @@
 #include "papers/mesh_frame.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -46,7 +46,7 @@ std::vector<Variant> ways(const Scene& scene) {
 }
 
 // Milliseconds to build the table that the scene asks for; null where it has none of its own.
-Json build_ms(const TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
+Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
     Session session(scene, mesh.data(), capabilities);
     const Plan& plan = session.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
@@ -66,8 +66,8 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
                                    difference(frames.back().picture(), subject.mesh.exact(scene))));
     }
     const auto to_time = timed(frames);
-    const Json times = time_rows(
-        to_time, time_interleaved("preintegration: times", to_time, stage.sizes().rounds));
+    const Json times = study::time_rows(
+        to_time, study::time_interleaved("preintegration: times", to_time, stage.sizes().rounds));
     Json rows = Json::array();
     for (std::size_t i = 0; i < variants.size(); ++i) {
         Json row = error_row(subject, errors[i]);
@@ -116,7 +116,7 @@ Json draw_kraus_preintegration(const std::filesystem::path& folder, KrausStage& 
         add("dense", subject.dense);
         add("isosurface", subject.isosurface);
     }
-    write_text(folder / "preintegration.csv", csv_of_rows(rows));
+    study::write_text(folder / "preintegration.csv", study::csv_of_rows(rows));
     return with_data_note(
         findings.result({{"files", {"preintegration.csv"}},
                          {"pixels", {half(stage.sizes().width), half(stage.sizes().height)}},
@@ -128,4 +128,4 @@ Json draw_kraus_preintegration(const std::filesystem::path& folder, KrausStage& 
         stage, {"bluntfin"}, "a generated box stands in");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -9,7 +9,7 @@
 
 #include "papers/grid_mesh.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 constexpr double graded_ratio = 1e4, bump = 0.25;
@@ -86,4 +86,4 @@ nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const Kraus
     return result;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "plan/capabilities.h"
 #include "papers/kraus_subject.h"
+#include "plan/capabilities.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // How large pictures and generated meshes are; tests want less.
 struct KrausSizes {
@@ -57,4 +57,4 @@ nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const Kraus
                                       const std::vector<std::string>& data_sets,
                                       const std::string& instead);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 constexpr double faint_opacity = 0.1;
@@ -50,7 +50,7 @@ TransferFunction scaled(std::span<const TransferKnot> knots, double factor) {
 }
 
 // Of all rays of a coarse picture, with extinctions `thin` times those of `knots`.
-double largest_depth(TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
+double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
                      double thin) {
     scene.width = std::max(1, scene.width / coarse);
     scene.height = std::max(1, scene.height / coarse);
@@ -107,7 +107,8 @@ KrausView kraus_view(const std::string& name) {
 
 KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool measured_data,
                                 int width, int height) {
-    KrausSubject subject{view.name, measured_data, TracedMesh(std::move(mesh)), {}, {}, {}, {}};
+    KrausSubject subject{view.name, measured_data, study::TracedMesh(std::move(mesh)), {}, {}, {},
+                         {}};
     Scene scene;
     scene.method = Method::project;
     scene.camera = view.camera;
@@ -133,4 +134,4 @@ KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool meas
     return subject;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,14 +5,14 @@
 
 #include "study/traced_mesh.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // A mesh as the study of Kraus 2004 shows it: method `project`, target float32, the paper's table
 // (256 x 256 x 16, opacity, 16 bits, exactly made, octaves).
 struct KrausSubject {
     std::string name;
     bool measured_data;  // read from a file, not generated
-    TracedMesh mesh;
+    study::TracedMesh mesh;
     Scene smooth;      // total opacity up to .5
     Scene faint;       // the same, up to .1
     Scene dense;       // the same up to .95
@@ -35,4 +35,4 @@ KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool meas
 
 TableSettings paper_table();
 
-}  // namespace lamina
+}  // namespace lamina::papers

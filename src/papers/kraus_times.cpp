@@ -14,7 +14,7 @@
 #include "papers/mesh_frame.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -106,7 +106,7 @@ constexpr int coarse_width = 160, coarse_height = 120;
 // A mesh of Table 2.
 struct TimedMesh {
     std::string name;
-    const TracedMesh* mesh;
+    const study::TracedMesh* mesh;
     Scene scene;
 };
 
@@ -132,7 +132,7 @@ Json printed_table2() {
 }
 
 // Boxes first, from small to large; then data sets.
-std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<TracedMesh>& boxes) {
+std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
         timed_scene(make_kraus_subject(make_box_mesh({8, 8, 8}), kraus_view("box"), false,
@@ -161,14 +161,15 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
         frames.emplace_back(technique.name, subject.mesh, technique.scene, stage.capabilities());
     }
     const auto to_time = timed(frames);
-    Json rows = time_rows(to_time, time_interleaved("table1", to_time, stage.sizes().rounds));
+    Json rows =
+        study::time_rows(to_time, study::time_interleaved("table1", to_time, stage.sizes().rounds));
     for (std::size_t i = 0; i < ladder.size(); ++i) {
         add_stages(rows[i], frames[i].renderer());
         const double seconds = ladder[i].paper_seconds;
         rows[i]["paper_s"] = seconds > 0 ? Json(seconds) : Json();
         rows[i]["paper_ratio"] = seconds > 0 ? Json(seconds / ladder[0].paper_seconds) : Json();
     }
-    write_text(folder / "table1.csv", csv_of_rows(rows));
+    study::write_text(folder / "table1.csv", study::csv_of_rows(rows));
     Findings findings;
     judge_table1(findings, rows);
     const Json printed{{"basic pre-integrated PT algorithm (i)", 0.195},
@@ -194,14 +195,14 @@ Json draw_kraus_table1(const std::filesystem::path& folder, KrausStage& stage) {
 }
 
 Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
-    std::deque<TracedMesh> boxes;
+    std::deque<study::TracedMesh> boxes;
     const std::vector<TimedMesh> meshes = meshes_of_table2(stage, boxes);
     std::vector<MeshFrame> frames;
     for (const TimedMesh& mesh : meshes) {
         frames.emplace_back(mesh.name, *mesh.mesh, mesh.scene, stage.capabilities());
     }
     const auto to_time = timed(frames);
-    const auto times = time_interleaved("table2", to_time, stage.sizes().rounds);
+    const auto times = study::time_interleaved("table2", to_time, stage.sizes().rounds);
     Json rows = Json::array();
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const auto tets = static_cast<double>(meshes[i].mesh->tets().tets().size());
@@ -216,7 +217,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
                              (row["order_ms"].get<double>() + row["draw_ms"].get<double>());
         rows.push_back(row);
     }
-    write_text(folder / "table2.csv", csv_of_rows(rows));
+    study::write_text(folder / "table2.csv", study::csv_of_rows(rows));
     double least = INFINITY, most = 0, order = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         order = std::max(order, rows[i]["order_share"].get<double>());
@@ -242,4 +243,4 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
         stage, {"bluntfin", "combustor", "torso"}, "the data sets are left out");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

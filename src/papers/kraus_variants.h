@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // Where the scene asks for a table of its own.
 inline Scene with_table_format(Scene scene, TableFormat format) {
@@ -46,4 +46,4 @@ inline Scene with_order(Scene scene, ProjectOrder order) {
     return scene;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

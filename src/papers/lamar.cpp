@@ -3,7 +3,7 @@
 
 #include "papers/figure_files.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 const std::vector<LamarItem>& lamar_items() {
     static const std::vector<LamarItem> items{
@@ -31,4 +31,4 @@ const std::vector<LamarItem>& lamar_items() {
     return items;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -9,7 +9,7 @@
 
 #include "papers/paper_item.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 class LamarStage;
 
@@ -47,4 +47,4 @@ nlohmann::ordered_json draw_order_mixing(const std::filesystem::path& folder, La
 // Run times, which the paper does not give.
 nlohmann::ordered_json draw_times(const std::filesystem::path& folder, LamarStage& stage);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -11,7 +11,7 @@
 #include "study/text_file.h"
 #include "volume/nrrd.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -75,8 +75,8 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     tree.target = Target::fixed8;
     tree.slice.tree = TreeSettings{.factors = {16, 32}};
     add("8-bit tree 16x32 of shader nodes", tree);
-    write_pictures(folder / "figure1.png", pictures);
-    write_text(folder / "figure1.csv", csv_of_rows(rows));
+    study::write_pictures(folder / "figure1.png", pictures);
+    study::write_text(folder / "figure1.csv", study::csv_of_rows(rows));
     Findings findings;
     findings.add(says, errors[1].l2 < errors[0].l2 && errors[1].linf < errors[0].linf,
                  fmt::format("dithering is nearer to software than naive hardware is: it takes L2 "
@@ -89,4 +89,4 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
         "Transfer function and view are ours; colour is dithered too, period 11.");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

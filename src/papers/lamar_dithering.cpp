@@ -7,15 +7,15 @@
 
 #include "base/progress.h"
 #include "compositing/unit_opacity.h"
-#include "scene/scene.h"
 #include "papers/dither_spans.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
+#include "scene/scene.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -141,9 +141,9 @@ std::vector<Json> select(const Json& rows, const Json& wanted) {
 }
 
 // L2 of colour 1 against `key`, a line a sample depth.
-std::string error_plot(const Json& rows, const std::string& title, const PlotAxis& x_axis,
+std::string error_plot(const Json& rows, const std::string& title, const study::PlotAxis& x_axis,
                        const std::string& key) {
-    LinePlot plot(title, x_axis, {"L2, in 1/255", 1, 256, true});
+    study::LinePlot plot(title, x_axis, {"L2, in 1/255", 1, 256, true});
     for (const int samples : depths) {
         std::vector<double> x, y;
         for (const Json& row : rows) {
@@ -240,15 +240,15 @@ void judge_spans(Findings& findings, const Json& spans) {
 Json reproduce_dithering(const std::filesystem::path& folder) {
     const Json periods = measure_periods(), by_increment = measure_increments(),
                spans = measure_spans();
-    write_text(folder / "dithering_periods.csv", csv_of_rows(periods));
-    write_text(folder / "dithering_increments.csv", csv_of_rows(by_increment));
-    write_text(folder / "dithering_spans.csv", csv_of_rows(spans));
-    write_text(folder / "dithering_periods.svg",
-               error_plot(periods, "Dithering: error of the ramp against the period",
-                          {"period P", 4, 4096, true}, "period"));
-    write_text(folder / "dithering_increments.svg",
-               error_plot(by_increment, "Dithering: error of the ramp against the increment",
-                          {"increment, with period N", 1, 16, true}, "increment"));
+    study::write_text(folder / "dithering_periods.csv", study::csv_of_rows(periods));
+    study::write_text(folder / "dithering_increments.csv", study::csv_of_rows(by_increment));
+    study::write_text(folder / "dithering_spans.csv", study::csv_of_rows(spans));
+    study::write_text(folder / "dithering_periods.svg",
+                      error_plot(periods, "Dithering: error of the ramp against the period",
+                                 {"period P", 4, 4096, true}, "period"));
+    study::write_text(folder / "dithering_increments.svg",
+                      error_plot(by_increment, "Dithering: error of the ramp against the increment",
+                                 {"increment, with period N", 1, 16, true}, "increment"));
     Findings findings;
     judge_periods(findings, periods);
     judge_increments(findings, by_increment);
@@ -262,4 +262,4 @@ Json reproduce_dithering(const std::filesystem::path& folder) {
     return findings.result(values);
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -14,7 +14,7 @@
 #include "study/picture_sheet.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -112,8 +112,8 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     rows.push_back(row_of("green to red", "shader", "32x32", "minimax",
                           shader_tree_error(stage, colored, colored_exact, ours)));
     pictures.push_back(ours);
-    write_pictures(folder / "figure10.png", pictures);
-    write_text(folder / "figure10.csv", csv_of_rows(rows));
+    study::write_pictures(folder / "figure10.png", pictures);
+    study::write_text(folder / "figure10.csv", study::csv_of_rows(rows));
     Findings findings;
     judge(findings, truncated, nearest);
     Json values{{"files", {"figure10.png", "figure10.csv"}}, {"pixels", stage.pixels()}};
@@ -129,4 +129,4 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
                            "`mixing` is another volume than the paper's.");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -14,7 +14,7 @@
 #include "study/picture_sheet.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -161,7 +161,7 @@ Json draw_table4(const std::filesystem::path& folder, LamarStage& stage) {
         rows.push_back(row_of(mixing.periods[i], measured[i].red, measured[i].green));
     for (const PaperRow& row : paper_rows)
         printed.push_back(row_of(row.period, row.red, row.green));
-    write_text(folder / "table4.csv", csv_of_rows(rows));
+    study::write_text(folder / "table4.csv", study::csv_of_rows(rows));
     Findings findings;
     judge_table4(findings, mixing, measured);
     return findings.result({{"files", {"table4.csv"}}, {"pixels", stage.pixels()}, {"rows", rows}},
@@ -172,7 +172,7 @@ Json draw_figure6(const std::filesystem::path& folder, LamarStage& stage) {
     const DitheredMixing& mixing = stage.dithered_mixing();
     std::vector<Image> pictures{mixing.exact};
     pictures.insert(pictures.end(), mixing.dithered.begin(), mixing.dithered.end());
-    write_pictures(folder / "figure6.png", pictures);
+    study::write_pictures(folder / "figure6.png", pictures);
     Findings findings;
     judge_figure6(findings, mixing);
     Json values{{"files", {"figure6.png"}}, {"pixels", stage.pixels()}};
@@ -221,7 +221,7 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
             }
         }
     }
-    write_text(folder / "order_mixing.csv", csv_of_rows(rows));
+    study::write_text(folder / "order_mixing.csv", study::csv_of_rows(rows));
     const auto count = static_cast<int>(rows.size());
     Findings findings;
     findings.add(
@@ -234,4 +234,4 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
     return findings.result({{"files", {"order_mixing.csv"}}, {"pixels", pixels}, {"rows", rows}});
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

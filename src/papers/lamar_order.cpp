@@ -9,15 +9,15 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "compositing/random_bits.h"
-#include "scene/scene.h"
-#include "study/error_json.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
+#include "scene/scene.h"
+#include "study/error_json.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -136,9 +136,9 @@ class OrderPlot {
         const auto highest = [](const Curve& c) { return *std::max_element(c.begin(), c.end()); };
         const double high = std::max({highest(separate_.front), highest(separate_.back),
                                       highest(fused_.front), highest(fused_.back)});
-        LinePlot plot("Order of compositing: 256 random samples in 8 bits",
-                      {"largest opacity code of a sample", 1, 128, true},
-                      {"L2 error of colour, in 1/255", 0, high});
+        study::LinePlot plot("Order of compositing: 256 random samples in 8 bits",
+                             {"largest opacity code of a sample", 1, 128, true},
+                             {"L2 error of colour, in 1/255", 0, high});
         plot.add("back to front", separate_.x, separate_.back);
         plot.add("front to back", separate_.x, separate_.front);
         plot.add("back to front, fused", fused_.x, fused_.back);
@@ -171,8 +171,8 @@ Json equal_fragments() {
                                 {"color", color},
                                 {"samples", samples},
                                 {"different_columns", different},
-                                {"front_to_back", to_json(error_of(front, exact))},
-                                {"back_to_front", to_json(error_of(back, exact))}});
+                                {"front_to_back", study::to_json(error_of(front, exact))},
+                                {"back_to_front", study::to_json(error_of(back, exact))}});
             }
         }
     }
@@ -185,14 +185,14 @@ Json to_json(const OrderCase& order_case, const OrderErrors& errors, const char*
             {"colors", order_case.random_colors ? "random" : "white"},
             {"opacities", order_case.whole_codes ? "whole codes" : "truncated"},
             {"over", name_of(order_case.over)},
-            {"front_to_back", to_json(errors.front_to_back)},
-            {"back_to_front", to_json(errors.back_to_front)},
+            {"front_to_back", study::to_json(errors.front_to_back)},
+            {"back_to_front", study::to_json(errors.back_to_front)},
             {"better", better}};
 }
 
 std::string csv_of(const Json& rows) {
-    CsvTable csv({"profile", "largest_code", "colors", "opacities", "over", "ftb_linf", "ftb_l1",
-                  "ftb_l2", "btf_linf", "btf_l1", "btf_l2", "better"});
+    study::CsvTable csv({"profile", "largest_code", "colors", "opacities", "over", "ftb_linf",
+                         "ftb_l1", "ftb_l2", "btf_linf", "btf_l1", "btf_l2", "better"});
     for (const Json& row : rows) {
         std::vector<std::string> cells;
         for (const auto& [key, value] : row.items()) {
@@ -223,8 +223,8 @@ Json reproduce_order(const std::filesystem::path& folder) {
         rows.push_back(to_json(order_case, errors, better));
         progress.advance();
     }
-    write_text(folder / "order.csv", csv_of(rows));
-    write_text(folder / "order.svg", plot.svg());
+    study::write_text(folder / "order.csv", csv_of(rows));
+    study::write_text(folder / "order.svg", plot.svg());
     Findings findings;
     findings.add(
         "It is \"common knowledge\" in the visualization community that front-to-back compositing "
@@ -247,4 +247,4 @@ Json reproduce_order(const std::filesystem::path& folder) {
         "attenuation, and many small ones vanish.");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

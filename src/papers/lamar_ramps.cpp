@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scene.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
+#include "scene/scene.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -206,4 +206,4 @@ Json reproduce_figure9(const std::filesystem::path& folder) {
                            "its three trees (64x4 and 16x16) and not their direction.");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "render/session.h"
 #include "papers/paper_hardware.h"
+#include "render/session.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // The mixing liquids, exact (float32) and as the paper's hardware dithers them.
 struct DitheredMixing {
@@ -37,4 +37,4 @@ class LamarStage {
     std::optional<DitheredMixing> dithered_mixing_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -13,7 +13,7 @@
 #include "papers/lamar.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -116,7 +116,7 @@ Json table3_misprint(const Table3Row& row, const std::vector<std::uint32_t>& rig
 
 Json reproduce_table1(const std::filesystem::path& folder) {
     Json rows = Json::array(), printed = Json::array();
-    CsvTable csv({"a_unit_opacity", "b_opacity", "c_binary", "d_computed", "buffer_code"});
+    study::CsvTable csv({"a_unit_opacity", "b_opacity", "c_binary", "d_computed", "buffer_code"});
     bool same = true, caption = true;
     for (const Table1Row& row : table1_printed) {
         const Table1Values values = table1_values(row.unit_opacity);
@@ -134,7 +134,7 @@ Json reproduce_table1(const std::filesystem::path& folder) {
                values.computed == row.computed;
         caption = caption && std::abs(values.buffer / 255.0 - std::stod(row.computed)) < 0.5 / 255;
     }
-    write_text(folder / "table1.csv", csv.text());
+    study::write_text(folder / "table1.csv", csv.text());
     Findings findings;
     findings.add("columns (b), (c) and (d) as printed", same,
                  "every printed digit of all nine rows follows");
@@ -152,7 +152,7 @@ Json reproduce_table2(const std::filesystem::path& folder) {
     Json rows = Json::array(), printed = Json::array();
     std::vector<std::string> header{"b"};
     for (std::uint32_t f = 0; f <= four_bits; ++f) header.push_back(fmt::format("f{}", f));
-    CsvTable csv(header);
+    study::CsvTable csv(header);
     int same = 0;
     for (std::uint32_t b = 0; b <= four_bits; ++b) {
         const std::vector<std::uint32_t> row = table2_row(b);
@@ -165,7 +165,7 @@ Json reproduce_table2(const std::filesystem::path& folder) {
         rows.push_back(row);
         printed.push_back(as_printed);
     }
-    write_text(folder / "table2.csv", csv.text());
+    study::write_text(folder / "table2.csv", csv.text());
     Findings findings;
     findings.add("rows of the table, runs of equal entries as one wide cell", same == 16,
                  fmt::format("{} of 16 rows hold the printed values in the printed order", same));
@@ -181,7 +181,7 @@ Json reproduce_table2(const std::filesystem::path& folder) {
 
 Json reproduce_table3(const std::filesystem::path& folder) {
     Json rows = Json::array(), printed = Json::array(), misprints = Json::array();
-    CsvTable csv({"f", "iteration", "correct"});
+    study::CsvTable csv({"f", "iteration", "correct"});
     for (const Table3Row& row : table3_printed()) {
         const std::vector<std::uint32_t> right = repeated(row.fragment);
         rows.push_back({{"f", row.fragment}, {"b", right}});
@@ -193,7 +193,7 @@ Json reproduce_table3(const std::filesystem::path& folder) {
         const Json misprint = table3_misprint(row, right);
         if (!misprint.is_null()) misprints.push_back(misprint);
     }
-    write_text(folder / "table3.csv", csv.text());
+    study::write_text(folder / "table3.csv", csv.text());
     Findings findings;
     findings.add("0, 1, 2, 3, 4, 5, 6, 7, 8, 8, ... (repeating 8's forever)",
                  repeated(1) == table3_printed()[0].printed,
@@ -207,4 +207,4 @@ Json reproduce_table3(const std::filesystem::path& folder) {
         "rounded 11, by the operator that gives all other rows.");
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,15 +5,15 @@
 #include <array>
 #include <memory>
 
-#include "render/session.h"
 #include "papers/findings.h"
-#include "study/interleaved_times.h"
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
 #include "papers/palette_slices.h"
+#include "render/session.h"
+#include "study/interleaved_times.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -83,9 +83,9 @@ Scene scene_of(const Technique& technique) {
 
 // The same of next to nothing in the picture is drawn by a session of its own: a change of the
 // camera would be part of the times.
-TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
-                    const Scene& scene, const Capabilities& capabilities,
-                    const OmissionSwitch& omissions) {
+study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
+                           const Scene& scene, const Capabilities& capabilities,
+                           const OmissionSwitch& omissions) {
     const auto session = std::make_shared<Session>(scene, volume, capabilities, omissions);
     Scene far = scene;
     far.camera.height *= nearly_nothing;
@@ -97,14 +97,14 @@ TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeD
 
 Json time_techniques(const std::shared_ptr<const VolumeData>& volume,
                      const Capabilities& capabilities) {
-    std::vector<TimedFrame> frames;
+    std::vector<study::TimedFrame> frames;
     for (const Technique& technique : techniques()) {
         OmissionSwitch omissions;
         if (technique.blend) omissions.kept = {"blending"};
         frames.push_back(
             frame_of(technique.name, volume, scene_of(technique), capabilities, omissions));
     }
-    return time_rows(frames, time_interleaved("times: techniques", frames, rounds));
+    return study::time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
 }
 
 // A context that cannot read its own pixel needs a barrier after each slab.
@@ -112,7 +112,7 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
                    const Capabilities& capabilities) {
     Scene scene = timed_scene(false);
     scene.width = scene.height = barrier_pixels;
-    std::vector<TimedFrame> frames;
+    std::vector<study::TimedFrame> frames;
     const auto add = [&](const char* name, Target target, const Capabilities& of) {
         scene.target = target;
         frames.push_back(frame_of(name, volume, scene, of, {}));
@@ -123,13 +123,13 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
     if (capabilities.framebuffer_fetch)
         add("emulated 8 bits, fetch", Target::emulated, capabilities);
     add("emulated 8 bits, texture barriers", Target::emulated, without_fetch);
-    return time_rows(frames, time_interleaved("times: barriers", frames, rounds));
+    return study::time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
 }
 
 // Section 5 leaves open what a palette for every slice costs.
 Json time_palettes(bool& same_picture) {
     using Way = PaletteSlices::Way;
-    std::vector<TimedFrame> frames;
+    std::vector<study::TimedFrame> frames;
     std::array<Image, 2> images;
     const auto add = [&](const char* name, Way way, Image& image) {
         const auto all = std::make_shared<PaletteSlices>(way, pixels, slices, palette_period);
@@ -138,9 +138,10 @@ Json time_palettes(bool& same_picture) {
     };
     add("one dependent lookup", Way::lookup, images[0]);
     add("an upload a slice", Way::upload, images[1]);
-    const std::vector<FrameTimes> times = time_interleaved("times: palettes", frames, rounds);
+    const std::vector<study::FrameTimes> times =
+        study::time_interleaved("times: palettes", frames, rounds);
     same_picture = images[0].rgba == images[1].rgba;
-    return time_rows(frames, times);
+    return study::time_rows(frames, times);
 }
 
 }  // namespace
@@ -158,9 +159,9 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     values["barriers"] = time_barriers(volume, stage.capabilities());
     bool same_picture = false;
     values["palettes"] = time_palettes(same_picture);
-    write_text(folder / "times.csv", csv_of_rows(values["techniques"]));
-    write_text(folder / "times_barriers.csv", csv_of_rows(values["barriers"]));
-    write_text(folder / "times_palettes.csv", csv_of_rows(values["palettes"]));
+    study::write_text(folder / "times.csv", study::csv_of_rows(values["techniques"]));
+    study::write_text(folder / "times_barriers.csv", study::csv_of_rows(values["barriers"]));
+    study::write_text(folder / "times_palettes.csv", study::csv_of_rows(values["palettes"]));
     Findings findings;
     findings.add("A palette uploaded for each slice and a dependent lookup give one picture",
                  same_picture, same_picture ? "the same codes" : "codes differ");
@@ -172,4 +173,4 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
                     upload));
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

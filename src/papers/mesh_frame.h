@@ -11,12 +11,12 @@
 #include "study/interleaved_times.h"
 #include "study/traced_mesh.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // A scene of a mesh, set up to be drawn again and again. The context must outlive it.
 class MeshFrame {
   public:
-    MeshFrame(std::string name, const TracedMesh& mesh, const Scene& scene,
+    MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities)
         : name_(std::move(name)),
           session_(std::make_unique<Session>(scene, mesh.data(), capabilities)) {
@@ -44,12 +44,12 @@ class MeshFrame {
 };
 
 // For time_interleaved(): whole frames. `frames` must stay where they are.
-inline std::vector<TimedFrame> timed(std::vector<MeshFrame>& frames) {
-    std::vector<TimedFrame> all;
+inline std::vector<study::TimedFrame> timed(std::vector<MeshFrame>& frames) {
+    std::vector<study::TimedFrame> all;
     for (MeshFrame& frame : frames) {
         all.push_back({frame.name(), [&frame] { frame.warm_up(); }, [&frame] { frame.draw(); }});
     }
     return all;
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

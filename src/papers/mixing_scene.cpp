@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 constexpr int depth = 1024;  // slabs
@@ -44,4 +44,4 @@ Scene white_mixing_scene(int pixels) {
     return scene_of(pixels, true);
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,7 +5,7 @@
 #include "scene/scene.h"
 #include "volume/volume.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // Heavy liquid, at large x, runs into light liquid.
 Volume mixing_volume();
@@ -18,4 +18,4 @@ Volume mixing_volume();
 Scene mixing_scene(int pixels);
 Scene white_mixing_scene(int pixels);  // for what carries no colour
 
-}  // namespace lamina
+}  // namespace lamina::papers

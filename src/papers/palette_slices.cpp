@@ -5,10 +5,10 @@
 
 #include "compositing/dither.h"
 #include "compositing/random_bits.h"
-#include "gl/full_screen.h"
 #include "executors/gl_compositing.h"
+#include "gl/full_screen.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 constexpr int entries = 256;
@@ -80,4 +80,4 @@ Image PaletteSlices::draw() {
     return target_.read_back();
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -5,7 +5,7 @@
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // What LaMar 2004, section 5, asks: how to give every slice its own dithered palette. Full-screen
 // slices of an 8-bit texture are blended in 8 bits; the palette of 256 entries changes with period
@@ -30,4 +30,4 @@ class PaletteSlices {
     gl::VertexArray no_attributes_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "papers/paper_hardware.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 Scene with_paper_hardware(Scene scene) {
     scene.target = Target::emulated;
@@ -13,4 +13,4 @@ ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t cha
     return image_error(image, exact).of_channel[channel];
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -7,7 +7,7 @@
 #include "image/metrics.h"
 #include "scene/scene.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 // Target `emulated`: 8 bits, as LaMar's hardware composites (2004, section 4).
 Scene with_paper_hardware(Scene scene);
@@ -15,4 +15,4 @@ Scene with_paper_hardware(Scene scene);
 // Norms of a channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
 ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lamina {
+namespace lamina::papers {
 
 // One table or figure of a paper: `reproduce`, or `draw` where it needs OpenGL. Either writes its
 // CSV and pictures, some of `files`, into `folder`, which exists, and returns {values, paper,
@@ -20,4 +20,4 @@ struct PaperItem {
     nlohmann::ordered_json (*draw)(const std::filesystem::path& folder, Stage& stage) = nullptr;
 };
 
-}  // namespace lamina
+}  // namespace lamina::papers

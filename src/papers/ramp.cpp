@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "compositing/unit_opacity.h"
 
-namespace lamina {
+namespace lamina::papers {
 namespace {
 
 // 255 is also what 16-bit codes are reported in.
@@ -89,4 +89,4 @@ int first_shown(const Curve& curve) {
     return static_cast<int>(shown - curve.begin());
 }
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -10,7 +10,7 @@
 #include "compositing/fixed_ray.h"
 #include "image/metrics.h"
 
-namespace lamina {
+namespace lamina::papers {
 
 inline constexpr int ramp_width = 256;
 
@@ -48,4 +48,4 @@ int levels(const Curve& curve);
 // The first column that shows something; ramp_width when none does.
 int first_shown(const Curve& curve);
 
-}  // namespace lamina
+}  // namespace lamina::papers

@@ -12,23 +12,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "executors/tile_vectors-inl.h"
 #include "slicing/slab_mask.h"
 #include "slicing/tile_bounds.h"
 #include "slicing/tile_slabs.h"
 #include "tiles/arithmetic-inl.h"
-#include "tiles/doubles-inl.h"
-#include "tiles/tile_grid.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
-
-using FloatTag = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
-using DoubleTag = hn::Repartition<double, FloatTag>;
-using Floats = hn::Vec<FloatTag>;
-constexpr std::size_t most_lanes = TileGrid::block * TileGrid::block;
-
-using TwoDoubles = Doubles<FloatTag>;
-using HalfDoubles = hn::Vec<DoubleTag>;
 
 HWY_INLINE TwoDoubles all(double value) {
     return {hn::Set(DoubleTag(), value), hn::Set(DoubleTag(), value)};

@@ -15,11 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-using IntTag = hn::RebindToSigned<FloatTag>;
-using WordTag = hn::RebindToUnsigned<FloatTag>;
-using Ints = hn::Vec<IntTag>;
-using Words = hn::Vec<WordTag>;
-
 struct Points {
     Floats x, y, z;
 };

@@ -12,7 +12,7 @@
 #include <hwy/highway.h>
 
 #include "executors/tile_optics-inl.h"
-#include "executors/tile_preintegration-inl.h"
+#include "slicing/tile_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {

@@ -13,7 +13,7 @@
 #include "base/stopwatch.h"
 #include "study/study_frames.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 Scene slicing_scene(const Scene& scene, int samples) {
@@ -191,4 +191,4 @@ Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
     return Crosschecker(scene, settings, capabilities).run();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

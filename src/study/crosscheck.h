@@ -10,7 +10,7 @@
 #include "study/interleaved_times.h"
 #include "study/reference_store.h"
 
-namespace lamina {
+namespace lamina::study {
 
 struct CrosscheckSettings {
     // Of meshes made from the volume, beside the scene's own.
@@ -61,4 +61,4 @@ struct Crosscheck {
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
                       const Capabilities& capabilities);
 
-}  // namespace lamina
+}  // namespace lamina::study

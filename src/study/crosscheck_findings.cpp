@@ -5,7 +5,7 @@
 
 #include "study/crosscheck_report.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr const char* part_names[] = {"mesh discretisation", "the slicing method", "the PT method"};
@@ -104,4 +104,4 @@ std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
             agreement(crosscheck, subject.wanted)};
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -11,7 +11,7 @@
 #include "study/picture_sheet.h"
 #include "study/thumbnail.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -217,4 +217,4 @@ nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const Err
             {"dropped", Json::array()}};
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

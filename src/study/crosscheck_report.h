@@ -6,7 +6,7 @@
 
 #include "study/crosscheck.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // What a crosscheck is told with.
 struct CrosscheckSubject {
@@ -28,4 +28,4 @@ std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
                                              const ErrorBudget& budget,
                                              const CrosscheckSubject& subject);
 
-}  // namespace lamina
+}  // namespace lamina::study

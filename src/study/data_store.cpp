@@ -8,7 +8,7 @@
 
 #include "study/picture_key.h"
 
-namespace lamina {
+namespace lamina::study {
 
 std::string volume_name(const Scene& scene) {
     if (!scene.volume_request) return scene.volume_file.string();
@@ -55,4 +55,4 @@ void DataStore::clear() {
     meshes_.clear();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

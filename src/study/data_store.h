@@ -8,7 +8,7 @@
 #include "render/volume_data.h"
 #include "study/traced_mesh.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Paths, or formulas.
 std::string volume_name(const Scene& scene);
@@ -35,4 +35,4 @@ class DataStore {
     std::map<std::string, std::unique_ptr<StoredMesh>> meshes_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/draw_contexts.h"
 
-namespace lamina {
+namespace lamina::study {
 
 const Capabilities& DrawContexts::use(const std::string& word) {
     const auto found = contexts_.find(word);
@@ -15,4 +15,4 @@ const Capabilities& DrawContexts::use(const std::string& word) {
     return contexts_.try_emplace(word, choice).first->second.capabilities();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

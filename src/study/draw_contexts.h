@@ -7,7 +7,7 @@
 
 #include "render/draw_context.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
 // there at a time (gl/context.h).
@@ -28,4 +28,4 @@ class DrawContexts {
     std::map<std::string, DrawContext> contexts_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

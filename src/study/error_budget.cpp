@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr std::array<double, 3> signs{1, -1, 1};
@@ -46,4 +46,4 @@ ErrorBudget error_budget(const FourPictures& pictures) {
     return budget;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

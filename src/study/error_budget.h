@@ -9,7 +9,7 @@
 #include "image/image.h"
 #include "image/metrics.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // One volume drawn in two ways, and each of them against what the exact picture of its own data is.
 struct FourPictures {
@@ -40,4 +40,4 @@ struct ErrorBudget {
 // All of one size; else throws Error.
 ErrorBudget error_budget(const FourPictures& pictures);
 
-}  // namespace lamina
+}  // namespace lamina::study

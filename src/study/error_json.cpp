@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/error_json.h"
 
-namespace lamina {
+namespace lamina::study {
 
 nlohmann::ordered_json to_json(const ErrorNorms& norms) {
     return {{"linf", norms.linf}, {"l1", norms.l1}, {"l2", norms.l2}};
@@ -14,4 +14,4 @@ nlohmann::ordered_json to_json(const ImageError& error) {
     return {{"channels", channels}, {"all", to_json(error.all)}};
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

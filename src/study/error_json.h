@@ -5,7 +5,7 @@
 
 #include "image/metrics.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // {linf, l1, l2}, in 1/255.
 nlohmann::ordered_json to_json(const ErrorNorms& norms);
@@ -13,4 +13,4 @@ nlohmann::ordered_json to_json(const ErrorNorms& norms);
 // {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints it.
 nlohmann::ordered_json to_json(const ImageError& error);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -10,7 +10,7 @@
 #include "base/progress.h"
 #include "base/stopwatch.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 double cpu_milliseconds() {
@@ -61,4 +61,4 @@ nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
     return rows;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

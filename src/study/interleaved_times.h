@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lamina {
+namespace lamina::study {
 
 // Something to time: `draw` makes one frame and returns when it is complete; `warm_up` makes it
 // ready.
@@ -31,4 +31,4 @@ std::vector<FrameTimes> time_interleaved(const std::string& label,
 nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
                                  const std::vector<FrameTimes>& times);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -15,7 +15,7 @@
 #include "base/json_text.h"
 #include "base/shortened.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 struct CompleteLines {
@@ -90,4 +90,4 @@ std::vector<nlohmann::json> Journal::read(const std::filesystem::path& path) {
     return read_lines(path).records;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

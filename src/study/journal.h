@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace lamina {
+namespace lamina::study {
 
 // Records of a study as it runs, a line of JSON each, on the disk before append() returns: whatever
 // ends the program loses nothing but the record that was being written.
@@ -31,4 +31,4 @@ class Journal {
     std::vector<nlohmann::json> found_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 // Pixels of the drawing; the plot's own rectangle within it.
@@ -157,4 +157,4 @@ std::string LinePlot::svg() const {
     return svg + "</svg>\n";
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

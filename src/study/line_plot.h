@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace lamina {
+namespace lamina::study {
 
 struct PlotAxis {
     std::string label;
@@ -43,4 +43,4 @@ class LinePlot {
     std::vector<Line> lines_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

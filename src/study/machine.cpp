@@ -11,7 +11,7 @@
 
 #include <fmt/chrono.h>
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 std::string processor_name() {
@@ -38,4 +38,4 @@ nlohmann::ordered_json describe_machine() {
             {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))}};
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

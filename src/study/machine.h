@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-namespace lamina {
+namespace lamina::study {
 
 // {machine, processors, date}: the processor's name, how many of them this process may run on, and
 // today (UTC).
 nlohmann::ordered_json describe_machine();
 
-}  // namespace lamina
+}  // namespace lamina::study

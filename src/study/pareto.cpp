@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace lamina {
+namespace lamina::study {
 
 std::vector<bool> pareto_front(const std::vector<CostAndError>& points) {
     std::vector<std::size_t> order(points.size());
@@ -26,4 +26,4 @@ std::vector<bool> pareto_front(const std::vector<CostAndError>& points) {
     return front;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace lamina {
+namespace lamina::study {
 
 struct CostAndError {
     double cost = 0, error = 0;  // in any units, the same of all points
@@ -12,4 +12,4 @@ struct CostAndError {
 // Which points no other one beats: has as little of both, and less of one.
 std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
 
-}  // namespace lamina
+}  // namespace lamina::study

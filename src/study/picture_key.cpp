@@ -5,7 +5,7 @@
 
 #include "base/content_hash.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 void add(ContentHash& hash, const glm::dvec3& v) {
@@ -77,4 +77,4 @@ std::string content_of(const Colormap& colormap) {
     return hash.hex();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -8,7 +8,7 @@
 #include "scene/scene_mesh.h"
 #include "volume/volume.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // What an exact picture depends on beside its data: transfer function, camera and size.
 std::string picture_key(const Scene& scene);
@@ -20,4 +20,4 @@ std::string content_of(const Volume& volume);
 std::string content_of(const SceneMesh& mesh);
 std::string content_of(const Colormap& colormap);
 
-}  // namespace lamina
+}  // namespace lamina::study

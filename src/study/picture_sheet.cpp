@@ -9,7 +9,7 @@
 #include "image/png.h"
 #include "image/srgb.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr int gap = 4;  // pixels
@@ -62,4 +62,4 @@ void write_pictures(const std::filesystem::path& path, const std::vector<Image>&
     write_sheet(path, {row});
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

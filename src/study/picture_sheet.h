@@ -8,7 +8,7 @@
 #include "image/coded_image.h"
 #include "image/image.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // As write_png shows it on black: 8-bit sRGB codes, three channels.
 CodedImage shown(const Image& image);
@@ -21,4 +21,4 @@ void write_sheet(const std::filesystem::path& path,
 // A sheet of one row, on black.
 void write_pictures(const std::filesystem::path& path, const std::vector<Image>& pictures);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -13,7 +13,7 @@
 #include "study/picture_key.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr double units = 255;  // of errors, in full scale
@@ -126,4 +126,4 @@ const Reference& ReferenceStore::get(const Scene& scene, TraceOf of, DataStore& 
     return references_.emplace(id, std::move(*reference)).first->second;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

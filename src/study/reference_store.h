@@ -12,7 +12,7 @@
 #include "image/image.h"
 #include "study/data_store.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // What a tracer makes of a scene.
 struct Reference {
@@ -56,4 +56,4 @@ class ReferenceStore {
     std::map<std::string, Reference> references_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

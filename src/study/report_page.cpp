@@ -7,7 +7,7 @@
 #include "base/json_text.h"
 #include "study/report_files.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -84,4 +84,4 @@ std::string report_page(const Json& report) {
     return page;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -7,7 +7,7 @@
 #include "study/study_results.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 const std::vector<std::string> channel_names{"R", "G", "B", "A"};
@@ -81,4 +81,4 @@ std::string csv_of(const StudyResults& results) {
     return table.text();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

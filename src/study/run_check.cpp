@@ -10,7 +10,7 @@
 #include "scene_files/scene_reader.h"
 #include "study/run_list.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 void check_file(const std::filesystem::path& path, const StudyFile::SceneEntry& scene) {
@@ -84,4 +84,4 @@ std::vector<StudyData> check_runs(const RunList& list, const StudyFile& study) {
     return data;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/json_text.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 const nlohmann::json absent;
@@ -194,4 +194,4 @@ RunList list_runs(const StudyFile& file) {
     return list;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

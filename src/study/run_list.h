@@ -10,7 +10,7 @@
 #include "study/study_data.h"
 #include "study/study_file.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // One configuration of one scene.
 struct StudyRun {
@@ -81,4 +81,4 @@ void match_data(RunList& list, const std::string& list_of, const RunList& other,
 nlohmann::ordered_json to_json(const RunList& list);
 RunList run_list_from(const nlohmann::json& document, const std::filesystem::path& file);
 
-}  // namespace lamina
+}  // namespace lamina::study

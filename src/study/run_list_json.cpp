@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "study/run_list.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -92,4 +92,4 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
     }
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "study/picture_key.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Kind = StudyData::Kind;
@@ -56,4 +56,4 @@ std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataSto
     return contents;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 #include "study/data_store.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // A volume, a mesh or a colour map that runs of a study draw.
 struct StudyData {
@@ -32,4 +32,4 @@ void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
 // need it say so. Each is read once; those of a single scene stay in the store.
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -10,7 +10,7 @@
 #include "base/shortened.h"
 #include "scene_files/scene_reader.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr std::size_t most_drops = 1000;  // each is held against every run
@@ -155,4 +155,4 @@ StudyFile load_study(const std::filesystem::path& path) {
     return file;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "study/sweep.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // A study as its file says (docs/study.md), nothing expanded yet.
 struct StudyFile {
@@ -42,4 +42,4 @@ StudyFile load_study(const std::filesystem::path& file);
 // Gives the keys their values; null takes a key away.
 void apply_settings(const Settings& settings, nlohmann::json& document);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -8,7 +8,7 @@
 #include "base/median.h"
 #include "study/tree_plots.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Runs = std::vector<const RunResult*>;
@@ -135,4 +135,4 @@ std::vector<std::string> study_findings(const StudyResults& results) {
     return findings;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

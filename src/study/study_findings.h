@@ -6,9 +6,9 @@
 
 #include "study/study_results.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // What the figures say, in sentences; every number in them is one that was measured.
 std::vector<std::string> study_findings(const StudyResults& results);
 
-}  // namespace lamina
+}  // namespace lamina::study

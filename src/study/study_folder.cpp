@@ -7,7 +7,7 @@
 
 #include "base/folder.h"
 
-namespace lamina {
+namespace lamina::study {
 
 std::vector<std::string> StudyFolder::names() {
     std::vector<std::string> all = results();
@@ -46,4 +46,4 @@ void StudyFolder::make() const {
     for (const auto& folder : {path, references(), pictures()}) make_folder(folder);
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

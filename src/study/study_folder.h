@@ -8,7 +8,7 @@
 
 #include "base/own_files.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Where a study keeps what.
 struct StudyFolder {
@@ -36,4 +36,4 @@ struct StudyFolder {
     void make() const;  // with its folders; throws Error
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -3,7 +3,7 @@
 
 #include "gl/memory.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 std::unique_ptr<Session> session_of(const Scene& scene, DataStore& data,
@@ -35,4 +35,4 @@ void StudyFrames::draw_turned(double degrees) {
     session_->draw();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

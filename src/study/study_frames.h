@@ -7,7 +7,7 @@
 #include "render/session.h"
 #include "study/data_store.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // A scene of method slice or project, set up to be drawn again and again. The data and the context
 // must outlive it.
@@ -36,4 +36,4 @@ class StudyFrames {
     std::int64_t bytes_gpu_ = 0;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -15,7 +15,7 @@
 #include "study/run_list.h"
 #include "study/study_output.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 RunList read_list(const StudyFolder& folder) {
@@ -125,4 +125,4 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
     }
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

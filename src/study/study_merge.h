@@ -7,7 +7,7 @@
 #include "study/reference_store.h"
 #include "study/study_folder.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Copies the journals, references and pictures of shards of one study into a folder. Throws Error
 // where they are of different studies or drew different data, two of them are the same shard, or
@@ -15,4 +15,4 @@ namespace lamina {
 void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFolder& into,
                    const ReferenceStore::Say& say);
 
-}  // namespace lamina
+}  // namespace lamina::study

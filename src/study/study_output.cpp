@@ -18,7 +18,7 @@
 #include "study/study_report.h"
 #include "study/text_file.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -69,4 +69,4 @@ StudySummary write_study_output(const StudyFolder& folder) {
     return summary;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -8,7 +8,7 @@
 #include "study/run_list.h"
 #include "study/study_folder.h"
 
-namespace lamina {
+namespace lamina::study {
 
 struct StudySummary {
     std::size_t runs = 0, wanted = 0;  // finished, and of the whole study
@@ -21,4 +21,4 @@ void write_run_list(const StudyFolder& folder, const RunList& list);
 // results.csv, results.json and report.html from what the folder's journals hold. Throws Error.
 StudySummary write_study_output(const StudyFolder& folder);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -13,7 +13,7 @@
 #include "study/thumbnail.h"
 #include "study/tree_plots.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -130,4 +130,4 @@ void add_pictures(const StudyFolder& folder, nlohmann::ordered_json& report) {
     for (Json& comparison : report["comparisons"]) add_pictures_to(comparison, folder);
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

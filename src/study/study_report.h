@@ -6,7 +6,7 @@
 #include "study/study_folder.h"
 #include "study/study_results.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // results.json (docs/study.md): all that the page of a study shows, but for its pictures.
 nlohmann::ordered_json report_of(const StudyResults& results);
@@ -14,4 +14,4 @@ nlohmann::ordered_json report_of(const StudyResults& results);
 // Adds pictures of runs, references and differences, as data URIs.
 void add_pictures(const StudyFolder& folder, nlohmann::ordered_json& report);
 
-}  // namespace lamina
+}  // namespace lamina::study

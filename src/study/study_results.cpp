@@ -13,7 +13,7 @@
 #include "study/journal.h"
 #include "study/pareto.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -169,4 +169,4 @@ StudyResults read_results(const StudyFolder& folder) {
     return results;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -12,7 +12,7 @@
 #include "study/run_list.h"
 #include "study/study_folder.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // What was measured of one run. Times in ms, errors in 1/255.
 struct RunResult {
@@ -47,4 +47,4 @@ StudyResults read_results(const StudyFolder& folder);
 // results.csv: a row a run.
 std::string csv_of(const StudyResults& results);
 
-}  // namespace lamina
+}  // namespace lamina::study

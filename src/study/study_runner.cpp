@@ -16,7 +16,7 @@
 #include "image/metrics.h"
 #include "study/error_json.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -235,4 +235,4 @@ void StudyRunner::drop_opengl() {
     std::erase_if(frames_, [](const auto& kept) { return !kept.second.on_tiles(); });
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

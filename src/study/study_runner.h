@@ -15,7 +15,7 @@
 #include "study/study_folder.h"
 #include "study/study_frames.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Which runs of a list a process does: those whose number leaves `number` - 1 when divided by
 // `count`.
@@ -96,4 +96,4 @@ class StudyRunner {
     DrawContexts contexts_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -10,7 +10,7 @@
 #include "base/json_text.h"
 #include "base/shortened.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 constexpr std::int64_t largest_product = 65536;  // slabs of a tree
@@ -140,4 +140,4 @@ std::string setting_text(const nlohmann::json& value) {
     return value.is_null() ? "" : json_text(value);
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -9,7 +9,7 @@
 
 #include "scene_files/json_reader.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // Keys of a scene with the values that a run gives them, by name; null is as if the scene did not
 // have the key.
@@ -46,4 +46,4 @@ std::vector<std::vector<int>> factorizations(int of, int levels);
 // JSON.
 std::string setting_text(const nlohmann::json& value);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -11,7 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/json_text.h"
 
-namespace lamina {
+namespace lamina::study {
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
     AtomicFile file(path);
@@ -85,4 +85,4 @@ std::string csv_of_rows(const nlohmann::ordered_json& rows) {
     return csv.text();
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace lamina {
+namespace lamina::study {
 
 // The whole file at once, through AtomicFile. Throws Error.
 void write_text(const std::filesystem::path& path, const std::string& text);
@@ -27,4 +27,4 @@ class CsvTable {
 // Objects of the same keys and plain values, one a row; null is an empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -7,7 +7,7 @@
 
 #include "image/png.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 std::string base64(const std::string& bytes) {
@@ -89,4 +89,4 @@ std::string data_uri(const CodedImage& image) {
     return "data:image/png;base64," + base64(encode_png(image));
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

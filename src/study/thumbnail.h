@@ -8,7 +8,7 @@
 #include "image/difference.h"
 #include "image/image.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // By what sides are divided so that none has more than `largest` pixels.
 int reduction(int width, int height, int largest = 256);
@@ -21,4 +21,4 @@ Difference reduced(const Difference& difference, int step);
 // "data:image/png;base64,...", of an RGB picture of 8 bits.
 std::string data_uri(const CodedImage& image);
 
-}  // namespace lamina
+}  // namespace lamina::study

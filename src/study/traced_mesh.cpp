@@ -5,7 +5,7 @@
 
 #include "study/picture_key.h"
 
-namespace lamina {
+namespace lamina::study {
 TracedMesh::TracedMesh(SceneMesh mesh)
     : mesh_(std::make_shared<const SceneMesh>(std::move(mesh))),
       open_faces_(mesh_->mesh, mesh_->mesh.open_faces()) {}
@@ -22,4 +22,4 @@ const PreciseImage& TracedMesh::exact(const Scene& scene) {
     return traced_.emplace(key, trace(scene).image).first->second;
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -11,7 +11,7 @@
 #include "scene/scene.h"
 #include "scene/scene_mesh.h"
 
-namespace lamina {
+namespace lamina::study {
 
 // A tetrahedral mesh for sessions, and the tracer's pictures of it; what scenes say of their mesh
 // is not read.
@@ -32,4 +32,4 @@ class TracedMesh {
     std::map<std::string, PreciseImage> traced_;  // by picture_key()
 };
 
-}  // namespace lamina
+}  // namespace lamina::study

@@ -5,7 +5,7 @@
 
 #include "base/median.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -73,4 +73,4 @@ nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const R
                  &TreePoint::irregularity, &TreePoint::ms)};
 }
 
-}  // namespace lamina
+}  // namespace lamina::study

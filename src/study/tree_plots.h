@@ -6,7 +6,7 @@
 
 #include "study/study_results.h"
 
-namespace lamina {
+namespace lamina::study {
 
 constexpr const char* factors_key = "render.slice.tree.factors";
 
@@ -21,4 +21,4 @@ double irregularity(const std::vector<int>& factors);
 // report's `plots`; empty where no run has a tree.
 nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs);
 
-}  // namespace lamina
+}  // namespace lamina::study

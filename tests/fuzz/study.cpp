@@ -21,12 +21,12 @@ void run_study(std::string_view input) {
     scratch_file("scene.json", parts.second);
     may_fail([&] {
         if (!paths_stay_in_folder(load_json(file))) return;
-        const StudyFile study = load_study(file);
-        if (run_count(study) > most_listed) return;
-        const RunList list = list_runs(study);
+        const study::StudyFile study = study::load_study(file);
+        if (study::run_count(study) > most_listed) return;
+        const study::RunList list = study::list_runs(study);
         require(list.baselines.size() == study.scenes.size(), "a scene has no baseline");
         for (std::size_t i = 0; i < std::min(list.runs.size(), most_read); ++i) {
-            const nlohmann::json document = document_of(list.runs[i], study);
+            const nlohmann::json document = study::document_of(list.runs[i], study);
             if (!paths_stay_in_folder(document)) continue;
             may_fail([&] { read_scene(document, study.scenes[list.runs[i].scene].file); });
         }

@@ -8,7 +8,7 @@
 
 #include "support/expect_error.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 Image all_of(float value) {
@@ -101,4 +101,4 @@ TEST(ErrorBudget, PicturesOfDifferentSizesAreAnError) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using nlohmann::json;
@@ -94,4 +94,4 @@ TEST(Journal, GarbageIsAnError) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

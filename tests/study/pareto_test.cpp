@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 // As defined: no other point is as good in both and better in one.
@@ -49,4 +49,4 @@ TEST(Pareto, EqualPointsAreAllOnTheFront) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

@@ -10,7 +10,7 @@
 
 #include "study/report_files.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -123,4 +123,4 @@ TEST(ReportFiles, MakeNoMarkupFromText) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using nlohmann::json;
@@ -246,4 +246,4 @@ TEST_F(RunLists, CountsBeforeTheyAreMade) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

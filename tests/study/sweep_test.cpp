@@ -11,7 +11,7 @@
 
 #include "support/expect_error.h"
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 using nlohmann::json;
@@ -186,4 +186,4 @@ TEST(SettingText, IsShort) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

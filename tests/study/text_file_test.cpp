@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace lamina {
+namespace lamina::study {
 namespace {
 
 std::string row_of(const std::string& cell) {
@@ -38,4 +38,4 @@ TEST(CsvTable, NumbersStayNumbers) {
 }
 
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::study

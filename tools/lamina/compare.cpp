@@ -68,7 +68,7 @@ int compare(const CompareOptions& options) {
             "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
             options.diff, error.all.linf, error.all.linf);
     }
-    write_result(options.json ? json_text(to_json(error), 2) + "\n" : table_text(error));
+    write_result(options.json ? json_text(study::to_json(error), 2) + "\n" : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
         print_message("lamina: Linf {:.6g} is over --max-linf {:.6g}\n", error.all.linf,
                       *options.max_linf);

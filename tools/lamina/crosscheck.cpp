@@ -40,11 +40,11 @@ const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr"
 struct CrosscheckOptions {
     SceneOptions scene;
     std::string output, context = "auto";
-    CrosscheckSettings settings;
+    study::CrosscheckSettings settings;
     bool force = false, quiet = false;
 };
 
-void check_ladder(const CrosscheckSettings& settings) {
+void check_ladder(const study::CrosscheckSettings& settings) {
     for (const double each : settings.tolerances) {
         if (!(each > 0 && each <= 1))
             throw UsageError(fmt::format(
@@ -63,17 +63,19 @@ void write_picture(const std::filesystem::path& path, const Image& image) {
     file.commit();
 }
 
-void write_all(const std::filesystem::path& folder, const Crosscheck& made,
-               const CrosscheckSubject& subject) {
-    const ErrorBudget budget = error_budget(made.pictures);
+void write_all(const std::filesystem::path& folder, const study::Crosscheck& made,
+               const study::CrosscheckSubject& subject) {
+    const study::ErrorBudget budget = study::error_budget(made.pictures);
     OwnFiles(folder, verb_name).add(file_names);
     write_picture(folder / "traced_volume.exr", made.pictures.traced_volume);
     write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
     write_picture(folder / "sliced.exr", made.pictures.sliced);
     write_picture(folder / "projected.exr", made.pictures.projected);
-    write_text(folder / "budget.json", json_text(budget_json(made, budget, subject), 1) + "\n");
-    write_text(folder / "report.html", report_page(crosscheck_report(made, budget, subject)));
-    for (const std::string& finding : crosscheck_findings(made, budget, subject))
+    study::write_text(folder / "budget.json",
+                      json_text(study::budget_json(made, budget, subject), 1) + "\n");
+    study::write_text(folder / "report.html",
+                      study::report_page(study::crosscheck_report(made, budget, subject)));
+    for (const std::string& finding : study::crosscheck_findings(made, budget, subject))
         print_result("{}\n", printable(finding));
 }
 
@@ -87,13 +89,13 @@ void run(const CrosscheckOptions& options) {
     restrict_instructions_as_asked();
     make_folder(folder);
     const DrawContext context(choice);
-    CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
-                              scene.max_error, describe_machine()};
+    study::CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
+                                     scene.max_error, study::describe_machine()};
     subject.environment["drivers"] = renderer_and_threads(context.capabilities());
     subject.environment["version"] = LAMINA_VERSION;
     subject.environment["commit"] = git_commit;
     subject.environment["command"] = command_line();
-    write_all(folder, crosscheck(scene, options.settings, context.capabilities()), subject);
+    write_all(folder, study::crosscheck(scene, options.settings, context.capabilities()), subject);
     if (!options.quiet)
         print_message("lamina: wrote four pictures, budget.json and report.html into {}\n",
                       options.output);

@@ -18,13 +18,13 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "output_folder.h"
-#include "render/context_choice.h"
-#include "render/draw_context.h"
-#include "scene_files.h"
 #include "papers/kraus.h"
 #include "papers/kraus_stage.h"
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
+#include "render/context_choice.h"
+#include "render/draw_context.h"
+#include "scene_files.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -37,17 +37,17 @@ struct ReproduceOptions {
 };
 
 template <typename Stage>
-std::string names_of(const std::vector<PaperItem<Stage>>& items) {
+std::string names_of(const std::vector<papers::PaperItem<Stage>>& items) {
     std::vector<std::string> names;
-    for (const PaperItem<Stage>& item : items) names.push_back(item.name);
+    for (const papers::PaperItem<Stage>& item : items) names.push_back(item.name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 template <typename Stage>
-std::vector<PaperItem<Stage>> chosen_items(const std::vector<PaperItem<Stage>>& items,
-                                           const ReproduceOptions& options) {
+std::vector<papers::PaperItem<Stage>> chosen_items(
+    const std::vector<papers::PaperItem<Stage>>& items, const ReproduceOptions& options) {
     if (options.item.empty()) return items;
-    for (const PaperItem<Stage>& item : items) {
+    for (const papers::PaperItem<Stage>& item : items) {
         if (item.name == options.item) return {item};
     }
     throw UsageError(fmt::format("reproduce {} {}: unknown item, expected one of {}", options.paper,
@@ -56,17 +56,17 @@ std::vector<PaperItem<Stage>> chosen_items(const std::vector<PaperItem<Stage>>& 
 
 // That items may write, and the report on them.
 template <typename Stage>
-std::vector<std::string> files_of(const std::vector<PaperItem<Stage>>& items,
+std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& items,
                                   const std::string& report) {
     std::vector<std::string> files{report};
-    for (const PaperItem<Stage>& item : items)
+    for (const papers::PaperItem<Stage>& item : items)
         files.insert(files.end(), item.files.begin(), item.files.end());
     return files;
 }
 
 // That items read where they are there.
 std::vector<std::filesystem::path> data_files() {
-    const std::filesystem::path data = KrausStage::data_folder();
+    const std::filesystem::path data = papers::KrausStage::data_folder();
     std::vector<std::filesystem::path> files = files_of_volume(data / "bonsai.nrrd");
     for (const char* const mesh : {"bluntfin.vtu", "combustor.vtu", "torso.vtu"})
         files.push_back(data / mesh);
@@ -80,7 +80,8 @@ class Stagehand {
     using MakeContext = std::function<DrawContext()>;
     explicit Stagehand(MakeContext make_context) : make_context_(std::move(make_context)) {}
 
-    nlohmann::ordered_json make(const PaperItem<Stage>& item, const std::filesystem::path& folder) {
+    nlohmann::ordered_json make(const papers::PaperItem<Stage>& item,
+                                const std::filesystem::path& folder) {
         if (item.draw == nullptr) return item.reproduce(folder);
         if (!context_) {
             context_.emplace(make_context_());
@@ -96,10 +97,10 @@ class Stagehand {
 };
 
 template <typename Stage>
-void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions& options,
+void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const ReproduceOptions& options,
                typename Stagehand<Stage>::MakeContext make_context) {
     Stagehand<Stage> stagehand(std::move(make_context));
-    const std::vector<PaperItem<Stage>> items = chosen_items(all, options);
+    const std::vector<papers::PaperItem<Stage>> items = chosen_items(all, options);
     const std::filesystem::path folder = options.output;
     const std::string report_name = options.paper + ".json", verb = "reproduce " + options.paper;
     expect_own_folder(folder, verb, files_of(items, report_name), data_files(), options.force);
@@ -107,7 +108,7 @@ void reproduce(const std::vector<PaperItem<Stage>>& all, const ReproduceOptions&
     make_folder(folder);
     AtomicFile file(folder / report_name);
     nlohmann::ordered_json report;
-    for (const PaperItem<Stage>& item : items) {
+    for (const papers::PaperItem<Stage>& item : items) {
         nlohmann::ordered_json result;
         own.add(item.files);
         try {
@@ -129,10 +130,10 @@ void run(const ReproduceOptions& options) {
     if (options.paper == "lamar") {
         // Some items are about blending units and textures.
         const gl::ContextKind kind = opengl_kind(options.context);
-        reproduce(lamar_items(), options, [kind] { return DrawContext(kind); });
+        reproduce(papers::lamar_items(), options, [kind] { return DrawContext(kind); });
     } else if (options.paper == "kraus") {
         const ContextChoice choice = context_choice(options.context);
-        reproduce(kraus_items(), options, [choice] { return DrawContext(choice); });
+        reproduce(papers::kraus_items(), options, [choice] { return DrawContext(choice); });
     } else {
         throw UsageError(
             fmt::format("reproduce {}: unknown paper, expected lamar or kraus", options.paper));
@@ -149,7 +150,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     verb->add_option("PAPER", options->paper, "lamar or kraus")->required();
     verb->add_option("ITEM", options->item,
                      fmt::format("all of them when left out; of lamar: {}; of kraus: {}",
-                                 names_of(lamar_items()), names_of(kraus_items())));
+                                 names_of(papers::lamar_items()), names_of(papers::kraus_items())));
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
     verb->add_option("--context", options->context,

@@ -60,7 +60,7 @@ int run(const SelftestOptions& options) {
                                     {"commit", git_commit},
                                     {"context", renderer_and_threads(context.capabilities())},
                                     {"mistake", mistake},
-                                    {"machine", describe_machine()}};
+                                    {"machine", study::describe_machine()}};
     document.update(selftest::selftest_json(results));
     OwnFiles(folder, verb_name).add({report_name, table_name});
     report.write(json_text(document, 1) + "\n");

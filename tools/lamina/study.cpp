@@ -18,8 +18,8 @@
 #include "git_commit.h"
 #include "output_folder.h"
 #include "render/context_choice.h"
-#include "scene_files/json_reader.h"
 #include "scene_files.h"
+#include "scene_files/json_reader.h"
 #include "study/machine.h"
 #include "study/run_list.h"
 #include "study/study_merge.h"
@@ -37,8 +37,8 @@ struct StudyOptions {
     bool resume = false, yes = false, force = false, quiet = false;
 };
 
-Shard read_shard(const std::string& text) {
-    Shard shard;
+study::Shard read_shard(const std::string& text) {
+    study::Shard shard;
     const char* const end = text.data() + text.size();
     const auto number = std::from_chars(text.data(), end, shard.number);
     const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
@@ -49,18 +49,18 @@ Shard read_shard(const std::string& text) {
     return shard;
 }
 
-void check_count(const StudyFile& file, const StudyOptions& options) {
-    const std::uint64_t count = run_count(file);
-    if (count > most_runs_unasked && !options.yes) {
+void check_count(const study::StudyFile& file, const StudyOptions& options) {
+    const std::uint64_t count = study::run_count(file);
+    if (count > study::most_runs_unasked && !options.yes) {
         fail("{}: sweep: found {} runs, expected at most {}, or {} with --yes", options.study,
-             count, most_runs_unasked, most_runs);
+             count, study::most_runs_unasked, study::most_runs);
     }
 }
 
-std::vector<std::filesystem::path> files_read(const std::vector<StudyData>& data,
+std::vector<std::filesystem::path> files_read(const std::vector<study::StudyData>& data,
                                               const StudyOptions& options) {
     std::vector<std::filesystem::path> read{options.study};
-    for (const StudyData& each : data) {
+    for (const study::StudyData& each : data) {
         const auto files = files_of(each.drawn);
         read.insert(read.end(), files.begin(), files.end());
     }
@@ -68,10 +68,11 @@ std::vector<std::filesystem::path> files_read(const std::vector<StudyData>& data
 }
 
 // A folder belongs to one study, whose list it returns. `begun`: this shard has records in it.
-std::optional<RunList> check_folder(const RunList& list, const StudyFolder& folder, bool begun,
-                                    bool resume) {
+std::optional<study::RunList> check_folder(const study::RunList& list,
+                                           const study::StudyFolder& folder, bool begun,
+                                           bool resume) {
     if (!std::filesystem::exists(folder.run_list())) return std::nullopt;
-    RunList there = run_list_from(load_json(folder.run_list()), folder.run_list());
+    study::RunList there = study::run_list_from(load_json(folder.run_list()), folder.run_list());
     if (there.id() != list.id()) {
         fail("{}: holds another study, \"{}\": expected an empty folder, or one of this study",
              folder.path.string(), there.title);
@@ -87,13 +88,13 @@ void say(const StudyOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-void say_what_is_left_out(const RunList& list, const StudyOptions& options) {
-    for (const RunList::Dropped& dropped : list.dropped)
+void say_what_is_left_out(const study::RunList& list, const StudyOptions& options) {
+    for (const study::RunList::Dropped& dropped : list.dropped)
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
-void write_results(const StudyFolder& folder, const StudyOptions& options) {
-    const StudySummary summary = write_study_output(folder);
+void write_results(const study::StudyFolder& folder, const StudyOptions& options) {
+    const study::StudySummary summary = study::write_study_output(folder);
     for (const std::string& finding : summary.findings) print_result("{}\n", printable(finding));
     for (const std::string& failure : summary.failures) say(options, failure);
     say(options,
@@ -103,39 +104,40 @@ void write_results(const StudyFolder& folder, const StudyOptions& options) {
 }
 
 nlohmann::ordered_json begin_record() {
-    nlohmann::ordered_json begin = describe_machine();
+    nlohmann::ordered_json begin = study::describe_machine();
     begin["version"] = LAMINA_VERSION;
     begin["commit"] = git_commit;
     begin["command"] = command_line();
     return {{"begin", begin}};
 }
 
-void read_data(const std::vector<StudyData>& data, DataStore& store, RunList& list) {
-    const std::vector<std::string> contents = contents_of(data, store);
+void read_data(const std::vector<study::StudyData>& data, study::DataStore& store,
+               study::RunList& list) {
+    const std::vector<std::string> contents = study::contents_of(data, store);
     for (std::size_t i = 0; i < data.size(); ++i) list.data.push_back({data[i].name, contents[i]});
 }
 
 void run_study(const StudyOptions& options) {
-    const Shard shard = options.shard ? read_shard(*options.shard) : Shard{};
-    const StudyFile file = load_study(options.study);
+    const study::Shard shard = options.shard ? read_shard(*options.shard) : study::Shard{};
+    const study::StudyFile file = study::load_study(options.study);
     check_count(file, options);
-    RunList list = list_runs(file);
-    const std::vector<StudyData> data = check_runs(list, file);
+    study::RunList list = study::list_runs(file);
+    const std::vector<study::StudyData> data = study::check_runs(list, file);
     restrict_instructions_as_asked();
-    const StudyFolder folder(options.output);
+    const study::StudyFolder folder(options.output);
     const std::vector<std::filesystem::path> read = files_read(data, options);
     expect_different_files(read, folder.kept());
     const auto journal = folder.journal(shard.number, shard.count);
     const auto there = check_folder(list, folder, std::filesystem::exists(journal), options.resume);
-    expect_own_folder(folder.path, "study", StudyFolder::names(), read, options.force);
-    DataStore store;
+    expect_own_folder(folder.path, "study", study::StudyFolder::names(), read, options.force);
+    study::DataStore store;
     read_data(data, store, list);
-    if (there) match_data(list, "now", *there, folder.run_list().string());
+    if (there) study::match_data(list, "now", *there, folder.run_list().string());
     folder.make();
-    write_run_list(folder, list);
+    study::write_run_list(folder, list);
     say_what_is_left_out(list, options);
-    StudyRunner runner(list, file, folder, shard, begin_record(), std::move(store),
-                       [&](const std::string& text) { say(options, text); });
+    study::StudyRunner runner(list, file, folder, shard, begin_record(), std::move(store),
+                              [&](const std::string& text) { say(options, text); });
     const std::size_t before = runner.finished();
     say(options, fmt::format("{} runs, {} of them finished before", runner.wanted(), before));
     try {
@@ -150,11 +152,11 @@ void run_study(const StudyOptions& options) {
 }
 
 void merge(const StudyOptions& options) {
-    const StudyFolder folder(options.output);
+    const study::StudyFolder folder(options.output);
     try {
-        expect_own_folder(folder.path, "study", StudyFolder::names(), {}, options.force);
-        merge_studies({options.merged.begin(), options.merged.end()}, folder,
-                      [&](const std::string& text) { say(options, text); });
+        expect_own_folder(folder.path, "study", study::StudyFolder::names(), {}, options.force);
+        study::merge_studies({options.merged.begin(), options.merged.end()}, folder,
+                             [&](const std::string& text) { say(options, text); });
         write_results(folder, options);
     } catch (const Interrupted&) {
         throw Interrupted(fmt::format(
@@ -178,7 +180,7 @@ void add_study(CLI::App& app, int&) {
     verb->add_option("--merge", options->merged,
                      "Put the shards in these folders together in the folder of -o");
     verb->add_flag("--yes", options->yes,
-                   fmt::format("Run it though it has more than {} runs", most_runs_unasked));
+                   fmt::format("Run it though it has more than {} runs", study::most_runs_unasked));
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "papers/kraus.h"
+#include "render/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gl/gl_fixture.h"
+#include "image/metrics.h"
+#include "image/png.h"
+#include "mesh/mesh_shape.h"
+#include "papers/grid_mesh.h"
+#include "papers/kraus_stage.h"
+#include "papers/kraus_variants.h"
+#include "study/picture_sheet.h"
+#include "support/temporary_folder.h"
+
+namespace lamina::papers {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+KrausSizes small_sizes() {
+    KrausSizes sizes;
+    sizes.width = sizes.timed_width = 64;
+    sizes.height = sizes.timed_height = 48;
+    sizes.graded_cells = 6;
+    sizes.graded_layers = 24;
+    sizes.box_cells = 6;
+    sizes.timed_box_cells = {2, 3, 4};
+    return sizes;
+}
+
+double largest_opacity(const PreciseImage& image) {
+    double largest = 0;
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+        largest = std::max(largest, image.rgba[i]);
+    return largest;
+}
+
+double volume(const TetMesh& mesh) {
+    double sum = 0;
+    for (const Tet& tet : mesh.tets()) {
+        const auto at = [&](std::size_t i) {
+            return mesh.points()[static_cast<std::size_t>(tet[i])];
+        };
+        sum += glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)) / 6;
+    }
+    return sum;
+}
+
+TEST(GridMesh, BoxFillsTheUnitCube) {
+    const SceneMesh box = make_box_mesh({3, 4, 5});
+    EXPECT_EQ(box.mesh.tets().size(), 6u * 3 * 4 * 5);
+    EXPECT_NEAR(volume(box.mesh), 1, 1e-12);  // 360 terms, each rounded to 1e-16 or so
+    EXPECT_TRUE(convex(box.mesh));
+    const auto [low, high] = std::ranges::minmax(box.scalar.values);
+    EXPECT_GE(low, 0);
+    EXPECT_GT(high, 0.5);
+}
+
+TEST(GridMesh, GradedHasTheRatioAskedFor) {
+    for (const double bump : {0.0, 0.25}) {
+        const SceneMesh graded = make_graded_mesh(5, 20, 1e4, bump);
+        EXPECT_EQ(graded.mesh.tets().size(), 6u * 5 * 5 * 20);
+        // The first layer is exact; it moves the longest edge, far above, by 1e-4 of itself or so.
+        EXPECT_NEAR(edge_lengths(graded.mesh).ratio(), 1e4, 10);
+        EXPECT_TRUE(graded.mesh.findings().conforming());
+        EXPECT_EQ(graded.mesh.findings().inverted, 0);
+        EXPECT_EQ(convex(graded.mesh), bump == 0);
+    }
+}
+
+TEST(PictureSheet, LaysPicturesOutInRows) {
+    const TemporaryFolder folder;
+    Image light(3, 2), dark(3, 2);
+    std::fill(light.rgba.begin(), light.rgba.end(), 2.0f);  // clamped
+    study::write_sheet(folder / "sheet.png",
+                       {{study::shown(dark), study::shown(light)}, {study::shown(dark)}});
+    const CodedImage sheet = read_png(folder / "sheet.png");
+    ASSERT_EQ(sheet.width, 3 + 4 + 3);
+    ASSERT_EQ(sheet.height, 2 + 4 + 2);
+    const auto red = [&](int column, int row) {
+        return sheet.codes[static_cast<std::size_t>(3 * (row * sheet.width + column))];
+    };
+    EXPECT_EQ(red(2, 1), 0);
+    EXPECT_EQ(red(3, 1), 255);  // between
+    EXPECT_EQ(red(7, 0), 255);  // the light picture
+    EXPECT_EQ(red(0, 3), 255);  // between rows
+    EXPECT_EQ(red(0, 6), 0);
+    EXPECT_EQ(red(9, 7), 255);  // nothing there
+}
+
+// The keys of a result without data sets, and its files.
+// And nothing is written but what the item says beforehand.
+void expect_complete(const std::string& name, const Json& result, const TemporaryFolder& folder) {
+    const auto item = std::find_if(kraus_items().begin(), kraus_items().end(),
+                                   [&](const KrausItem& each) { return each.name == name; });
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        const std::string file = entry.path().filename();
+        EXPECT_EQ(std::count(item->files.begin(), item->files.end(), file), 1) << file;
+    }
+    for (const char* key : {"values", "paper", "agrees", "note", "checks"})
+        ASSERT_TRUE(result.contains(key)) << key;
+    EXPECT_TRUE(result["agrees"].is_null());  // the paper's statements are about real meshes
+    EXPECT_EQ(result["note"].get<std::string>().find("Set LAMINA_DATA to a folder that holds"), 0u);
+    EXPECT_FALSE(result["checks"].empty());
+    ASSERT_FALSE(result["values"]["files"].empty());
+    for (const Json& file : result["values"]["files"])
+        EXPECT_GT(std::filesystem::file_size(folder / file.get<std::string>()), 0u) << file;
+}
+
+class Kraus : public gl::GlTest {};
+
+TEST_F(Kraus, TransferFunctionsGiveTheOpacityWanted) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    KrausSubject& box = stage.subject("bluntfin");
+    EXPECT_EQ(box.name, "box");  // which stands in
+    const auto largest = [&](Scene scene) {
+        scene.width /= 4;  // as the coarse picture that told the factor
+        scene.height /= 4;
+        return largest_opacity(box.mesh.exact(scene));
+    };
+    // Beer's law: the depth is proportional to extinction, to the tracer's 1e-12 over a depth of
+    // 1e-3.
+    EXPECT_NEAR(largest(box.smooth), 0.48, 1e-8);
+    EXPECT_NEAR(largest(box.dense), 0.95, 1e-8);
+    EXPECT_NEAR(largest(box.isosurface), 0.98, 1e-8);
+}
+
+TEST_F(Kraus, TracesASceneOnce) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    KrausSubject& plate = stage.subject("plate");
+    const PreciseImage* const traced = &plate.mesh.exact(plate.smooth);
+    EXPECT_EQ(&plate.mesh.exact(with_target(plate.smooth, Target::fixed8)), traced);
+    EXPECT_NE(&plate.mesh.exact(plate.dense), traced);
+    Scene moved = plate.smooth;
+    moved.camera.eye.x += 1e-9;
+    EXPECT_NE(&plate.mesh.exact(moved), traced);
+    EXPECT_EQ(&plate.mesh.exact(plate.smooth), traced);
+}
+
+TEST_F(Kraus, DrawsWhatTheTracerSees) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    KrausSubject& box = stage.subject("box");
+    const Image image =
+        Session(with_default_integration(box.dense), box.mesh.data(), capabilities())
+            .draw_picture();
+    // Default settings keep the default of render.max_error (docs/scene.md).
+    EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);
+}
+
+// Where there is no data set. Figure 10 and the artifacts are below.
+TEST_F(Kraus, EveryItemHasItsKeysAndWritesItsFiles) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    for (const KrausItem& item : kraus_items()) {
+        ASSERT_NE(item.draw, nullptr) << item.name;
+        if (item.name == "figure10" || item.name == "artifacts") continue;
+        const TemporaryFolder folder;
+        expect_complete(item.name, item.draw(folder.path(), stage), folder);
+    }
+}
+
+// The paper's Figure 10: with equally spaced lengths thin cells get a fraction of their opacity.
+TEST_F(Kraus, Figure10LinearLengthsAreTooDark) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    const TemporaryFolder folder;
+    const Json figure = draw_kraus_figure10(folder.path(), stage);
+    expect_complete("figure10", figure, folder);
+    const Json& plate = figure["values"]["meshes"][1];
+    EXPECT_EQ(plate["mesh"], "plate");
+    EXPECT_NEAR(plate["edge_ratio"].get<double>(), 1e4, 10);
+    EXPECT_LT(plate["rows"][0]["l1"], 0);
+    // Some tens against some units.
+    EXPECT_GT(plate["rows"][0]["l2"], 5 * plate["rows"][1]["l2"].get<double>());
+    EXPECT_GT(plate["rows"][0]["l2"], 5 * plate["rows"][2]["l2"].get<double>());
+}
+
+TEST_F(Kraus, ArtifactsHaveARowForEveryRemedy) {
+    KrausStage stage(capabilities(), small_sizes(), {});
+    const TemporaryFolder folder;
+    const Json artifacts = draw_kraus_artifacts(folder.path(), stage);
+    expect_complete("artifacts", artifacts, folder);
+    std::map<std::string, double> l2;
+    for (const Json& row : artifacts["values"]["rows"]) {
+        l2[row["mesh"].get<std::string>() + ", " + row["transfer_function"].get<std::string>() +
+           ", " + row["picture"].get<std::string>()] = row["l2"];
+    }
+    EXPECT_EQ(l2.size(), 3u * (2 * 14 + 4));  // smooth and isosurface, faint
+    EXPECT_GT(l2.at("box, faint, fixed8 buffer"), l2.at("box, faint, fixed8 buffer, after_blend"));
+    EXPECT_GT(l2.at("box, smooth, linear interpolation"), l2.at("box, smooth, all remedies"));
+    EXPECT_GT(l2.at("box, smooth, fixed8 table"), l2.at("box, smooth, all remedies"));
+    EXPECT_GT(l2.at("box, smooth, fixed8 buffer"), l2.at("box, smooth, float16 buffer"));
+}
+
+}  // namespace
+}  // namespace lamina::papers

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/plan.h"
+
+#include <algorithm>
+
+#include "support/expect_error.h"
+#include "support/scene_fixture.h"
+
+namespace lamina {
+namespace {
+
+Capabilities usual() {
+    Capabilities capabilities;
+    capabilities.renderer = "test";
+    capabilities.max_texture_size = 16384;
+    capabilities.max_3d_texture_size = 2048;
+    return capabilities;
+}
+
+Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
+    const Scene scene = read_scene(document, "s");
+    const Volume volume = load_volume(scene);
+    return make_plan(scene, measure(scene, volume, measure_bricks(volume)), capabilities, {});
+}
+
+TEST(Plan, WhereNothingWasTriedSamplesAreTwoAVoxelAlongTheView) {
+    nlohmann::json document = minimal_scene();
+    document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
+    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells
+    document["render"]["slice"]["samples"] = 7;
+    EXPECT_EQ(plan_of(document, usual()).slice.slabs, 7);
+}
+
+TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
+    Capabilities capabilities = usual();
+    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::fetch);
+    capabilities.exact_float_filter = true;
+    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::filtered);
+    EXPECT_EQ(plan_of(with("/render/slice/filter", "hardware"), capabilities).slice.sampling,
+              VolumeSampling::hardware);
+}
+
+// With trials as slicing/slab_trials.h makes them: 60 slabs of exact scalars, or 80 filtered ones.
+TEST(Plan, TheHardwareFilterSavesSevenFetchesOfEightWhereItsErrorIsWanted) {
+    Scene scene = read_scene(with("/render/slice/filter", "auto"), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    SampleTrials trials{{{60, .8, 100, 1}}, {{60, 1.1, 100, 1}, {80, .9, 100, 1}}};
+    Capabilities gpu = usual();
+    const auto plan_for = [&] { return make_plan(scene, facts, gpu, {}, trials); };
+    EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
+    EXPECT_EQ(plan_for().slice.slabs, 60);
+    const double fetches = plan_for().work.fetches;
+    gpu.eight_bit_filter = true;
+    const Plan plan = plan_for();
+    EXPECT_EQ(plan.slice.sampling, VolumeSampling::hardware);
+    EXPECT_EQ(plan.slice.slabs, 80);
+    EXPECT_EQ(plan.slice.slab_trial->error, .9);
+    EXPECT_DOUBLE_EQ(plan.work.fetches, fetches * 80 / (8 * 60));
+    EXPECT_NE(explain(plan, facts, gpu).find("one look-up"), std::string::npos);
+    scene.slice.filter = Filter::exact;
+    EXPECT_EQ(plan_for().slice.slabs, 60);
+    scene.slice.filter = Filter::automatic;
+
+    trials.hardware.back().error = 1.01;
+    EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::fetch);
+    // Of a given number of slabs the trial is that of the filter alone; trees leave it its part.
+    scene.slice.samples = 60;
+    trials.exact.clear();
+    trials.hardware = {{60, .5, 100, 1}};
+    EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::hardware);
+    EXPECT_EQ(plan_for().slice.slabs, 60);
+    EXPECT_EQ(plan_for().slice.filter_error, .5);
+}
+
+// Of the length of rays: a hundredth in tiles, a fifth in OpenGL.
+TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
+    Scene scene = read_scene(minimal_scene(), "s");
+    const Volume volume = load_volume(scene);
+    Facts facts = measure(scene, volume, measure_bricks(volume));
+    facts.occupied_share = .5;
+    facts.ray_shares.box = .6;
+    Capabilities native = usual();
+    native.tiles = true;
+    const auto leaps = [&](double empty, const Capabilities& capabilities) {
+        facts.ray_shares.occupied = (1 - empty) * facts.ray_shares.box;
+        return make_plan(scene, facts, capabilities, {}).slice.occupied_only;
+    };
+    EXPECT_FALSE(leaps(.005, native));
+    EXPECT_TRUE(leaps(.015, native));
+    EXPECT_FALSE(leaps(.015, usual()));
+    EXPECT_FALSE(leaps(.19, usual()));
+    EXPECT_TRUE(leaps(.21, usual()));
+}
+
+TEST(Plan, LimitsOfTheContextAreErrorsThatNameThem) {
+    Capabilities capabilities = usual();
+    capabilities.max_texture_size = 16;
+    expect_error([&] { plan_of(minimal_scene(), capabilities); },
+                 {"32 x 24", "at most 16", "test"});
+    capabilities = usual();
+    capabilities.max_texture_bytes = 16 * 100;
+    expect_error([&] { plan_of(minimal_scene(), capabilities); },
+                 {"32 x 24", "at most 100", "test"});
+}
+
+TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
+    Capabilities gpu = usual();
+    gpu.software = false;
+    EXPECT_TRUE(plan_of(minimal_scene(), usual()).slice.precise_rays);
+    EXPECT_FALSE(plan_of(minimal_scene(), gpu).slice.precise_rays);
+    const nlohmann::json ramp = with("/volume", {{"generate", "ramp"}});  // 256 : 4 : 1
+    EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
+}
+
+// llvmpipe ends the loops of a fragment after 65535 rounds. With a table a slab takes 2 + 4 + 4, or
+// 10 with one knot in a cell of the search: with n more knots there, 4 n more.
+TEST(Plan, InSoftwareAFragmentMarchesNoMoreSlabsThanItsLoopsCan) {
+    nlohmann::json document =
+        with("/render/slice", {{"samples", 65536}, {"classification", "preintegrated"}});
+    const auto factors = [&](const Capabilities& capabilities) {
+        return plan_of(document, capabilities).slice.tree.value().factors;
+    };
+    const std::vector<int> levels = factors(usual());
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_GE(levels[0] * levels[1], 65536);
+    EXPECT_LE(levels[1] * 10, 65535);
+    Capabilities gpu = usual();
+    gpu.software = false;
+    EXPECT_EQ(factors(gpu), std::vector{65536});
+    Capabilities native = usual();
+    native.tiles = true;
+    EXPECT_EQ(factors(native), std::vector{65536});
+
+    nlohmann::json points = nlohmann::json::array();
+    for (int i = 0; i < 100; ++i)
+        points.push_back({{"value", 1e-6 * i}, {"color", {1, 1, 1}}, {"extinction", i % 2}});
+    document["transfer_function"]["points"] = points;
+    EXPECT_LE(factors(usual())[1] * 4 * 100, 65535);
+
+    document["render"]["slice"]["tree"] = {{"factors", "2x32768"}};
+    expect_error([&] { plan_of(document, usual()); },
+                 {"render.slice.tree.factors", "32768", "--context cpu"});
+    EXPECT_EQ(factors(native), (std::vector{2, 32768}));
+}
+
+TEST(Plan, TracingMakesNoContext) {
+    const Plan plan = plan_of(with("/render/method", "trace"), {});
+    ASSERT_EQ(plan.omitted.size(), 1u);
+    EXPECT_EQ(plan.omitted[0].name, "context");
+}
+
+TEST(Plan, EveryOmissionCanBeSwitchedOffByItsName) {
+    const Scene scene = read_scene(with("/transfer_function/points/1/opacity", 0), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const auto names = omission_names();
+    const Plan plan = make_plan(scene, facts, usual(), {});
+    ASSERT_FALSE(plan.omitted.empty());
+    for (const Omission& omission : plan.omitted) {
+        EXPECT_NE(std::find(names.begin(), names.end(), omission.name), names.end())
+            << omission.name;
+        EXPECT_FALSE(omission.reason.empty());
+        OmissionSwitch without;
+        without.kept = {omission.name};
+        for (const Omission& other : make_plan(scene, facts, usual(), without).omitted) {
+            EXPECT_NE(other.name, omission.name);
+        }
+    }
+    OmissionSwitch none;
+    none.none = true;
+    EXPECT_TRUE(make_plan(scene, facts, usual(), none).omitted.empty());
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/tree_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "compositing/fixed_ray.h"
+#include "support/expect_error.h"
+#include "support/scene_fixture.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::array every_target = {Target::float32, Target::float16, Target::fixed16,
+                                     Target::fixed8, Target::emulated};
+
+TreeQuestion question_of(Target target, int slabs, double max_error = 1) {
+    TreeQuestion question;
+    question.target = target;
+    question.slabs = question.visible_slabs = slabs;
+    question.max_error = max_error;
+    return question;
+}
+
+TEST(TreeChoice, BoundsGrowWithSlabsAndStayBelowFullScale) {
+    for (const Target target : every_target) {
+        for (double (*const bound)(const TreeQuestion&) :
+             {straight_error_bound, one_level_error_bound}) {
+            double last = 0;
+            for (int slabs = 1; slabs <= 65536; slabs *= 2) {
+                const double now = bound(question_of(target, slabs));
+                EXPECT_GE(now, last) << name_of(target) << ", " << slabs;
+                EXPECT_GT(now, 0);
+                EXPECT_LE(now, 255);
+                last = now;
+            }
+        }
+    }
+}
+
+// In float32, where nothing is gained by storing less often, either may be the smaller.
+double best_bound(const TreeQuestion& question) {
+    return std::min(one_level_error_bound(question), straight_error_bound(question));
+}
+
+void expect_one_node(const TreeQuestion& question, const TreeChoice& choice) {
+    ASSERT_TRUE(choice.tree.has_value());
+    EXPECT_EQ(choice.tree->factors, (std::vector<int>{question.slabs}));
+    EXPECT_EQ(choice.error_bound, one_level_error_bound(question));
+    EXPECT_FALSE(choice.reason.empty());
+}
+
+TEST(TreeChoice, OneLevelMeetsTheErrorOrAnErrorSaysWhatCouldBeKept) {
+    for (const Target target :
+         {Target::float32, Target::float16, Target::fixed16, Target::fixed8}) {
+        for (const double max_error : {1., 2., 4., 8.}) {
+            const TreeQuestion question = question_of(target, 1024, max_error);
+            expect_one_node(question, choose_tree(question));
+            EXPECT_LE(choose_tree(question).error_bound, max_error);
+        }
+        // A thousandth of what one rounding to the target costs.
+        const double too_little = one_level_error_bound(question_of(target, 1)) / 1000;
+        const TreeQuestion question = question_of(target, 1024, too_little);
+        if (target == Target::float32) {  // the best there is
+            expect_one_node(question, choose_tree(question));
+            continue;
+        }
+        expect_error([&] { choose_tree(question); },
+                     {fmt::format("render.max_error: {:.4g} cannot be kept", too_little),
+                      fmt::format("{:.4g}", best_bound(question)), name_of(target)});
+    }
+}
+
+// What slabs were found to miss is no reason to refuse a target that could keep max_error.
+TEST(TreeChoice, SlabsThatMissTheErrorLeaveCompositingItsBest) {
+    for (const double slab_error : {.9, 1., 7.}) {
+        for (const Target target : {Target::float32, Target::float16, Target::fixed8}) {
+            TreeQuestion question = question_of(target, 1024);
+            question.slab_error = slab_error;
+            expect_one_node(question, choose_tree(question));
+        }
+        TreeQuestion coarse = question_of(Target::fixed8, 1024, .4);
+        coarse.slab_error = slab_error;
+        expect_error([&] { choose_tree(coarse); }, {"render.max_error: 0.4 cannot be kept"});
+    }
+}
+
+// Each remedy that a message names keeps max_error, and one that does not is not named.
+TEST(TreeChoice, RemediesHelp) {
+    const auto message = [](const TreeQuestion& question) -> std::string {
+        try {
+            choose_tree(question);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    TreeQuestion bright = question_of(Target::fixed8, 100);
+    bright.largest_color = 3;
+    EXPECT_TRUE(message(bright).ends_with(
+        "and clamps colours (up to 3) to 1: take colours up to 1, or target float16 or float32"))
+        << message(bright);
+    bright.max_error = .3;  // half precision: 3 * 255 * 2^-11 = .37; eight bits: .5
+    EXPECT_TRUE(message(bright).ends_with(": take target float32")) << message(bright);
+    bright.target = Target::float16;
+    EXPECT_EQ(message(bright).find("clamp"), std::string::npos) << message(bright);
+    EXPECT_TRUE(message(bright).ends_with("take a larger max_error, or target float32"));
+    bright.target = Target::emulated;
+    bright.emulation.bits = 12;
+    // Of 16 bits 4 roundings of half a code a slab are .78 / 255 (100 * 2 / 65535 * 255), but
+    // colours stay clamped.
+    EXPECT_TRUE(message(bright).ends_with(": take target float32")) << message(bright);
+    bright.max_error = 1;
+    bright.emulation.bits = 16;
+    EXPECT_TRUE(message(bright).ends_with(": take colours up to 1, or target float16 or float32"))
+        << message(bright);
+    bright.largest_color = 1;
+    bright.emulation.bits = 12;
+    EXPECT_NE(message(bright).find(", or more bits, or fewer slabs, or target "), std::string::npos)
+        << message(bright);
+}
+
+TEST(TreeChoice, OneSlabNeedsNoTree) {
+    const TreeChoice choice = choose_tree(question_of(Target::fixed8, 1, 2));
+    EXPECT_FALSE(choice.tree.has_value());
+    EXPECT_EQ(choice.error_bound, straight_error_bound(question_of(Target::fixed8, 1)));
+}
+
+// But where blending it rounds more than a node that is rounded once.
+TEST(TreeChoice, OneSlabHasANodeWhereBlendingMissesTheError) {
+    const TreeQuestion question = question_of(Target::fixed8, 1, 1);
+    ASSERT_GT(straight_error_bound(question), 1);
+    const TreeChoice choice = choose_tree(question);
+    EXPECT_EQ(choice.tree.value().factors, std::vector{1});
+    EXPECT_LE(choice.error_bound, 1);
+}
+
+TEST(TreeChoice, AnEmulatedBufferHasNoTreeAndMayNotDo) {
+    TreeQuestion question = question_of(Target::emulated, 100);
+    question.emulation.bits = 16;
+    EXPECT_FALSE(choose_tree(question).tree.has_value());
+    EXPECT_LE(choose_tree(question).error_bound, 1);
+    question.emulation.bits = 8;
+    expect_error([&] { choose_tree(question); },
+                 {"render.max_error: 1 cannot be kept", "8 bits",
+                  fmt::format("{:.4g}", straight_error_bound(question)), "100 visible slabs"});
+}
+
+TEST(TreeChoice, ColoursAboveOneAreCutOffByFixedPoint) {
+    TreeQuestion question = question_of(Target::fixed8, 1024);
+    question.largest_color = 1.5;
+    EXPECT_GT(one_level_error_bound(question), 127);
+    EXPECT_THROW(choose_tree(question), Error);
+    question.target = Target::float16;
+    EXPECT_NEAR(one_level_error_bound(question),
+                1.5 * one_level_error_bound(question_of(Target::float16, 1024)), 1e-12);
+}
+
+// One ray in double precision: colour and opacity.
+std::pair<double, double> exact(const std::vector<RaySample>& samples) {
+    double color = 0, transmittance = 1;
+    for (const RaySample& sample : samples) {
+        color += transmittance * sample.alpha * sample.color;
+        transmittance *= 1 - sample.alpha;
+    }
+    return {color, 1 - transmittance};
+}
+
+std::vector<RaySample> random_ray(std::mt19937& random, int samples) {
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const double scale = std::pow(10.0, -3 * uniform(random));
+    const bool white = uniform(random) < .3, alike = uniform(random) < .3;
+    std::vector<RaySample> ray(static_cast<std::size_t>(samples));
+    const RaySample first{white ? 1 : uniform(random), scale * uniform(random)};
+    for (RaySample& sample : ray) {
+        sample = alike ? first : RaySample{white ? 1 : uniform(random), scale * uniform(random)};
+    }
+    return ray;
+}
+
+// Largest error of random rays in codes of the question's emulation, as a share of its bound.
+double share_of_bound(const TreeQuestion& question) {
+    std::mt19937 random(5);
+    const double codes = largest_code(question.emulation.bits);
+    double largest = 0;
+    for (std::uint32_t trial = 0; trial < 2000; ++trial) {
+        const std::vector<RaySample> ray = random_ray(random, question.slabs);
+        const FixedPixel pixel =
+            composite_straight(ray, question.emulation, question.dither, question.order, trial, 0);
+        const auto [color, alpha] = exact(ray);
+        largest = std::max({largest, std::abs(pixel.color / codes - color),
+                            std::abs(pixel.alpha / codes - alpha)});
+    }
+    return 255 * largest / straight_error_bound(question);
+}
+
+// The bound is never exceeded, and is no more than some times too large: a bound without content
+// would pass the former.
+TEST(TreeChoice, CodesStayUnderTheStraightBound) {
+    double closest = 0;
+    for (const Order order : {Order::back_to_front, Order::front_to_back}) {
+        for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
+            for (const AlphaRounding alpha :
+                 {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
+                for (const int dither : {0, 1, 3}) {
+                    TreeQuestion question = question_of(Target::emulated, 8);
+                    question.order = order;
+                    question.emulation = {8, alpha, over, 1};
+                    if (dither > 0) question.dither = Dither{5, 1, dither > 1, dither};
+                    const double share = share_of_bound(question);
+                    EXPECT_LE(share, 1) << name_of(order) << name_of(over) << name_of(alpha);
+                    closest = std::max(closest, share);
+                }
+            }
+        }
+    }
+    EXPECT_GT(closest, .25);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/scene_reader.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "support/expect_error.h"
+#include "support/scene_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
+    const Scene scene = read_scene(minimal_scene(), "scene.json");
+    EXPECT_EQ(scene.method, Method::slice);
+    EXPECT_EQ(scene.target, Target::float32);
+    EXPECT_EQ(scene.slice.classification, Classification::post);
+    EXPECT_EQ(scene.slice.order, Order::back_to_front);
+    EXPECT_EQ(scene.slice.filter, Filter::exact);
+    EXPECT_FALSE(scene.slice.samples.has_value());
+    EXPECT_EQ(scene.camera.projection, Projection::perspective);
+    EXPECT_EQ(scene.nan, NanPolicy::error);
+    EXPECT_EQ(scene.trace_tolerance, 1e-5);
+}
+
+TEST(SceneReader, OpacityBecomesExtinction) {
+    nlohmann::json document = with("/transfer_function/unit_length", 4);
+    const Scene scene = read_scene(document, "s");
+    const auto knots = scene.transfer_function.knots();
+    EXPECT_DOUBLE_EQ(knots[1].optics.extinction, std::log(2.) / 4);
+}
+
+TEST(SceneReader, OpacityOneIsAWarningWhereItIsInterpolatedTo) {
+    const nlohmann::json document = with("/transfer_function/points/1/opacity", 1);
+    const Scene linear = read_scene(document, "s");
+    EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 1e7);
+    EXPECT_EQ(linear.warnings.size(), 1u);
+    nlohmann::json nearest = document;
+    nearest["transfer_function"]["interpolation"] = "nearest";
+    EXPECT_TRUE(read_scene(nearest, "s").warnings.empty());
+}
+
+TEST(SceneReader, PathsAreRelativeToTheScene) {
+    EXPECT_EQ(read_scene(with("/volume", "a/b.nrrd"), "/x/scene.json").volume_file, "/x/a/b.nrrd");
+    EXPECT_EQ(read_scene(with("/volume", "/a/b.nrrd"), "/x/scene.json").volume_file, "/a/b.nrrd");
+    setenv("LAMINA_DATA", "/data", 1);
+    EXPECT_EQ(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json").volume_file,
+              "/data/b.nrrd");
+    unsetenv("LAMINA_DATA");
+    EXPECT_THROW(read_scene(with("/volume", "${LAMINA_DATA}/b.nrrd"), "/x/scene.json"), KeyError);
+}
+
+TEST(SceneReader, ColormapGivesColoursAndPointsExtinction) {
+    const TemporaryFolder folder;
+    write_bytes_to(
+        folder / "map.json",
+        R"([{"Name": "two", "ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 1, 1, 1, 1]}])");
+    nlohmann::json document = minimal_scene();
+    document["transfer_function"] = {
+        {"colormap", "map.json"},
+        {"colormap_range", {0, 255}},
+        {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 2}}}}};
+    const TransferFunction read = read_scene(document, folder / "scene.json").transfer_function;
+    EXPECT_DOUBLE_EQ(read.at(255).extinction, 2);
+    EXPECT_DOUBLE_EQ(read.at(255).color.g, 1);
+    // sRGB .5 in linear light (IEC 61966-2-1); the map is resampled to 5e-4.
+    EXPECT_NEAR(read.at(127.5).color.g, std::pow((.5 + .055) / 1.055, 2.4), 5e-4);
+    EXPECT_DOUBLE_EQ(read.at(127.5).extinction, 1);
+    document["transfer_function"]["colormap_range"] = {-1.5e308, 1.5e308};  // no finite difference
+    expect_error([&] { read_scene(document, folder / "scene.json"); },
+                 {"transfer_function.colormap_range", "between -1e300 and 1e300"});
+}
+
+TEST(SceneReader, SetReachesKeysAndListElements) {
+    nlohmann::json document = minimal_scene();
+    set_key(document, "render.slice.samples", "512");
+    set_key(document, "render.target", "fixed8");
+    set_key(document, "camera.eye", "[1, 2, 3]");
+    set_key(document, "transfer_function.points.1.opacity", "0.25");
+    const Scene scene = read_scene(document, "s");
+    EXPECT_EQ(scene.slice.samples, 512);
+    EXPECT_EQ(scene.target, Target::fixed8);
+    EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
+    EXPECT_DOUBLE_EQ(scene.transfer_function.knots()[1].optics.extinction, -std::log1p(-.25));
+    EXPECT_THROW(set_key(document, "camera.eye.7", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "version.x", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "", "1"), UsageError);
+    EXPECT_THROW(set_key(document, "camera..eye", "1"), UsageError);
+}
+
+// They make objects in each other, whose end would take a stack as deep.
+TEST(SceneReader, SetIsLimitedInDepth) {
+    std::string key = "a";
+    for (int i = 1; i < 64; ++i) key += ".a";
+    nlohmann::json document;
+    set_key(document, key, "[[1]]");
+    remove_key(document, key);
+    for (int i = 0; i < 100'000; ++i) key += ".a";
+    const auto message_of = [&](const std::string& name, const std::string& value) -> std::string {
+        try {
+            set_key(document, name, value);
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_TRUE(message_of(key, "1").ends_with("100064 parts between dots, expected at most 64"));
+    EXPECT_THROW(remove_key(document, key), UsageError);
+    EXPECT_LT(message_of(std::string(200'000, '.'), "1").size(), 250u);
+    const std::string lists(100'000, '[');
+    EXPECT_TRUE(message_of("b", lists).ends_with("nested more than 64 deep"));
+    EXPECT_TRUE(message_of("b", lists + std::string(100'000, ']')).starts_with("--set b: line 1"));
+    EXPECT_EQ(message_of("b", "[1"), "");  // no JSON: a word
+    EXPECT_EQ(document["b"], "[1");
+}
+
+TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
+    Camera camera;
+    camera.eye = {3, 4, 5};
+    camera.center = {1, 1, 1};
+    camera.up = {0, 2, 0};
+    const Camera quarter = turned(camera, 90);
+    // (2, 3, 4) about +y by 90 degrees: x <- z, z <- -x.
+    EXPECT_NEAR(quarter.eye.x, 1 + 4, 1e-14);
+    EXPECT_NEAR(quarter.eye.y, 4, 1e-14);
+    EXPECT_NEAR(quarter.eye.z, 1 - 2, 1e-14);
+}
+
+}  // namespace
+}  // namespace lamina
