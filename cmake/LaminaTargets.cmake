@@ -37,7 +37,7 @@ endif()
 function(lamina_room name)
     cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
     add_library(lamina_${name} STATIC ${ROOM_SOURCES})
-    target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(lamina_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
     target_link_libraries(lamina_${name} PUBLIC lamina_options ${ROOM_LINK})
 endfunction()
 

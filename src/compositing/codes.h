@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/unreachable.h"
+#include "lamina/emulation.h"
 
 namespace lamina {
 
@@ -30,9 +31,6 @@ inline ScaledValue split_scaled(double scaled) {
     const double whole = std::floor(scaled + code_noise);
     return {static_cast<std::uint32_t>(whole), std::fmax(scaled - whole, 0.0)};
 }
-
-// How an opacity becomes a code (LaMar 2004, section 4.1: the paper's hardware truncates).
-enum class AlphaRounding { truncate, nearest, stochastic };
 
 inline std::uint32_t code_nearest(double scaled) {
     return static_cast<std::uint32_t>(std::floor(scaled + 0.5));

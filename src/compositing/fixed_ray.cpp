@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "compositing/over.h"
 #include "compositing/random_bits.h"
 #include "compositing/unit_opacity.h"
 

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "compositing/dither.h"
-#include "compositing/emulation.h"
-#include "compositing/order.h"
 #include "compositing/tree_shape.h"
+#include "lamina/emulation.h"
+#include "lamina/order.h"
 
 namespace lamina {
 

@@ -3,12 +3,9 @@
 // image (docs/numerics.md, section 4). Twin of shaders/compositing/node_code.glsl, to float32.
 #pragma once
 
-namespace lamina {
+#include "lamina/tree_settings.h"
 
-// phi:     1 - exp(-sigma), the paper's: opacity as if the node's share filled the whole ray
-// alpha:   1 - exp(-S), the node's own opacity
-// minimax: equal worst effect of one rounding on the ray's opacity, for every sigma
-enum class NodeCode { minimax, phi, alpha };
+namespace lamina {
 
 // Optical depth that a code of 1 stands for: opaque.
 inline constexpr double opaque_node_depth = 1e4;

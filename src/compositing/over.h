@@ -6,10 +6,9 @@
 
 #include <cstdint>
 
-namespace lamina {
+#include "lamina/emulation.h"
 
-// separate: both products are rounded, as the paper's hardware does; fused: their sum is.
-enum class OverRounding { separate, fused };
+namespace lamina {
 
 // x / M to the nearest whole number, x <= M * M; (2x + M) / (2M) would overflow for 16 bits.
 constexpr std::uint32_t divide_nearest(std::uint32_t x, std::uint32_t largest) {

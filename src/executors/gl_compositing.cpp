@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/unreachable.h"
+#include "compositing/codes.h"
 
 namespace lamina {
 

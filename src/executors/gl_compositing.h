@@ -3,7 +3,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "image/image.h"
+#include "lamina/image.h"
 #include "plan/compositing_plan.h"
 
 namespace lamina {

@@ -3,12 +3,12 @@
 
 #include <vector>
 
+#include "executors/shader_intervals.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "lamina/transfer_function.h"
 #include "optics/preintegration_table.h"
-#include "optics/transfer_function.h"
 #include "plan/table_plan.h"
-#include "executors/shader_intervals.h"
 
 namespace lamina {
 

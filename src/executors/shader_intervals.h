@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "lamina/transfer_function.h"
 #include "optics/preintegration_table.h"
-#include "optics/transfer_function.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "lamina/transfer_function.h"
 #include "optics/preintegration_table.h"
-#include "optics/transfer_function.h"
 #include "plan/table_plan.h"
 #include "volume/min_max_bricks.h"
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "optics/transfer_function.h"
 #include "facts/occupied_bricks.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/camera.h"
 #include "facts/constant_bricks.h"
 #include "facts/occupied_bricks.h"
 #include "facts/ray_shares.h"
 #include "facts/scalar_rays.h"
-#include "scene/scene.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
+#include "scene/camera.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

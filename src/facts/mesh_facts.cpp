@@ -6,8 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "mesh/scalar_range.h"
 #include "facts/drawn_range.h"
+#include "mesh/scalar_range.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "facts/occupied_bricks.h"
-#include "scene/scene.h"
-#include "volume/volume.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

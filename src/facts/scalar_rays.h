@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "scene/scene.h"
-#include "volume/volume.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 #include "optics/linear_pieces.h"
 #include "volume/min_max_bricks.h"
 

@@ -4,9 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
+#include "facts/mesh_facts.h"
 #include "mesh/face_tree.h"
 #include "mesh/ray_walk.h"
-#include "facts/mesh_facts.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {

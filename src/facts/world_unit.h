@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "optics/transfer_function.h"
+#include "lamina/grid.h"
+#include "lamina/transfer_function.h"
 #include "scene/camera.h"
-#include "volume/grid.h"
 
 namespace lamina {
 

@@ -9,7 +9,7 @@
 
 #include "gl/handle.h"
 #include "gl/texture.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina::gl {
 

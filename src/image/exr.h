@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/atomic_file.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina {
 

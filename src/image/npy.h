@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/atomic_file.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina {
 

@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "image/coded_image.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina {
 

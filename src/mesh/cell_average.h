@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "mesh/mesh_data.h"
-#include "mesh/tet.h"
+#include "lamina/mesh_data.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

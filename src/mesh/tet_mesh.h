@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_data.h"
-#include "mesh/tet.h"
+#include "lamina/mesh_data.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

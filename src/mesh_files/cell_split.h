@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

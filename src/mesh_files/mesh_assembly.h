@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 
 namespace lamina {
 

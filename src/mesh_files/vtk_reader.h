@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 
 namespace lamina {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lamina/mesh_data.h"
+#include "lamina/mesh_settings.h"
 #include "meshing/delaunay.h"
 #include "meshing/interpolation_error.h"
-#include "mesh/mesh_data.h"
-#include "mesh/mesh_settings.h"
 #include "meshing/trilinear_field.h"
 
 namespace lamina {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 namespace {

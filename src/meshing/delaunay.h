@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

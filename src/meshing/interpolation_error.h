@@ -6,10 +6,10 @@
 #include <array>
 #include <span>
 
+#include "lamina/tet.h"
+#include "lamina/transfer_function.h"
 #include "meshing/cell_ranges.h"
-#include "mesh/tet.h"
 #include "meshing/trilinear_field.h"
-#include "optics/transfer_function.h"
 
 namespace lamina {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 #include "meshing/trilinear_field.h"
 
 namespace lamina {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

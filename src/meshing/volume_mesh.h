@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "mesh/mesh_data.h"
-#include "mesh/mesh_settings.h"
-#include "optics/transfer_function.h"
-#include "volume/volume.h"
+#include "lamina/mesh_data.h"
+#include "lamina/mesh_settings.h"
+#include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

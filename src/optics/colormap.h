@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 

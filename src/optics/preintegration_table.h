@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include "lamina/transfer_function.h"
 #include "optics/segment_integral.h"
-#include "optics/transfer_function.h"
 
 namespace lamina {
 

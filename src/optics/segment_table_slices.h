@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "lamina/transfer_function.h"
 #include "optics/segment_table.h"
-#include "optics/transfer_function.h"
 
 namespace lamina {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 

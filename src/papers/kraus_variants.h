@@ -2,7 +2,7 @@
 // The remedies of Kraus 2004, one switched off at a time in a scene that has them all.
 #pragma once
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina::papers {
 

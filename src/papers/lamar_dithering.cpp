@@ -7,11 +7,11 @@
 
 #include "base/progress.h"
 #include "compositing/unit_opacity.h"
+#include "lamina/scene.h"
 #include "papers/dither_spans.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
-#include "scene/scene.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
 

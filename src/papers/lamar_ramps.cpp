@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lamina/scene.h"
 #include "papers/figure_files.h"
 #include "papers/findings.h"
 #include "papers/lamar.h"
-#include "scene/scene.h"
 
 namespace lamina::papers {
 namespace {
@@ -35,7 +35,7 @@ std::string brief(const ErrorNorms& e) {
 }
 
 ErrorNorms error_of(const NamedCurve& named, const std::vector<NamedCurve>& curves) {
-    return lamina::error_of(named.curve, curves.front().curve);
+    return papers::error_of(named.curve, curves.front().curve);
 }
 
 // Slope of the straight line through columns 0 .. 127, by least squares; 1 is a right ramp of

@@ -12,6 +12,7 @@
 #include "render/session.h"
 #include "study/interleaved_times.h"
 #include "study/text_file.h"
+#include "volume/generate.h"
 
 namespace lamina::papers {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "volume/generate.h"
+
 namespace lamina::papers {
 namespace {
 

@@ -2,8 +2,8 @@
 // In place of LaMar's Richtmyer-Meshkov data (2004, section 5.2): the generated volume `mixing`.
 #pragma once
 
-#include "scene/scene.h"
-#include "volume/volume.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
 
 namespace lamina::papers {
 

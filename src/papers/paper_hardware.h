@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "image/image.h"
 #include "image/metrics.h"
-#include "scene/scene.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 
 namespace lamina::papers {
 

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "compositing/emulation.h"
-#include "compositing/order.h"
+#include "lamina/emulation.h"
+#include "lamina/order.h"
+#include "lamina/scene.h"
 #include "plan/capabilities.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/progress.h"
-#include "image/image.h"
-#include "scene/camera.h"
+#include "lamina/image.h"
 #include "plan/plan.h"
+#include "scene/camera.h"
 
 namespace lamina {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plan/capabilities.h"
 #include "facts/facts.h"
-#include "scene/scene.h"
+#include "lamina/scene.h"
+#include "plan/capabilities.h"
 
 namespace lamina {
 

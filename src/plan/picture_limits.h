@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lamina/scene.h"
 #include "plan/capabilities.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

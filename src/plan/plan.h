@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "compositing/dither.h"
-#include "plan/capabilities.h"
-#include "plan/compositing_plan.h"
 #include "facts/facts.h"
 #include "facts/mesh_facts.h"
+#include "lamina/scene.h"
+#include "plan/capabilities.h"
+#include "plan/compositing_plan.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
 #include "plan/sample_trials.h"
-#include "scene/scene.h"
 #include "plan/tree_choice.h"
 
 namespace lamina {

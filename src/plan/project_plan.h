@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "visibility/visibility_order.h"
+#include "lamina/project_settings.h"
 #include "optics/segment_table.h"
 #include "plan/compositing_plan.h"
-#include "scene/project_settings.h"
 #include "plan/table_plan.h"
+#include "visibility/visibility_order.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "plan/capabilities.h"
 #include "facts/mesh_facts.h"
+#include "lamina/scene.h"
+#include "plan/capabilities.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "facts/facts.h"
+#include "lamina/scene.h"
 #include "plan/sample_trials.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

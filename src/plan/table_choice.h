@@ -3,7 +3,7 @@
 #pragma once
 
 #include "facts/facts.h"
-#include "scene/scene.h"
+#include "lamina/scene.h"
 #include "plan/table_plan.h"
 
 namespace lamina {

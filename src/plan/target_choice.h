@@ -4,8 +4,8 @@
 #include <string>
 
 #include "facts/facts.h"
+#include "lamina/scene.h"
 #include "plan/sample_trials.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "compositing/tree_shape.h"
+#include "lamina/scene.h"
 #include "plan/capabilities.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compositing/dither.h"
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 #include "projection/window_view.h"
 
 namespace lamina {

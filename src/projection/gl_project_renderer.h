@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "executors/gl_fixed_tree.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "image/image.h"
-#include "visibility/visibility_order.h"
+#include "lamina/image.h"
+#include "plan/capabilities.h"
+#include "plan/plan.h"
 #include "projection/gl_project_tables.h"
 #include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
 #include "projection/project_renderer.h"
 #include "projection/visible_parts.h"
-#include "plan/capabilities.h"
-#include "plan/plan.h"
 #include "scene/scene_mesh.h"
-#include "executors/gl_fixed_tree.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 

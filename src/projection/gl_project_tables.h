@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "executors/gl_transfer_tables.h"
 #include "gl/program.h"
 #include "gl/texture.h"
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "plan/project_plan.h"
-#include "executors/gl_transfer_tables.h"
 
 namespace lamina {
 

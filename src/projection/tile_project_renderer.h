@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "image/image.h"
-#include "visibility/visibility_order.h"
+#include "lamina/image.h"
+#include "plan/plan.h"
 #include "projection/fan_geometry.h"
 #include "projection/project_renderer.h"
 #include "projection/tet_projector.h"
@@ -19,9 +19,9 @@
 #include "projection/tile_project_tables.h"
 #include "projection/tile_tet_tree.h"
 #include "projection/visible_parts.h"
-#include "plan/plan.h"
 #include "scene/scene_mesh.h"
 #include "tiles/tile_image.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "optics/transfer_function.h"
-#include "projection/tile_fragments.h"
-#include "plan/project_plan.h"
 #include "executors/tile_transfer.h"
+#include "lamina/transfer_function.h"
+#include "plan/project_plan.h"
+#include "projection/tile_fragments.h"
 
 namespace lamina {
 

@@ -7,9 +7,9 @@
 
 #include <cstddef>
 
-#include "visibility/face_signs.h"
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 #include "scene/camera.h"
+#include "visibility/face_signs.h"
 
 namespace lamina {
 

@@ -8,8 +8,8 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
+#include "lamina/grid.h"
 #include "reference/chord.h"
-#include "volume/grid.h"
 
 namespace lamina {
 

@@ -3,8 +3,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "lamina/grid.h"
 #include "scene/camera.h"
-#include "volume/grid.h"
 
 namespace lamina {
 

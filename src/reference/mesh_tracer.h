@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <span>
 
-#include "image/image.h"
+#include "lamina/image.h"
+#include "lamina/transfer_function.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
-#include "optics/transfer_function.h"
 #include "scene/camera.h"
 
 namespace lamina {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/compensated_sum.h"
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {

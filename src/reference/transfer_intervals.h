@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 

@@ -8,9 +8,9 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
+#include "lamina/grid.h"
 #include "reference/cell_walk.h"
 #include "reference/cubic.h"
-#include "volume/grid.h"
 
 namespace lamina {
 

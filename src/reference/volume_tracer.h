@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "image/image.h"
-#include "optics/transfer_function.h"
+#include "lamina/image.h"
+#include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "scene/camera.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

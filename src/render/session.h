@@ -8,11 +8,11 @@
 #include <stop_token>
 #include <string>
 
-#include "image/image.h"
-#include "render/drawing.h"
-#include "render/volume_data.h"
+#include "lamina/image.h"
 #include "plan/capabilities.h"
 #include "plan/plan.h"
+#include "render/drawing.h"
+#include "render/volume_data.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {
@@ -48,7 +48,8 @@ class Session {
     void set_scene(Scene scene);
     void choose_again();
 
-    // As asked for, with "auto"; and with what was chosen instead (scene_files/scene_json.h saves it).
+    // As asked for, with "auto"; and with what was chosen instead (scene_files/scene_json.h saves
+    // it).
     const Scene& scene() const { return asked_; }
     const Scene& resolved_scene();
     // Throws Error where the data cannot be drawn so, or the context cannot do it.

@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

@@ -3,20 +3,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "lamina/camera.h"
 #include "mesh/eye.h"
 
 namespace lamina {
-
-enum class Projection { perspective, orthographic };
-
-struct Camera {
-    Projection projection = Projection::perspective;
-    glm::dvec3 eye{0, 0, 1};
-    glm::dvec3 center{0};
-    glm::dvec3 up{0, 1, 0};
-    double fov_y = 40;  // degrees, perspective
-    double height = 1;  // world units, orthographic
-};
 
 // The viewing rays of an image: pixel (i, j), row 0 at the top, has its centre at image-plane
 // coordinates x(i), y(j). Along a ray the parameter is eye-space depth z (distance from the eye's
@@ -48,8 +38,5 @@ inline Eye eye_of(const View& view) {
 
 // Timed frames of a moving camera (--frames, studies: docs/study.md) are this far apart.
 inline constexpr double degrees_per_frame = 0.1;
-
-// The camera with its eye turned by `degrees` about the axis `up` through `center`.
-Camera turned(const Camera& camera, double degrees);
 
 }  // namespace lamina

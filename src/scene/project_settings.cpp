@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/project_settings.h"
+#include "lamina/project_settings.h"
 
 namespace lamina {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
+#include "volume/generate.h"
 #include "volume/nrrd.h"
 
 namespace lamina {

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "mesh/mesh_settings.h"
+#include "lamina/mesh_settings.h"
+#include "lamina/scene.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

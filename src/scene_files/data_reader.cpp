@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene_files/json_reader.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

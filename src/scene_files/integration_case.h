@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "scene_files/json_reader.h"
 
 namespace lamina {

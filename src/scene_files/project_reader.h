@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lamina/project_settings.h"
 #include "scene_files/json_reader.h"
-#include "scene/project_settings.h"
 
 namespace lamina {
 

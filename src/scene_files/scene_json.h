@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 

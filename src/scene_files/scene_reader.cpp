@@ -9,6 +9,7 @@
 #include "base/json_text.h"
 #include "base/shortened.h"
 #include "image/image_limits.h"
+#include "scene/camera.h"
 #include "scene_files/data_reader.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/project_reader.h"

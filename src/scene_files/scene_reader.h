@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 
 // The scene in `document`; `file` is for messages and relative paths. Throws KeyError
-// (scene_files/json_reader.h). `known`: collects the path of every key that the reader asks for, or null.
+// (scene_files/json_reader.h). `known`: collects the path of every key that the reader asks for, or
+// null.
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  std::set<std::string>* known = nullptr);
 

@@ -3,7 +3,7 @@
 
 #include "base/enum_words.h"
 #include "compositing/tree_shape.h"
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "lamina/tree_settings.h"
 #include "scene_files/json_reader.h"
-#include "scene/tree_settings.h"
 
 namespace lamina {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "lamina/volume.h"
 #include "scene/camera.h"
 #include "selftest/interval.h"
-#include "volume/volume.h"
 
 namespace lamina::selftest {
 

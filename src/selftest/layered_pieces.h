@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "selftest/layered_box.h"
 #include "selftest/pixel_bounds.h"
 #include "selftest/precision.h"

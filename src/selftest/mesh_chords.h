@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "scene/camera.h"
 #include "scene/scene_mesh.h"
 #include "selftest/interval.h"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 #include "selftest/interval.h"
 
 namespace lamina::selftest {

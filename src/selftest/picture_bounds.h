@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "lamina/image.h"
 #include "scene/scene_mesh.h"
 #include "selftest/drawing_way.h"
 #include "selftest/pixel_bounds.h"

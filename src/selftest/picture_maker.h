@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "image/image.h"
-#include "visibility/visibility_order.h"
+#include "lamina/image.h"
+#include "lamina/volume.h"
 #include "plan/capabilities.h"
 #include "scene/scene_mesh.h"
 #include "selftest/drawing_way.h"
-#include "volume/volume.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina::selftest {
 

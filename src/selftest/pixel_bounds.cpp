@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+
 namespace lamina::selftest {
 namespace {
 

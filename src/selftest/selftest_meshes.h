@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 #include "selftest/layered_box.h"
 
 namespace lamina::selftest {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "mesh/mesh_data.h"
-#include "scene/scene.h"
+#include "lamina/mesh_data.h"
+#include "lamina/scene.h"
 #include "selftest/layered_box.h"
 
 namespace lamina::selftest {

@@ -3,13 +3,13 @@
 
 #include <optional>
 
+#include "executors/gl_transfer_tables.h"
+#include "facts/facts.h"
 #include "gl/program.h"
 #include "gl/texture.h"
-#include "optics/transfer_function.h"
-#include "scene/camera.h"
-#include "facts/facts.h"
+#include "lamina/transfer_function.h"
 #include "plan/plan.h"
-#include "executors/gl_transfer_tables.h"
+#include "scene/camera.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/slab_polygons.h"
 

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "base/progress.h"
+#include "executors/gl_fixed_tree.h"
 #include "gl/framebuffer.h"
 #include "gl/timeline.h"
-#include "image/image.h"
+#include "lamina/image.h"
 #include "plan/frame_renderer.h"
-#include "executors/gl_fixed_tree.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/gl_slab_source.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gl/texture.h"
+#include "lamina/volume.h"
 #include "plan/plan.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

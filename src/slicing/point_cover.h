@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "scene/camera.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 #include "slicing/tile_slabs.h"
 
 namespace lamina {

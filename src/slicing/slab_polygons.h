@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "compositing/tree_shape.h"
-#include "scene/camera.h"
 #include "facts/facts.h"
-#include "scene/scene.h"
-#include "volume/grid.h"
+#include "lamina/grid.h"
+#include "lamina/scene.h"
+#include "scene/camera.h"
 
 namespace lamina {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plan/capabilities.h"
 #include "facts/facts.h"
+#include "lamina/volume.h"
+#include "plan/capabilities.h"
 #include "plan/sample_trials.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

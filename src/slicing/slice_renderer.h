@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "lamina/volume.h"
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

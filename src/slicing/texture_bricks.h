@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/camera.h"
+#include "lamina/grid.h"
 #include "plan/plan.h"
-#include "volume/grid.h"
+#include "scene/camera.h"
 
 namespace lamina {
 

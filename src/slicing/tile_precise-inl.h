@@ -12,6 +12,7 @@
 
 #include "executors/tile_optics-inl.h"
 #include "slicing/tile_runs-inl.h"
+#include "slicing/tile_scalars-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "base/progress.h"
-#include "image/image.h"
-#include "plan/frame_renderer.h"
 #include "executors/tile_fixed_tree.h"
+#include "lamina/image.h"
+#include "plan/frame_renderer.h"
 #include "slicing/tile_march.h"
 #include "slicing/tile_slab_source.h"
 #include "tiles/tile_image.h"

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "lamina/volume.h"
 #include "plan/plan.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

@@ -7,11 +7,11 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "image/image.h"
-#include "optics/transfer_function.h"
+#include "lamina/image.h"
+#include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "reference/volume_tracer.h"
 #include "scene/camera.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

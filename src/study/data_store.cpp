@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "study/picture_key.h"
+#include "volume/generate.h"
 
 namespace lamina::study {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "image/difference.h"
-#include "image/image.h"
 #include "image/metrics.h"
+#include "lamina/image.h"
 
 namespace lamina::study {
 

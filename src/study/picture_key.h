@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "lamina/scene.h"
+#include "lamina/volume.h"
 #include "optics/colormap.h"
-#include "scene/scene.h"
 #include "scene/scene_mesh.h"
-#include "volume/volume.h"
 
 namespace lamina::study {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/coded_image.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina::study {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "image/image.h"
+#include "lamina/image.h"
 #include "study/data_store.h"
 
 namespace lamina::study {

@@ -18,7 +18,7 @@ std::string content_of(const StudyData& data, DataStore& store) {
     try {
         if (data.kind == Kind::volume) return store.volume(data.drawn).content;
         if (data.kind == Kind::mesh) return store.mesh(data.drawn).content;
-        return content_of(read_paraview_colormap(data.drawn.colormap_file));
+        return study::content_of(read_paraview_colormap(data.drawn.colormap_file));
     } catch (const Interrupted&) {
         throw;
     } catch (const std::exception&) {

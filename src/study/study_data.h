@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 #include "study/data_store.h"
 
 namespace lamina::study {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 #include "study/sweep.h"
 
 namespace lamina::study {

@@ -6,7 +6,7 @@
 
 #include "image/coded_image.h"
 #include "image/difference.h"
-#include "image/image.h"
+#include "lamina/image.h"
 
 namespace lamina::study {
 

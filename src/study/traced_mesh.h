@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "image/image.h"
+#include "lamina/image.h"
+#include "lamina/scene.h"
 #include "mesh/face_tree.h"
 #include "reference/mesh_tracer.h"
-#include "scene/scene.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina::study {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/target_blend.h"
 
+#include "compositing/codes.h"
+
 namespace lamina {
 
 TargetBlend target_blend(const CompositingPlan& plan) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/tile_image.h"
 
+#include "compositing/codes.h"
+
 namespace lamina {
 
 TileImage::TileImage(int width, int height)

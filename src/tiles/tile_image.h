@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "image/image.h"
+#include "compositing/codes.h"
+#include "lamina/image.h"
 #include "tiles/tile_grid.h"
 
 namespace lamina {

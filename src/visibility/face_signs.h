@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
+#include "lamina/tet.h"
 #include "mesh/eye.h"
 #include "mesh/predicates.h"
-#include "mesh/tet.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {

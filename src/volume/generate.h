@@ -2,23 +2,15 @@
 // Volumes made by formula (docs/scene.md, volume.generate). The same samples on every machine.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/atomic_file.h"
-#include "volume/volume.h"
+#include "lamina/generator_request.h"
+#include "lamina/volume.h"
 
 namespace lamina {
-
-struct GeneratorRequest {
-    std::string name;  // one of generator_names()
-    std::optional<std::array<std::int64_t, 3>>
-        size;                             // 128^3 where none is given, ramp: 256 x 4 x 1
-    SampleType type = SampleType::uint8;  // or uint16, float32
-};
 
 constexpr std::int64_t largest_generated_axis = 2048;
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "image/coded_image.h"
+#include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
-#include "volume/volume.h"
 
 namespace lamina {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "volume/volume.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/atomic_file.h"
-#include "volume/volume.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

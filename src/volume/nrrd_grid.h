@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "volume/grid.h"
+#include "lamina/grid.h"
 
 namespace lamina {
 

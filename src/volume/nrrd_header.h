@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "volume/grid.h"
-#include "volume/volume.h"
+#include "lamina/grid.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "volume/volume.h"
+#include "lamina/volume.h"
 
 namespace lamina {
 

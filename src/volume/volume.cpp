@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/volume.h"
+#include "lamina/volume.h"
 
 #include "base/unreachable.h"
 

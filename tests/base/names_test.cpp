@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 std::set<std::string> types_of(const fs::path& file) {
     static const std::regex opened("namespace ([A-Za-z_0-9:]*) ?\\{.*");
     static const std::regex type(
-        "(?:template ?<.*> ?)?(?:struct|class|enum class|enum) ([A-Za-z_][A-Za-z_0-9]*)(?: "
+        "(?:template ?<.*> ?)?(?:struct|class|enum class|enum) (?:LAMINA_API "
+        ")?([A-Za-z_][A-Za-z_0-9]*)(?: "
         "final)?(?: ?:[^:].*| ?\\{.*)");
     std::set<std::string> found;
     std::vector<std::string> spaces;
@@ -46,7 +47,7 @@ std::set<std::string> types_of(const fs::path& file) {
 
 TEST(Names, OfTypesStandForOneDefinition) {
     std::map<std::string, std::string> defined_in;
-    for (const char* const folder : {"src", "tools"}) {
+    for (const char* const folder : {"include", "src", "tools"}) {
         for (const auto& entry :
              fs::recursive_directory_iterator(fs::path(LAMINA_SOURCE_DIR) / folder)) {
             const std::string extension = entry.path().extension();

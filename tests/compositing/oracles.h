@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "compositing/over.h"
+
 namespace lamina::oracle {
 
 using Wide = std::uint64_t;  // holds 65535^3

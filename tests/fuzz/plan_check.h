@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lamina/scene.h"
+#include "lamina/volume.h"
 #include "mesh/tet_mesh.h"
-#include "scene/scene.h"
 #include "scene/scene_mesh.h"
-#include "volume/volume.h"
 
 namespace lamina::fuzz {
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "scene/camera.h"
 #include "scene_files/scene_reader.h"
 
 #include "input_parts.h"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/image.h"
+#include "lamina/image.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {

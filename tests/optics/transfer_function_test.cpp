@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 #include <gtest/gtest.h>
 

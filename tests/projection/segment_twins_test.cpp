@@ -7,16 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "executors/shader_intervals.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
 #include "gl/texture.h"
-#include "image/image.h"
+#include "lamina/image.h"
 #include "optics/front_weights.h"
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
 #include "optics/segment_table.h"
-#include "executors/shader_intervals.h"
 #include "support/transfer_functions.h"
 
 namespace lamina {

@@ -11,8 +11,8 @@
 
 #include "base/file_bytes.h"
 #include "base/json_text.h"
+#include "lamina/scene.h"
 #include "plan/project_plan.h"
-#include "scene/scene.h"
 
 namespace lamina {
 namespace {

@@ -3,6 +3,7 @@
 #include "reference/chord.h"
 #include "slicing/texture_bricks.h"
 #include "slicing_fixture.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "slicing/slab_trials.h"
 #include "slicing_fixture.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

@@ -2,8 +2,10 @@
 // The emulated target holds, code for code, what the core of compositing computes for each ray on
 // the processor.
 #include "compositing/fixed_ray.h"
+#include "compositing/over.h"
 #include "compositing/unit_opacity.h"
 #include "ramp_scene.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

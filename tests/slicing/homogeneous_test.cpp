@@ -2,6 +2,7 @@
 // A homogeneous box has the opacity of the exact chord at any number of slabs, at any angle.
 #include "reference/chord.h"
 #include "slicing_fixture.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "slicing_fixture.h"
 #include "support/volume_of.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

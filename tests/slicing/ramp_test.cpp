@@ -6,6 +6,7 @@
 
 #include "compositing/tree_shape.h"
 #include "ramp_scene.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

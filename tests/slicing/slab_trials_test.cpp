@@ -5,6 +5,7 @@
 #include "slicing/slice_renderer.h"
 #include "slicing_fixture.h"
 #include "tiles/tile_capabilities.h"
+#include "volume/generate.h"
 
 namespace lamina {
 namespace {

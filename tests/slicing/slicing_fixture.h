@@ -6,13 +6,14 @@
 #include <string>
 
 #include "gl/gl_fixture.h"
-#include "image/image.h"
 #include "image/metrics.h"
+#include "lamina/image.h"
+#include "plan/plan.h"
 #include "reference/fixtures.h"
 #include "reference/volume_tracer.h"
-#include "plan/plan.h"
 #include "slicing/gl_slice_renderer.h"
 #include "support/transfer_functions.h"
+#include "volume/generate.h"
 
 namespace lamina {
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 
 namespace lamina::test {
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 
 namespace lamina::test {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/mesh_data.h"
+#include "lamina/mesh_data.h"
 #include "mesh_files/cell_split.h"
 
 namespace lamina::testing {

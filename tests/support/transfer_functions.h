@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "optics/transfer_function.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina::test {
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "volume/volume.h"
+#include "lamina/volume.h"
 
 namespace lamina::test {
 

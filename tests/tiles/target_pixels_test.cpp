@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "compositing/over.h"
 #include "compositing/random_bits.h"
 #include "compositing/stochastic_over.h"
 #include "tiles/instruction_set_fixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/grid.h"
+#include "lamina/grid.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include <memory>
 #include <string>
 
+#include "lamina/scene.h"
 #include "picture_file.h"
+#include "plan/plan.h"
 #include "render/context_choice.h"
 #include "render_stats.h"
 #include "scene/camera.h"
-#include "plan/plan.h"
-#include "scene/scene.h"
 
 namespace lamina {
 

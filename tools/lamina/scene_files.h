@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "lamina/scene.h"
 
 namespace lamina {
 

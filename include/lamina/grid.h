@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "lamina/export.h"
+
 namespace lamina {
 
 enum class Centering { node, cell };
@@ -13,7 +15,7 @@ enum class Centering { node, cell };
 // Where the samples of a regular grid lie in the world. "Index space" has sample (i, j, k) at (i,
 // j, k); the box that is rendered spans the samples (`node`) or whole voxels (`cell`: half a voxel
 // more at each end, where the border value repeats), axis by axis.
-struct Grid {
+struct LAMINA_API Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
     std::array<Centering, 3> centering{Centering::cell, Centering::cell, Centering::cell};
     glm::dvec3 origin{0};  // world position of sample (0, 0, 0)

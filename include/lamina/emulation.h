@@ -3,10 +3,14 @@
 
 #include <cstdint>
 
-#include "compositing/codes.h"
-#include "compositing/over.h"
-
 namespace lamina {
+
+// How an opacity becomes a code (LaMar 2004, section 4.1: the paper's hardware truncates).
+enum class AlphaRounding { truncate, nearest, stochastic };
+
+// How OVER rounds. separate: both products are rounded, as the paper's hardware does; fused: their
+// sum is.
+enum class OverRounding { separate, fused };
 
 // Fixed-point compositing computed step by step instead of by a blending unit (render.emulate).
 struct Emulation {

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "lamina/export.h"
+
 namespace lamina {
 
 struct OpticalProperties {
@@ -23,7 +25,7 @@ struct TransferKnot {
 // one value make a step; at the step's very value the later knot counts. A palette (`nearest`) is
 // the same thing with a step halfway between neighbouring points, so nothing else needs to know
 // about palettes.
-class TransferFunction {
+class LAMINA_API TransferFunction {
   public:
     // Knots in order of value, at least one, at most two at one value, all numbers finite, colour
     // and extinction >= 0; else throws Error, naming the point by its index.

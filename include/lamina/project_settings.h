@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "optics/segment_table.h"
-#include "scene/tree_settings.h"
+#include "lamina/export.h"
+#include "lamina/table_settings.h"
+#include "lamina/tree_settings.h"
 
 namespace lamina {
 
@@ -33,15 +34,6 @@ enum class ProjectDither {
     after_blend  // of the result of a programmable blend: unbiased (docs/numerics.md, section 8)
 };
 
-struct TableSettings {
-    int scalar = 256;
-    int length = 16;
-    LengthMapping mapping = LengthMapping::octave;
-    TableStore store = TableStore::mean_extinction;
-    TableFormat format = TableFormat::fixed16;
-    TableConstruction construction = TableConstruction::exact;
-};
-
 struct ProjectSettings {
     Coloring coloring = Coloring::preintegrated;
     Interpolation interpolation = Interpolation::perspective;
@@ -53,14 +45,11 @@ struct ProjectSettings {
     std::optional<TreeSettings> tree;
 };
 
-const char* name_of(Coloring coloring);
-const char* name_of(Interpolation interpolation);
-const char* name_of(Thickness thickness);
-const char* name_of(ProjectOrder order);
-const char* name_of(ProjectGeometry geometry);
-const char* name_of(ProjectDither dither);
-const char* name_of(LengthMapping mapping);
-const char* name_of(TableStore store);
-const char* name_of(TableFormat format);
+LAMINA_API const char* name_of(Coloring coloring);
+LAMINA_API const char* name_of(Interpolation interpolation);
+LAMINA_API const char* name_of(Thickness thickness);
+LAMINA_API const char* name_of(ProjectOrder order);
+LAMINA_API const char* name_of(ProjectGeometry geometry);
+LAMINA_API const char* name_of(ProjectDither dither);
 
 }  // namespace lamina

@@ -6,15 +6,15 @@
 #include <memory>
 #include <string>
 
-#include "base/unreachable.h"
-#include "volume/grid.h"
+#include "lamina/export.h"
+#include "lamina/grid.h"
 
 namespace lamina {
 
 enum class SampleType { uint8, int16, uint16, float32 };
 
-std::size_t bytes_of(SampleType type);
-const char* name_of(SampleType type);  // "uint8", "int16", "uint16", "float"
+LAMINA_API std::size_t bytes_of(SampleType type);
+LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16", "float"
 
 // Scalars on a regular grid, in the file's own type, x fastest. Immutable once made; copies share
 // the samples.
@@ -45,7 +45,7 @@ class Volume {
             case SampleType::float32:
                 return visitor(static_cast<const float*>(data()));
         }
-        unreachable_enum();
+        __builtin_unreachable();  // there is a case for every value
     }
 
   private:

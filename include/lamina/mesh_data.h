@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/tet.h"
+#include "lamina/tet.h"
 
 namespace lamina {
 

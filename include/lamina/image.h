@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "lamina/export.h"
+
 namespace lamina {
 
 // Associated (premultiplied) RGBA in linear light, before any background. Row 0 is the top; pixels
@@ -34,6 +36,6 @@ struct RgbaImage {
 using Image = RgbaImage<float>;          // what renderers write
 using PreciseImage = RgbaImage<double>;  // what the reference tracer writes
 
-Image to_float(const PreciseImage& image);
+LAMINA_API Image to_float(const PreciseImage& image);
 
 }  // namespace lamina

@@ -8,50 +8,22 @@
 #include <string>
 #include <vector>
 
-#include "compositing/emulation.h"
-#include "compositing/order.h"
-#include "mesh/mesh_settings.h"
-#include "optics/transfer_function.h"
-#include "scene/camera.h"
-#include "scene/project_settings.h"
-#include "scene/tree_settings.h"
-#include "volume/generate.h"
+#include "lamina/camera.h"
+#include "lamina/emulation.h"
+#include "lamina/export.h"
+#include "lamina/generator_request.h"
+#include "lamina/mesh_settings.h"
+#include "lamina/project_settings.h"
+#include "lamina/slice_settings.h"
+#include "lamina/transfer_function.h"
 
 namespace lamina {
 
 enum class Method { slice, project, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
-enum class Classification { post, preintegrated };
-enum class Filter { exact, hardware, automatic };
 // What the method "trace" looks at.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
-struct DitherSettings {
-    std::optional<int> period = 16;  // slabs; none: "auto"
-    std::uint32_t seed = 1;
-    bool color = false;
-    int increment = 1;
-};
-
-inline constexpr int max_slabs = 65536;
-
-// A pre-integration table whose nodes lie on the transfer function's points.
-struct SliceTableSettings {
-    int scalars = 256;      // about so many nodes
-    int lengths = 1;        // layers
-    double max_length = 0;  // world units: of the longest segment
-};
-
-struct SliceSettings {
-    std::optional<int> samples;  // slabs N; none: "auto"
-    Classification classification = Classification::post;
-    Order order = Order::back_to_front;
-    Filter filter = Filter::exact;
-    std::optional<DitherSettings> dither;
-    std::optional<TreeSettings> tree;
-    std::optional<SliceTableSettings> table;  // none: "auto"
-};
-
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
@@ -86,20 +58,20 @@ struct Scene {
     }
 };
 
-const char* name_of(Method method);
-const char* name_of(Target target);
+LAMINA_API const char* name_of(Method method);
+LAMINA_API const char* name_of(Target target);
 inline bool is_fixed_point(Target target) {
     return target == Target::fixed8 || target == Target::fixed16 || target == Target::emulated;
 }
-const char* name_of(Classification classification);
-const char* name_of(Order order);
-const char* name_of(Filter filter);
-const char* name_of(NodeArithmetic nodes);
-const char* name_of(NodeCode code);
-const char* name_of(AlphaRounding rounding);
-const char* name_of(OverRounding rounding);
+LAMINA_API const char* name_of(Classification classification);
+LAMINA_API const char* name_of(Order order);
+LAMINA_API const char* name_of(Filter filter);
+LAMINA_API const char* name_of(NodeArithmetic nodes);
+LAMINA_API const char* name_of(NodeCode code);
+LAMINA_API const char* name_of(AlphaRounding rounding);
+LAMINA_API const char* name_of(OverRounding rounding);
 
 // The volume that the scene names: read from its file, or generated.
-Volume load_volume(const Scene& scene);
+LAMINA_API Volume load_volume(const Scene& scene);
 
 }  // namespace lamina

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "lamina/export.h"
+
+namespace lamina {
+
+enum class Projection { perspective, orthographic };
+
+struct Camera {
+    Projection projection = Projection::perspective;
+    glm::dvec3 eye{0, 0, 1};
+    glm::dvec3 center{0};
+    glm::dvec3 up{0, 1, 0};
+    double fov_y = 40;  // degrees, perspective
+    double height = 1;  // world units, orthographic
+};
+
+// The camera with its eye turned by `degrees` about the axis `up` through `center`.
+LAMINA_API Camera turned(const Camera& camera, double degrees);
+
+}  // namespace lamina

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "lamina/order.h"
+#include "lamina/tree_settings.h"
+
+namespace lamina {
+
+enum class Classification { post, preintegrated };
+enum class Filter { exact, hardware, automatic };
+
+struct DitherSettings {
+    std::optional<int> period = 16;  // slabs; none: "auto"
+    std::uint32_t seed = 1;
+    bool color = false;
+    int increment = 1;
+};
+
+inline constexpr int max_slabs = 65536;
+
+// A pre-integration table whose nodes lie on the transfer function's points.
+struct SliceTableSettings {
+    int scalars = 256;      // about so many nodes
+    int lengths = 1;        // layers
+    double max_length = 0;  // world units: of the longest segment
+};
+
+struct SliceSettings {
+    std::optional<int> samples;  // slabs N; none: "auto"
+    Classification classification = Classification::post;
+    Order order = Order::back_to_front;
+    Filter filter = Filter::exact;
+    std::optional<DitherSettings> dither;
+    std::optional<TreeSettings> tree;
+    std::optional<SliceTableSettings> table;  // none: "auto"
+};
+
+}  // namespace lamina
