@@ -23,7 +23,8 @@ set(LAMINA_HARDENED OFF)
 if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|MinSizeRel)$")
     set(LAMINA_HARDENED ON)
     target_compile_options(lamina_options INTERFACE -fstack-protector-strong)
-    target_link_options(lamina_options INTERFACE -pie -Wl,-z,relro,-z,now)
+    target_link_options(lamina_options INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-pie>
+        -Wl,-z,relro,-z,now)
     # Where the distribution has chosen a level already, that stays.
     set(CMAKE_REQUIRED_FLAGS -O2)
     check_cxx_source_compiles("#ifdef _FORTIFY_SOURCE\n#error\n#endif\nint main() {}" LAMINA_NEEDS_FORTIFY)

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "lamina/export.h"
+#include "lamina/grid.h"
 
 namespace lamina {
 
@@ -20,5 +21,10 @@ struct Camera {
 
 // The camera with its eye turned by `degrees` about the axis `up` through `center`.
 LAMINA_API Camera turned(const Camera& camera, double degrees);
+
+// Looks at a box from outside, so that all of it is seen: from its +z side at azimuth and elevation
+// 0, to the right (+x) and up (+y) where they grow. Degrees.
+LAMINA_API Camera orbit(const Grid::Bounds& box, double azimuth, double elevation,
+                        double fov_y = 40);
 
 }  // namespace lamina

@@ -24,6 +24,7 @@ enum class Target { float32, float16, fixed16, fixed8, emulated };
 // What the method "trace" looks at.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
+
 // A scene file as read (docs/scene.md): what to draw and how, nothing measured yet.
 struct Scene {
     std::filesystem::path file;
@@ -73,5 +74,9 @@ LAMINA_API const char* name_of(OverRounding rounding);
 
 // The volume that the scene names: read from its file, or generated.
 LAMINA_API Volume load_volume(const Scene& scene);
+
+// Reads a scene file (docs/scene.md). Writes one with every key written out. Both throw Error.
+LAMINA_API Scene load_scene(const std::filesystem::path& file);
+LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace lamina

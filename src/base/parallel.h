@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/client.h"
 #include "base/hand_over.h"
 #include "base/interrupt.h"
 
@@ -20,13 +21,13 @@ namespace lamina {
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;
-    const std::stop_token stop = StopScope::current();
+    const Client client = ClientScope::current();
     using Range = tbb::blocked_range<std::int64_t>;
     tbb::parallel_for(Range(0, count, static_cast<std::size_t>(grain)),
                       [&](const Range& range) LAMINA_UNSEEN_BY_THREAD_SANITIZER {
                           const std::int64_t first = range.begin(), end = range.end();
                           hand_over.task([&] {
-                              const StopScope scope(stop);
+                              const ClientScope scope(client);
                               check_interrupt();
                               for (std::int64_t i = first; i != end; ++i) body(i);
                           });
@@ -37,10 +38,10 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
-    const std::stop_token stop = StopScope::current();
+    const Client client = ClientScope::current();
     const auto task = [&](const auto& work) {
         hand_over.task([&] {
-            const StopScope scope(stop);
+            const ClientScope scope(client);
             work();
         });
     };

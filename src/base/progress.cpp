@@ -10,20 +10,27 @@
 namespace lamina {
 namespace {
 
-constexpr double redraw_seconds = 0.5;
+constexpr double redraw_seconds = 0.5, report_seconds = 0.05;
 bool quiet_process = false;
 std::atomic<bool> one_is_shown{false};
 
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total)
-    : label_(std::move(label)),
+    : listener_(ClientScope::current().progress),
+      label_(std::move(label)),
       total_(std::max<std::int64_t>(total, 1)),
-      visible_(!quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true)) {}
+      visible_(begin()) {}
 
 Progress::~Progress() {
-    if (visible_) one_is_shown = false;
-    if (drawn_) replace_line("");
+    if (visible_) (listener_ != nullptr ? listener_->busy : one_is_shown) = false;
+    if (drawn_ && listener_ == nullptr) replace_line("");
+}
+
+// False where nobody wants to know, or another one is shown.
+bool Progress::begin() {
+    if (listener_ != nullptr) return listener_->report && !listener_->busy.exchange(true);
+    return !quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true);
 }
 
 void Progress::set_quiet(bool quiet) {
@@ -38,7 +45,9 @@ void Progress::advance(std::int64_t steps) {
     const std::int64_t done = done_ += steps;
     if (!visible_) return;
     const std::unique_lock lock(drawing_, std::try_to_lock);
-    if (!lock || watch_.seconds() - last_drawn_ < redraw_seconds) return;
+    const double pause = listener_ != nullptr ? report_seconds : redraw_seconds;
+    const bool last = listener_ != nullptr && done >= total_;
+    if (!lock || (!last && watch_.seconds() - last_drawn_ < pause)) return;
     last_drawn_ = watch_.seconds();
     draw(done);
 }
@@ -46,6 +55,7 @@ void Progress::advance(std::int64_t steps) {
 void Progress::draw(std::int64_t done) {
     drawn_ = true;
     const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
+    if (listener_ != nullptr) return listener_->report(label_, share);
     const double left = share > 0 ? last_drawn_ * (1 - share) / share : 0;
     replace_line(fmt::format("{} {:3.0f} %, {:.0f} s left", label_, 100 * share, left));
 }

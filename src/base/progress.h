@@ -6,13 +6,15 @@
 #include <mutex>
 #include <string>
 
+#include "base/client.h"
 #include "base/stopwatch.h"
 
 namespace lamina {
 
 // A line on stderr with the share done and the time left, for work that takes longer than a second
 // or so. Drawn only on a terminal, at most twice a second, and wiped when done; silent everywhere
-// else. Of several at a time only the first is drawn: the one of the whole work.
+// else. Of several at a time only the first is drawn: the one of the whole work. Work for a client
+// that listens (base/client.h) reports to that instead, some 20 times a second and at its end.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);
@@ -27,7 +29,9 @@ class Progress {
 
   private:
     void draw(std::int64_t done);
+    bool begin();
 
+    ProgressListener* listener_;  // null: the terminal
     std::string label_;
     std::int64_t total_;
     bool visible_;

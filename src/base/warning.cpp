@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/client.h"
+
 namespace lamina {
 namespace {
 
@@ -14,7 +16,9 @@ WarningTaker current;
 
 void warn(const std::string& text) {
     const std::lock_guard lock(taking);
-    if (current) current(text);
+    const WarningTaker* const client = ClientScope::current().warnings;
+    const WarningTaker& taker = client != nullptr ? *client : current;
+    if (taker) taker(text);
 }
 
 void take_warnings(WarningTaker taker) {

@@ -7,8 +7,9 @@
 namespace lamina {
 
 // Something in a user's data that is no error and that no result shows: the text names the file,
-// what was found and what was expected. Goes to who takes warnings; nobody does at first. Safe from
-// any thread.
+// what was found and what was expected. It goes to the client that this thread works for
+// (base/client.h), else to who takes the process's warnings; nobody does at first. Safe from any
+// thread.
 void warn(const std::string& text);
 
 // Whoever started the work and can tell people. Replaces the one before; an empty one: nobody.

@@ -59,4 +59,12 @@ ImageError measure(const Difference& difference) {
     return error;
 }
 
+ErrorNorms error_of(const Image& picture, const Image& truth) {
+    return image_error(picture, truth).all;
+}
+
+ErrorNorms error_of(const Image& picture, const PreciseImage& truth) {
+    return image_error(picture, truth).all;
+}
+
 }  // namespace lamina

@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "image/difference.h"
+#include "lamina/error_norms.h"
 
 namespace lamina {
-
-// Of e in units of 1/255 (docs/numerics.md; the signed mean is what LaMar's Table 4 calls L1).
-struct ErrorNorms {
-    double linf = 0;  // max |e|
-    double l1 = 0;    // mean of e, with its sign
-    double l2 = 0;    // root of the mean of e^2
-};
 
 struct ImageError {
     struct Worst {

@@ -187,7 +187,7 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
     std::vector<VariantErrors> errors;
     for (const Variant& variant : variants) {
         const Image picture =
-            Session(variant.scene, subject.mesh.data(), capabilities).draw_picture();
+            SceneRenderer(variant.scene, subject.mesh.data(), capabilities).draw_picture();
         errors.push_back(
             errors_of(variant.name, difference(picture, subject.mesh.exact(variant.scene))));
         progress.advance();
@@ -212,7 +212,7 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     Json rows = Json::array();
     for (const Variant& variant : variants) {
         pictures.push_back(
-            Session(variant.scene, subject.mesh.data(), capabilities).draw_picture());
+            SceneRenderer(variant.scene, subject.mesh.data(), capabilities).draw_picture());
         differences.push_back(difference(pictures.back(), exact));
         made.errors.push_back(errors_of(variant.name, differences.back()));
         rows.push_back(error_row(subject, made.errors.back()));

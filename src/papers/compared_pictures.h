@@ -8,7 +8,7 @@
 
 #include "image/metrics.h"
 #include "papers/kraus_subject.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 namespace lamina::papers {
 

@@ -47,7 +47,7 @@ std::vector<Variant> ways(const Scene& scene) {
 
 // Milliseconds to build the table that the scene asks for; null where it has none of its own.
 Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
-    Session session(scene, mesh.data(), capabilities);
+    SceneRenderer session(scene, mesh.data(), capabilities);
     const Plan& plan = session.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
     return build_segment_table(in_units(scene.transfer_function, plan.project.unit),

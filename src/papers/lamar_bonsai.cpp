@@ -57,12 +57,12 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     if (!std::filesystem::exists(file)) return skipped();
     const auto bonsai = std::make_shared<const VolumeData>(read_nrrd(file));
     const Scene scene = bonsai_scene();
-    const Image exact = Session(scene, bonsai, stage.capabilities()).draw_picture();
+    const Image exact = SceneRenderer(scene, bonsai, stage.capabilities()).draw_picture();
     std::vector<Image> pictures{exact};
     Json rows = Json::array();
     std::vector<ErrorNorms> errors;
     const auto add = [&](const char* name, const Scene& approximate) {
-        pictures.push_back(Session(approximate, bonsai, stage.capabilities()).draw_picture());
+        pictures.push_back(SceneRenderer(approximate, bonsai, stage.capabilities()).draw_picture());
         const ErrorNorms e = image_error(pictures.back(), exact).all;
         errors.push_back(e);
         rows.push_back({{"picture", name}, {"linf", e.linf}, {"l1", e.l1}, {"l2", e.l2}});

@@ -134,7 +134,7 @@ void judge_figure6(Findings& findings, const DitheredMixing& mixing) {
 
 Image LamarStage::draw_mixing(const Scene& scene) {
     if (!mixing_) mixing_ = std::make_shared<const VolumeData>(mixing_volume());
-    return Session(scene, mixing_, capabilities_).draw_picture();
+    return SceneRenderer(scene, mixing_, capabilities_).draw_picture();
 }
 
 const DitheredMixing& LamarStage::dithered_mixing() {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "papers/paper_hardware.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 namespace lamina::papers {
 

@@ -9,7 +9,7 @@
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
 #include "papers/palette_slices.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 #include "study/interleaved_times.h"
 #include "study/text_file.h"
 #include "volume/generate.h"
@@ -87,10 +87,10 @@ Scene scene_of(const Technique& technique) {
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
                            const Scene& scene, const Capabilities& capabilities,
                            const OmissionSwitch& omissions) {
-    const auto session = std::make_shared<Session>(scene, volume, capabilities, omissions);
+    const auto session = std::make_shared<SceneRenderer>(scene, volume, capabilities, omissions);
     Scene far = scene;
     far.camera.height *= nearly_nothing;
-    const auto far_session = std::make_shared<Session>(far, volume, capabilities, omissions);
+    const auto far_session = std::make_shared<SceneRenderer>(far, volume, capabilities, omissions);
     session->set_up();
     far_session->set_up();
     return {name, [far_session] { far_session->draw(); }, [session] { session->draw(); }};

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "projection/project_renderer.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 #include "study/interleaved_times.h"
 #include "study/traced_mesh.h"
 
@@ -19,7 +19,7 @@ class MeshFrame {
     MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities)
         : name_(std::move(name)),
-          session_(std::make_unique<Session>(scene, mesh.data(), capabilities)) {
+          session_(std::make_unique<SceneRenderer>(scene, mesh.data(), capabilities)) {
         session_->set_up();
     }
 
@@ -39,7 +39,7 @@ class MeshFrame {
 
   private:
     std::string name_;
-    std::unique_ptr<Session> session_;
+    std::unique_ptr<SceneRenderer> session_;
     bool drawn_ = false;
 };
 

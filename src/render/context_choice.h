@@ -5,11 +5,9 @@
 #include <string>
 
 #include "gl/context.h"
+#include "lamina/context_choice.h"
 
 namespace lamina {
-
-// --context. automatic: a GPU through EGL where there is one, else the native engine.
-enum class ContextChoice { automatic, osmesa, egl, cpu };
 
 // None where the word is none.
 std::optional<ContextChoice> find_context_choice(const std::string& word);

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "gl/context.h"
-#include "render/context_choice.h"
 #include "plan/capabilities.h"
+#include "render/context_choice.h"
 
 namespace lamina {
 

@@ -52,4 +52,17 @@ Camera turned(const Camera& camera, double degrees) {
     return result;
 }
 
+// The sphere around the box just fits between the upper and the lower edge of the picture.
+Camera orbit(const Grid::Bounds& box, double azimuth, double elevation, double fov_y) {
+    const double a = azimuth * radians_per_degree, e = elevation * radians_per_degree;
+    const glm::dvec3 toward(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+    const double radius = 0.5 * glm::length(box.max - box.min);
+    Camera camera;
+    camera.center = 0.5 * (box.min + box.max);
+    camera.eye = camera.center + radius / std::sin(0.5 * fov_y * radians_per_degree) * toward;
+    camera.up = {-std::sin(a) * std::sin(e), std::cos(e), -std::cos(a) * std::sin(e)};
+    camera.fov_y = fov_y;
+    return camera;
+}
+
 }  // namespace lamina

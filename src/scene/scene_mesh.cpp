@@ -23,7 +23,7 @@ std::string list_names(const MeshData& data) {
 
 // Takes the scalar out of the data; all others go.
 MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
-    const std::string file = scene.mesh_file.string();
+    const std::string file = name_of_mesh(scene);
     const auto find = [&](std::vector<MeshScalar>& scalars) {
         return std::find_if(scalars.begin(), scalars.end(), [&](const MeshScalar& scalar) {
             return scene.scalar.empty() || scalar.name == scene.scalar;
@@ -51,22 +51,34 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     return taken;
 }
 
-MeshData mesh_of_volume(const Scene& scene, MeshReport& report) {
-    Stage loading("load volume");
-    const Volume volume = load_volume(scene);
-    loading.end();
-    const Stage making("make mesh");
-    try {
-        return make_volume_mesh(volume, *scene.mesh_request, &scene.transfer_function, report);
-    } catch (const Error& error) {
-        fail("{}: {}", name_of_mesh(scene), error.what());
-    }
-}
-
 }  // namespace
 
 std::string name_of_mesh(const Scene& scene) {
-    return scene.mesh_file.empty() ? scene.file.string() + ": mesh" : scene.mesh_file.string();
+    if (!scene.mesh_file.empty()) return scene.mesh_file.string();
+    return scene.file.empty() ? "mesh" : scene.file.string() + ": mesh";
+}
+
+SceneMesh scene_mesh(const Scene& scene, MeshData data) {
+    bool averaged = false;
+    MeshScalar scalar = take_scalar(data, scene, averaged);
+    const Stage matching("neighbours");
+    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}};
+}
+
+SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
+    MeshReport report;
+    MeshData data;
+    try {
+        const Stage making("make mesh");
+        const MeshSettings settings = scene.mesh_request.value_or(MeshSettings{});
+        data = make_volume_mesh(volume, settings, &scene.transfer_function, report);
+    } catch (const Error& error) {
+        fail("{}: {}", name_of_mesh(scene), error.what());
+    }
+    MeshScalar scalar = std::move(data.point_scalars.front());
+    data.point_scalars.clear();
+    const Stage matching("neighbours");
+    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), false, report};
 }
 
 SceneMesh load_mesh(const Scene& scene) {
@@ -74,17 +86,12 @@ SceneMesh load_mesh(const Scene& scene) {
         Stage reading("read file");
         MeshData data = read_mesh(scene.mesh_file);
         reading.end();
-        bool averaged = false;
-        MeshScalar scalar = take_scalar(data, scene, averaged);
-        const Stage matching("neighbours");
-        return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}};
+        return scene_mesh(scene, std::move(data));
     }
-    MeshReport report;
-    MeshData data = mesh_of_volume(scene, report);
-    MeshScalar scalar = std::move(data.point_scalars.front());
-    data.point_scalars.clear();
-    const Stage matching("neighbours");
-    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), false, report};
+    Stage loading("load volume");
+    const Volume volume = load_volume(scene);
+    loading.end();
+    return scene_mesh(scene, volume);
 }
 
 }  // namespace lamina

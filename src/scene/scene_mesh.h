@@ -24,4 +24,8 @@ std::string name_of_mesh(const Scene& scene);
 // file has no such scalar.
 SceneMesh load_mesh(const Scene& scene);
 
+// The same of a mesh, or of a mesh made from a volume, that is in memory already.
+SceneMesh scene_mesh(const Scene& scene, MeshData data);
+SceneMesh scene_mesh(const Scene& scene, const Volume& volume);
+
 }  // namespace lamina

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
 #include "lamina/scene.h"
@@ -10,10 +9,7 @@ namespace lamina {
 
 // A scene file (docs/scene.md) with every key written out, from which read_scene() makes the same
 // scene: paths are absolute, numbers have all their digits, the transfer function is its points,
-// whatever they were made from.
+// whatever they were made from. save_scene() writes it.
 nlohmann::ordered_json scene_json(const Scene& scene);
-
-// Writes that. Throws Error where it cannot.
-void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace lamina

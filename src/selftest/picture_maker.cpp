@@ -14,7 +14,7 @@
 #include "projection/project_renderer.h"
 #include "reference/mesh_tracer.h"
 #include "reference/volume_tracer.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 namespace lamina::selftest {
 namespace {
@@ -70,7 +70,7 @@ PreciseImage PictureMaker::draw(const Scene& asked, const Volume& volume) const 
     const View view(scene.camera, scene.width, scene.height);
     if (scene.method == Method::trace)
         return trace_volume(volume, scene.transfer_function, view, {scene.trace_tolerance}).image;
-    Session session(scene, std::make_shared<const VolumeData>(volume), capabilities_);
+    SceneRenderer session(scene, std::make_shared<const VolumeData>(volume), capabilities_);
     return to_precise(session.draw_picture());
 }
 
@@ -84,8 +84,8 @@ PreciseImage PictureMaker::draw(const Scene& asked, const SceneMesh& mesh,
             .image;
     }
     // The mesh is the caller's, and outlives the session.
-    Session session(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
-                    capabilities_);
+    SceneRenderer session(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
+                          capabilities_);
     session.draw();
     if (order) *order = dynamic_cast<const ProjectRenderer&>(session.renderer()).order_report();
     return to_precise(session.picture());

@@ -77,7 +77,7 @@ class Crosschecker {
     int automatic_samples() {
         Scene sliced = scene_;
         sliced.method = Method::slice;
-        return Session(sliced, data_.volume(sliced).data, capabilities_).plan().slice.slabs;
+        return SceneRenderer(sliced, data_.volume(sliced).data, capabilities_).plan().slice.slabs;
     }
     std::vector<double> all_tolerances() {
         if (!scene_.mesh_file.empty()) return {0.0};

@@ -6,11 +6,11 @@
 namespace lamina::study {
 namespace {
 
-std::unique_ptr<Session> session_of(const Scene& scene, DataStore& data,
-                                    const Capabilities& capabilities) {
+std::unique_ptr<SceneRenderer> session_of(const Scene& scene, DataStore& data,
+                                          const Capabilities& capabilities) {
     if (scene.method == Method::project)
-        return std::make_unique<Session>(scene, data.mesh(scene).data.data(), capabilities);
-    return std::make_unique<Session>(scene, data.volume(scene).data, capabilities);
+        return std::make_unique<SceneRenderer>(scene, data.mesh(scene).data.data(), capabilities);
+    return std::make_unique<SceneRenderer>(scene, data.volume(scene).data, capabilities);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "render/session.h"
+#include "render/scene_renderer.h"
 #include "study/data_store.h"
 
 namespace lamina::study {
@@ -30,7 +30,7 @@ class StudyFrames {
 
   private:
     Camera camera_;  // the scene's own
-    std::unique_ptr<Session> session_;
+    std::unique_ptr<SceneRenderer> session_;
     bool turned_ = false;
     double set_up_ms_ = 0;
     std::int64_t bytes_gpu_ = 0;

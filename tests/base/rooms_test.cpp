@@ -21,7 +21,7 @@ const std::vector<std::string> rooms = {
     "base",       "image",     "optics",     "compositing", "volume",      "mesh",
     "mesh_files", "meshing",   "visibility", "scene",       "scene_files", "facts",
     "plan",       "reference", "gl",         "tiles",       "executors",   "slicing",
-    "projection", "render",    "study",      "papers",      "selftest"};
+    "projection", "render",    "library",    "study",       "papers",      "selftest"};
 const fs::path source = LAMINA_SOURCE_DIR;
 
 std::size_t height_of(const std::string& room) {

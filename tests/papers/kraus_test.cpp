@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "papers/kraus.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -145,7 +145,7 @@ TEST_F(Kraus, DrawsWhatTheTracerSees) {
     KrausStage stage(capabilities(), small_sizes(), {});
     KrausSubject& box = stage.subject("box");
     const Image image =
-        Session(with_default_integration(box.dense), box.mesh.data(), capabilities())
+        SceneRenderer(with_default_integration(box.dense), box.mesh.data(), capabilities())
             .draw_picture();
     // Default settings keep the default of render.max_error (docs/scene.md).
     EXPECT_LE(image_error(image, box.mesh.exact(box.dense)).all.linf, 1);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/draw_context.h"
-#include "render/session.h"
+#include "render/scene_renderer.h"
 #include "render_job.h"
 
 namespace lamina {
@@ -16,7 +16,7 @@ class FrameMethod {
   public:
     virtual ~FrameMethod() = default;
     virtual void load(RenderStats& stats) = 0;
-    virtual std::unique_ptr<Session> open(const Capabilities& capabilities) = 0;
+    virtual std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) = 0;
     // Says and counts what is noteworthy of the data and of the plan.
     virtual void report_plan(const Plan& plan, RenderStats& stats) = 0;
     // What the statistics want to know of the scene's own frame, beside its stages.
@@ -41,7 +41,7 @@ class FrameJob : public RenderJob {
     const RenderRequest request_;
     std::unique_ptr<FrameMethod> method_;
     std::optional<DrawContext> context_;
-    std::unique_ptr<Session> session_;
+    std::unique_ptr<SceneRenderer> session_;
     std::optional<Image> image_;
 };
 

@@ -16,8 +16,9 @@ class ProjectMethod : public FrameMethod {
 
     void load(RenderStats& stats) override { mesh_ = load_mesh_data(request_, stats); }
 
-    std::unique_ptr<Session> open(const Capabilities& capabilities) override {
-        return std::make_unique<Session>(request_.scene, mesh_, capabilities, request_.omissions);
+    std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) override {
+        return std::make_unique<SceneRenderer>(request_.scene, mesh_, capabilities,
+                                               request_.omissions);
     }
 
     void report_plan(const Plan& /*plan*/, RenderStats& stats) override {

@@ -15,8 +15,9 @@ class SliceMethod : public FrameMethod {
 
     void load(RenderStats& stats) override { data_ = load_volume_data(request_, stats); }
 
-    std::unique_ptr<Session> open(const Capabilities& capabilities) override {
-        return std::make_unique<Session>(request_.scene, data_, capabilities, request_.omissions);
+    std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) override {
+        return std::make_unique<SceneRenderer>(request_.scene, data_, capabilities,
+                                               request_.omissions);
     }
 
     void report_plan(const Plan& plan, RenderStats& stats) override {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session that changes draws what a new one draws of its resolved scene, bit for bit on the
 // native engine, and does again only what a change makes necessary.
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -51,13 +51,13 @@ Scene volume_scene() {
 }
 
 // One that is given all that the other has chosen.
-Image fresh(Session& session, const std::shared_ptr<const VolumeData>& data) {
-    return Session(session.resolved_scene(), data, session.capabilities()).draw_picture();
+Image fresh(SceneRenderer& session, const std::shared_ptr<const VolumeData>& data) {
+    return SceneRenderer(session.resolved_scene(), data, session.capabilities()).draw_picture();
 }
 
-TEST(Session, DrawsEveryFrameAsANewOne) {
+TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
     const auto data = blobs();
-    Session session(volume_scene(), data, tile_capabilities());
+    SceneRenderer session(volume_scene(), data, tile_capabilities());
     const auto expect_fresh = [&](const std::string& what) {
         const Image drawn = session.draw_picture();
         EXPECT_EQ(drawn.rgba, fresh(session, data).rgba) << what;
@@ -95,9 +95,9 @@ TEST(Session, DrawsEveryFrameAsANewOne) {
     expect_fresh("another size");
 }
 
-TEST(Session, SettingsAreChosenAgain) {
+TEST(SceneRenderer, SettingsAreChosenAgain) {
     const auto data = blobs();
-    Session session(volume_scene(), data, tile_capabilities());
+    SceneRenderer session(volume_scene(), data, tile_capabilities());
     for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
         for (const bool automatic : {false, true}) {
             Scene scene = volume_scene();
@@ -119,12 +119,12 @@ TEST(Session, SettingsAreChosenAgain) {
     }
 }
 
-TEST(Session, DoesAgainWhatAChangeNeeds) {
+TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     Scene scene = volume_scene();
     scene.transfer_function = smooth(1);  // segments are short: a table of one layer, in any view
-    Session session(scene, blobs(), tile_capabilities());
+    SceneRenderer session(scene, blobs(), tile_capabilities());
     session.draw();
-    Session::Counts expected{1, 1, 1, 1, 1};
+    SceneRenderer::Counts expected{1, 1, 1, 1, 1};
     EXPECT_EQ(session.counts(), expected);
     session.draw();
     EXPECT_EQ(session.counts(), expected);
@@ -160,8 +160,8 @@ TEST(Session, DoesAgainWhatAChangeNeeds) {
     EXPECT_EQ(session.counts(), expected);
 }
 
-TEST(Session, CopiesOfTheVolumeAreTakenOver) {
-    Session session(volume_scene(), blobs(), tile_capabilities());
+TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
+    SceneRenderer session(volume_scene(), blobs(), tile_capabilities());
     session.draw();
     session.set_transfer_function(smooth(3));
     session.draw();
@@ -192,16 +192,16 @@ std::shared_ptr<const SceneMesh> split_box() {
         SceneMesh{TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}});
 }
 
-TEST(Session, MeshesLikewise) {
+TEST(SceneRenderer, MeshesLikewise) {
     const auto mesh = split_box();
     for (const ProjectGeometry geometry :
          {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
-        Session session(scene, mesh, tile_capabilities());
+        SceneRenderer session(scene, mesh, tile_capabilities());
         const auto expect_fresh = [&](const std::string& what) {
             const Image drawn = session.draw_picture();
-            Session other(session.resolved_scene(), mesh, tile_capabilities());
+            SceneRenderer other(session.resolved_scene(), mesh, tile_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
         };
         for (int degrees = 0; degrees < 360; degrees += 30) {
@@ -234,8 +234,8 @@ std::int64_t bytes_in_use() {
 
 // A picture has 1.9 MB, the copy of the volume .05: of 48 further frames a tenth of that is
 // allowed.
-TEST(Session, MemoryDoesNotGrowAfterTheFirstRound) {
-    Session session(volume_scene(), blobs(), tile_capabilities());
+TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
+    SceneRenderer session(volume_scene(), blobs(), tile_capabilities());
     session.set_size(400, 300);
     const auto round = [&] {
         for (int degrees = 0; degrees < 360; degrees += 15) {
@@ -251,9 +251,9 @@ TEST(Session, MemoryDoesNotGrowAfterTheFirstRound) {
     EXPECT_LE(bytes_in_use() - before, 48 * 400 * 300 * 16 / 10);
 }
 
-TEST(Session, AStopEndsAFrameAndTheNextIsWhole) {
+TEST(SceneRenderer, AStopEndsAFrameAndTheNextIsWhole) {
     const auto data = blobs();
-    Session session(volume_scene(), data, tile_capabilities());
+    SceneRenderer session(volume_scene(), data, tile_capabilities());
     const Image whole = session.draw_picture();
     std::stop_source stop;
     stop.request_stop();
@@ -265,22 +265,22 @@ TEST(Session, AStopEndsAFrameAndTheNextIsWhole) {
     EXPECT_EQ(session.draw_picture().rgba, whole.rgba);
 }
 
-void turn(Session& session) {
+void turn(SceneRenderer& session) {
     for (int degrees = 40; degrees < 200; degrees += 40) {
         session.set_camera(orbit(degrees));
         session.draw();
     }
 }
 
-TEST(Session, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
+TEST(SceneRenderer, TwoInTwoThreadsDrawWhatEachDrawsAlone) {
     const auto data = blobs();
     const auto mesh = split_box();
-    Session alone(volume_scene(), data, tile_capabilities());
-    Session alone_too(mesh_scene(), mesh, tile_capabilities());
+    SceneRenderer alone(volume_scene(), data, tile_capabilities());
+    SceneRenderer alone_too(mesh_scene(), mesh, tile_capabilities());
     turn(alone);
     turn(alone_too);
-    Session first(volume_scene(), data, tile_capabilities());
-    Session second(mesh_scene(), mesh, tile_capabilities());
+    SceneRenderer first(volume_scene(), data, tile_capabilities());
+    SceneRenderer second(mesh_scene(), mesh, tile_capabilities());
     std::thread other([&] {
         std::stop_source stop;  // of the one, no matter to the other
         stop.request_stop();

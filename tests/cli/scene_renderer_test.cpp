@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session that changes against `lamina render` of the scenes that it saves: bit for bit.
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@ namespace {
 
 using test::knot;
 
-class SessionAndProgram : public testing::Test {
+class SceneRendererAndProgram : public testing::Test {
   protected:
-    void expect_the_programs(Session& session, const std::string& what) {
+    void expect_the_programs(SceneRenderer& session, const std::string& what) {
         const Image drawn = session.draw_picture();
         save_scene(session.resolved_scene(), folder / "resolved.json");
         const ProgramResult result = lamina_run(
@@ -34,7 +34,7 @@ class SessionAndProgram : public testing::Test {
         EXPECT_EQ(drawn.rgba, fresh.rgba) << what;
     }
 
-    static void turn(Session& session, double degrees) {
+    static void turn(SceneRenderer& session, double degrees) {
         const double angle = degrees * std::numbers::pi / 180;
         Camera camera = session.scene().camera;
         camera.eye = camera.center + glm::dvec3(2 * std::sin(angle), .7, 2 * std::cos(angle));
@@ -46,13 +46,13 @@ class SessionAndProgram : public testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(SessionAndProgram, DrawSlabsAlike) {
+TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
     nlohmann::json document = gaussians_scene(24, 40, 30, 60);
     document["render"]["slice"]["classification"] = "preintegrated";
     document["render"]["slice"]["samples"] = "auto";
     const Scene scene = scene_of(document);
-    Session session(scene, std::make_shared<const VolumeData>(load_volume(scene)),
-                    tile_capabilities());
+    SceneRenderer session(scene, std::make_shared<const VolumeData>(load_volume(scene)),
+                          tile_capabilities());
     expect_the_programs(session, "the first picture");
     int changes = 0;
     for (int degrees = 18; degrees < 360; degrees += 18) {
@@ -72,14 +72,14 @@ TEST_F(SessionAndProgram, DrawSlabsAlike) {
     }
 }
 
-TEST_F(SessionAndProgram, DrawTetsAlike) {
+TEST_F(SceneRendererAndProgram, DrawTetsAlike) {
     nlohmann::json document = gaussians_scene(9, 40, 30, 60);
     document["mesh"] = {{"kuhn", true}};
     document["render"]["method"] = "project";
     document["render"]["target"] = "auto";
     const Scene scene = scene_of(document);
-    Session session(scene, std::make_shared<const SceneMesh>(load_mesh(scene)),
-                    tile_capabilities());
+    SceneRenderer session(scene, std::make_shared<const SceneMesh>(load_mesh(scene)),
+                          tile_capabilities());
     for (int degrees = 0; degrees < 360; degrees += 72) {
         turn(session, degrees);
         expect_the_programs(session, "turned by " + std::to_string(degrees));

@@ -30,16 +30,16 @@ namespace lamina {
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
 // (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
 // native engine, that of a new session with that scene.
-class Session {
+class SceneRenderer {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
     // session is called, and outlives it.
-    Session(Scene scene, std::shared_ptr<const VolumeData> volume, const Capabilities& capabilities,
-            OmissionSwitch omissions = {});
-    Session(Scene scene, std::shared_ptr<const SceneMesh> mesh, const Capabilities& capabilities,
-            OmissionSwitch omissions = {});
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
+    SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
+                  const Capabilities& capabilities, OmissionSwitch omissions = {});
+    SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
+                  const Capabilities& capabilities, OmissionSwitch omissions = {});
+    SceneRenderer(const SceneRenderer&) = delete;
+    SceneRenderer& operator=(const SceneRenderer&) = delete;
 
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
@@ -62,7 +62,10 @@ class Session {
     // A frame, complete when it returns. Throws Interrupted once a stop is requested; the next
     // frame is then drawn from the start.
     void draw(std::stop_token stop = {});
-    Image picture() const;  // the last frame: associated, linear, before the background
+    // The last frame: associated, linear, before the background. The second one takes no memory
+    // where `picture` has its size.
+    Image picture() const;
+    void read(Image& picture) const;
     Image draw_picture() {
         draw();
         return picture();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/session.h"
+#include "render/scene_renderer.h"
 
 #include <cassert>
 #include <utility>
 
-#include "base/interrupt.h"
+#include "base/client.h"
 #include "base/progress.h"
 #include "base/stage.h"
 #include "render/project_drawing.h"
@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-Session::Session(Scene scene, std::shared_ptr<const VolumeData> volume,
-                 const Capabilities& capabilities, OmissionSwitch omissions)
+SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
+                             const Capabilities& capabilities, OmissionSwitch omissions)
     : asked_(std::move(scene)),
       capabilities_(capabilities),
       omissions_(std::move(omissions)),
@@ -21,8 +21,8 @@ Session::Session(Scene scene, std::shared_ptr<const VolumeData> volume,
     assert(asked_.method == Method::slice);
 }
 
-Session::Session(Scene scene, std::shared_ptr<const SceneMesh> mesh,
-                 const Capabilities& capabilities, OmissionSwitch omissions)
+SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
+                             const Capabilities& capabilities, OmissionSwitch omissions)
     : asked_(std::move(scene)),
       capabilities_(capabilities),
       omissions_(std::move(omissions)),
@@ -31,17 +31,17 @@ Session::Session(Scene scene, std::shared_ptr<const SceneMesh> mesh,
 }
 
 template <typename Change>
-void Session::change(const Change& change_scene) {
+void SceneRenderer::change(const Change& change_scene) {
     change_scene(asked_);
     if (resolved_) change_scene(*resolved_);
     view_measured_ = planned_ = false;
 }
 
-void Session::set_camera(const Camera& camera) {
+void SceneRenderer::set_camera(const Camera& camera) {
     change([&](Scene& scene) { scene.camera = camera; });
 }
 
-void Session::set_size(int width, int height) {
+void SceneRenderer::set_size(int width, int height) {
     assert(width > 0 && height > 0);
     change([&](Scene& scene) {
         scene.width = width;
@@ -51,32 +51,32 @@ void Session::set_size(int width, int height) {
 }
 
 // A table is of one transfer function.
-void Session::set_transfer_function(const TransferFunction& transfer_function) {
+void SceneRenderer::set_transfer_function(const TransferFunction& transfer_function) {
     change([&](Scene& scene) { scene.transfer_function = transfer_function; });
     if (resolved_) resolved_->slice.table = asked_.slice.table;
     data_measured_ = renderer_fits_ = false;
     plan_.reset();
 }
 
-void Session::set_scene(Scene scene) {
+void SceneRenderer::set_scene(Scene scene) {
     assert(scene.method == asked_.method);
     asked_ = std::move(scene);
     data_measured_ = renderer_fits_ = false;
     choose_again();
 }
 
-void Session::choose_again() {
+void SceneRenderer::choose_again() {
     resolved_.reset();
     plan_.reset();
     view_measured_ = planned_ = false;
 }
 
-const Scene& Session::resolved_scene() {
+const Scene& SceneRenderer::resolved_scene() {
     plan();
     return *resolved_;
 }
 
-void Session::measure() {
+void SceneRenderer::measure() {
     const Scene& scene = resolved_ ? *resolved_ : asked_;
     Stage measuring("facts");
     if (!data_measured_) {
@@ -93,7 +93,7 @@ void Session::measure() {
     stages_ms_["facts"] = measuring.end();
 }
 
-const Plan& Session::plan() {
+const Plan& SceneRenderer::plan() {
     if (planned_) return *plan_;
     measure();
     const bool first = !resolved_;
@@ -113,11 +113,11 @@ const Plan& Session::plan() {
     return *plan_;
 }
 
-std::string Session::explanation() {
+std::string SceneRenderer::explanation() {
     return drawing_->explanation(plan(), capabilities_);
 }
 
-void Session::set_up() {
+void SceneRenderer::set_up() {
     plan();
     if (renderer_ && renderer_fits_ && renderer_->take(*plan_)) return;
     Stage setting_up("set_up");
@@ -127,21 +127,28 @@ void Session::set_up() {
     stages_ms_["set_up"] = setting_up.end();
 }
 
-const FrameRenderer& Session::renderer() {
+const FrameRenderer& SceneRenderer::renderer() {
     set_up();
     return *renderer_;
 }
 
-void Session::draw(std::stop_token stop) {
-    const StopScope scope(stop.stop_possible() ? std::move(stop) : StopScope::current());
+void SceneRenderer::draw(std::stop_token stop) {
+    Client client = ClientScope::current();
+    if (stop.stop_possible()) client.stop = std::move(stop);
+    const ClientScope scope(std::move(client));
     set_up();
     Progress progress(drawing_->activity(), renderer_->step_count());
     renderer_->draw(View(resolved_->camera, resolved_->width, resolved_->height), &progress);
 }
 
-Image Session::picture() const {
+Image SceneRenderer::picture() const {
     assert(renderer_);
     return renderer_->read();
+}
+
+void SceneRenderer::read(Image& picture) const {
+    assert(renderer_);
+    renderer_->read(picture);
 }
 
 }  // namespace lamina

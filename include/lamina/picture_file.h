@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+
+#include "lamina/export.h"
+#include "lamina/image.h"
+
+namespace lamina {
+
+// Writes a picture that appears under its name only when it is complete. By the suffix: .png is for
+// looking at (over `background`, linear light; 8 bits, sRGB); .exr keeps every number as 32-bit
+// float. Throws Error for other suffixes and where the file cannot be written.
+LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
+                             const glm::dvec3& background = glm::dvec3(0));
+
+}  // namespace lamina

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamina/scene.h"
+
+namespace lamina {
+
+// What runs for a picture, in short.
+struct PlanSummary {
+    // Something that the scene does not need, and why it may be left out.
+    struct LeftOut {
+        std::string name, reason;
+    };
+
+    Method method = Method::slice;
+    Target target = Target::float32;
+    int slabs = 0;     // of slicing
+    double error = 0;  // in 1/255, of what was chosen, as far as it was measured
+    std::vector<LeftOut> left_out;
+};
+
+}  // namespace lamina

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "lamina/context_choice.h"
+#include "lamina/export.h"
+#include "lamina/frame_statistics.h"
+#include "lamina/image.h"
+#include "lamina/mesh_data.h"
+#include "lamina/plan_summary.h"
+#include "lamina/scene.h"
+#include "lamina/volume.h"
+
+namespace lamina {
+
+struct SessionOptions {
+    ContextChoice context = ContextChoice::automatic;
+    int threads = 0;  // that the session takes at most; 0: one for each processor
+};
+
+// Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in
+// one thread at a time, not always the caller's, and must not call the session.
+using ProgressCallback = std::function<void(const std::string& activity, double share)>;
+
+// Draws a scene from the first picture to the last, while camera, transfer function and settings
+// change. It does again what a change makes necessary, when a picture is next asked for:
+//
+//   camera              measures the view and plans; no upload, no table, no shader
+//   size                that, and buffers of that size
+//   transfer function   measures the data against it, makes tables; the volume stays where it is.
+//                       A mesh that the session makes from a volume is made again, for it follows
+//                       the transfer function
+//   settings            all of that, and what is automatic is chosen again
+//
+// What is automatic ("auto" in scene files) is chosen for the first picture and kept:
+// resolved_scene() has it written out. With the native engine (ContextChoice::cpu) a picture is,
+// bit for bit, the one that `lamina render` draws of that scene.
+//
+// Every call may throw Error. Sessions of several threads do not disturb each other; calls of one
+// session must not overlap. Nothing is written to the standard streams, no signal is handled, and
+// the caller's OpenGL context is left as it was.
+class LAMINA_API Session {
+  public:
+    // Reads what the scene names as its data (docs/scene.md), or makes it.
+    explicit Session(Scene scene, SessionOptions options = {});
+    // Draws these data, whatever the scene says of files. Volumes share their samples: nothing is
+    // copied.
+    Session(Scene scene, Volume volume, SessionOptions options = {});
+    // Draws `scene.scalar` of the mesh, or its first scalar at points.
+    Session(Scene scene, MeshData mesh, SessionOptions options = {});
+    ~Session();
+    Session(Session&& other) noexcept;
+    Session& operator=(Session&& other) noexcept;
+
+    void set_camera(const Camera& camera);
+    void set_size(int width, int height);  // pixels, 1 or more
+    void set_transfer_function(const TransferFunction& transfer_function);
+    // Another scene of the same data, of any method that can draw them. What it says of files is
+    // not read again.
+    void set_scene(Scene scene);
+    void choose_again();  // what is automatic
+
+    // As it was asked for, and with what was chosen where it is automatic. The file of the latter
+    // (docs/scene.md) names the data by the scene's own file names: a scene of data in memory has
+    // to name files that hold the same, or `lamina render` will not find them.
+    const Scene& scene() const;
+    const Scene& resolved_scene();
+    void save_resolved_scene(const std::filesystem::path& file);
+
+    PlanSummary plan();
+    std::string explanation();  // the same for people, line by line, with what is left out and why
+
+    // A picture, complete when it returns; valid until the next call that draws, and without an
+    // allocation of its own where the size stays. Throws Interrupted once a stop is requested; the
+    // next picture is then drawn from the start. The method trace gives the truth, see trace().
+    const Image& draw(std::stop_token stop = {}, const ProgressCallback& progress = {});
+    // The truth: the same view by the reference tracer, in double precision, to
+    // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
+    const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
+
+    const FrameStatistics& statistics() const;
+    // What is noteworthy in the data and shows in no picture; each is given once.
+    std::vector<std::string> take_warnings();
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace lamina

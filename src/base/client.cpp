@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/client.h"
+
+#include <utility>
+
+namespace lamina {
+namespace {
+
+thread_local Client client_of_thread;
+
+}  // namespace
+
+ClientScope::ClientScope(Client client)
+    : before_(std::exchange(client_of_thread, std::move(client))) {}
+
+ClientScope::~ClientScope() {
+    client_of_thread = std::move(before_);
+}
+
+const Client& ClientScope::current() {
+    return client_of_thread;
+}
+
+}  // namespace lamina

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include "base/warning.h"
+
+namespace lamina {
+
+// Hears how far long work is. `report` gets what is done ("slicing") and its share from 0 to 1,
+// from one thread at a time. Of several pieces of work within each other only the outermost
+// reports.
+struct ProgressListener {
+    std::function<void(const std::string&, double)> report;
+    std::atomic<bool> busy{false};
+};
+
+// Whom a thread works for. Programs with one client need none: their signals stop the work
+// (base/interrupt.h), the process's taker hears warnings, the terminal shows progress.
+struct Client {
+    std::stop_token stop;
+    const WarningTaker* warnings = nullptr;
+    ProgressListener* progress = nullptr;
+};
+
+// While it is there, its thread, and the tasks of base/parallel.h that it starts, work for
+// `client`. Of several scopes in one thread the last one counts.
+class ClientScope {
+  public:
+    explicit ClientScope(Client client);
+    ~ClientScope();
+    ClientScope(const ClientScope&) = delete;
+    ClientScope& operator=(const ClientScope&) = delete;
+
+    // This thread's; an empty one where there is no scope.
+    static const Client& current();
+
+  private:
+    Client before_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/picture_file.h"
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "image/exr.h"
+#include "image/png.h"
+
+namespace lamina {
+
+void save_picture(const Image& picture, const std::filesystem::path& file,
+                  const glm::dvec3& background) {
+    const std::string suffix = file.extension().string();
+    if (suffix != ".png" && suffix != ".exr")
+        fail("{}: found the suffix \"{}\", expected .png or .exr", file.string(), suffix);
+    AtomicFile output(file);
+    if (suffix == ".png")
+        write_png(output, picture, background);
+    else
+        write_exr(output, picture, {});
+    output.commit();
+}
+
+}  // namespace lamina

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/session.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+#include "library/session_parts.h"
+#include "scene/camera.h"
+
+namespace lamina {
+namespace {
+
+// What scene files are checked for when they are read (docs/scene.md).
+void check(const Scene& scene) {
+    if (scene.width < 1 || scene.height < 1) {
+        fail("image: found {} x {} pixels, expected 1 x 1 or more", scene.width, scene.height);
+    }
+    View(scene.camera, scene.width, scene.height);
+}
+
+}  // namespace
+
+Session::Session(Scene scene, SessionOptions options) {
+    check(scene);
+    parts_ = std::make_unique<Parts>(std::move(scene), options);
+    parts_->run([&] {
+        if (parts_->scene.draws_mesh())
+            parts_->mesh_data();
+        else
+            parts_->volume_data();
+    });
+}
+
+Session::Session(Scene scene, Volume volume, SessionOptions options) {
+    check(scene);
+    parts_ = std::make_unique<Parts>(std::move(scene), options);
+    parts_->run([&] { parts_->volume = std::make_shared<const VolumeData>(std::move(volume)); });
+}
+
+Session::Session(Scene scene, MeshData mesh, SessionOptions options) {
+    check(scene);
+    parts_ = std::make_unique<Parts>(std::move(scene), options);
+    parts_->mesh_given = true;
+    parts_->run([&] {
+        parts_->mesh =
+            std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
+    });
+}
+
+Session::~Session() = default;
+Session::Session(Session&& other) noexcept = default;
+Session& Session::operator=(Session&& other) noexcept = default;
+
+void Session::set_camera(const Camera& camera) {
+    View(camera, parts_->scene.width, parts_->scene.height);
+    parts_->scene.camera = camera;
+    if (parts_->drawn) parts_->drawn->set_camera(camera);
+}
+
+void Session::set_size(int width, int height) {
+    Scene scene = parts_->scene;
+    scene.width = width;
+    scene.height = height;
+    check(scene);
+    parts_->scene = std::move(scene);
+    if (parts_->drawn) parts_->drawn->set_size(width, height);
+}
+
+void Session::set_transfer_function(const TransferFunction& transfer_function) {
+    parts_->run([&] {
+        parts_->scene.transfer_function = transfer_function;
+        parts_->forget_made_mesh();
+        if (parts_->drawn) parts_->drawn->set_transfer_function(transfer_function);
+    });
+}
+
+void Session::set_scene(Scene scene) {
+    check(scene);
+    parts_->run([&] {
+        const Method before = parts_->scene.method;
+        parts_->forget_made_mesh();
+        parts_->scene = std::move(scene);
+        parts_->forget_made_mesh();
+        if (parts_->scene.method != before) parts_->forget_renderer();
+        if (parts_->drawn) parts_->drawn->set_scene(parts_->scene);
+    });
+}
+
+void Session::choose_again() {
+    if (parts_->drawn) parts_->drawn->choose_again();
+}
+
+const Scene& Session::scene() const {
+    return parts_->scene;
+}
+
+const Scene& Session::resolved_scene() {
+    if (parts_->scene.method == Method::trace) return parts_->scene;
+    const Scene* resolved = nullptr;
+    parts_->open_context();
+    parts_->run([&] { resolved = &parts_->renderer().resolved_scene(); });
+    return *resolved;
+}
+
+void Session::save_resolved_scene(const std::filesystem::path& file) {
+    const Scene& resolved = resolved_scene();
+    if (!resolved.has_volume() && !resolved.has_mesh()) {
+        fail("{}: the scene names no data; expected volume_file or mesh_file to say where they are",
+             file.string());
+    }
+    save_scene(resolved, file);
+}
+
+PlanSummary Session::plan() {
+    PlanSummary summary;
+    parts_->open_context();
+    parts_->run([&] {
+        const Plan& plan = parts_->renderer().plan();
+        summary.method = plan.method;
+        if (plan.method == Method::slice) {
+            summary.target = plan.slice.target;
+            summary.slabs = plan.slice.slabs;
+            summary.error = plan.slice.found_error() + plan.slice.error_bound.value_or(0);
+        } else {
+            summary.target = plan.project.target;
+            summary.error = plan.project.segment_error;
+        }
+        for (const Omission& omission : plan.omitted)
+            summary.left_out.push_back({omission.name, omission.reason});
+    });
+    return summary;
+}
+
+std::string Session::explanation() {
+    std::string text;
+    parts_->open_context();
+    parts_->run([&] { text = parts_->renderer().explanation(); });
+    return text;
+}
+
+const Image& Session::draw(std::stop_token stop, const ProgressCallback& progress) {
+    Stopwatch watch;
+    if (parts_->scene.method == Method::trace) {
+        parts_->picture = to_float(trace(std::move(stop), progress));
+        parts_->statistics = {};
+        parts_->statistics.drawn_by = "reference tracer";
+    } else {
+        parts_->open_context();
+        parts_->run([&] { parts_->draw(); }, std::move(stop), progress);
+    }
+    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+    return parts_->picture;
+}
+
+const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress) {
+    parts_->run([&] { parts_->trace(); }, std::move(stop), progress);
+    return parts_->truth;
+}
+
+const FrameStatistics& Session::statistics() const {
+    return parts_->statistics;
+}
+
+std::vector<std::string> Session::take_warnings() {
+    const std::lock_guard lock(parts_->keeping);
+    return std::exchange(parts_->warnings, {});
+}
+
+}  // namespace lamina
