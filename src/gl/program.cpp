@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/stage.h"
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -24,29 +25,29 @@ std::string describe(const Defines& defines) {
 
 std::string compile_log(const Shader& shader) {
     GLint length = 0;
-    glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
+    api().GetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
-    glGetShaderInfoLog(shader.id(), length, &length, log.data());
+    api().GetShaderInfoLog(shader.id(), length, &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     return log;
 }
 
 std::string link_log(unsigned program) {
     GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    api().GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
-    glGetProgramInfoLog(program, length, &length, log.data());
+    api().GetProgramInfoLog(program, length, &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     return log;
 }
 
 Shader compile(GLenum stage, const ShaderSource& source) {
-    Shader shader(glCreateShader(stage));
+    Shader shader(api().CreateShader(stage));
     const char* text = source.text.c_str();
-    glShaderSource(shader.id(), 1, &text, nullptr);
-    glCompileShader(shader.id());
+    api().ShaderSource(shader.id(), 1, &text, nullptr);
+    api().CompileShader(shader.id());
     GLint compiled = GL_FALSE;
-    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+    api().GetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (!compiled) {
         fail("shader {} does not compile: {} ({})", source.name,
              readable_log(compile_log(shader), source), describe(source.defines));
@@ -75,19 +76,19 @@ Program::Program(const std::string& vertex_name, const std::string& fragment_nam
     : Program(compose_shader(vertex_name, defines), compose_shader(fragment_name, defines)) {}
 
 Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
-    : handle_(glCreateProgram()),
+    : handle_(api().CreateProgram()),
       names_(vertex.name + " + " + fragment.name),
       source_(vertex.text + fragment.text) {
     const Stage compiling("compile");
     const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
     const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-    glAttachShader(id(), vertex_shader.id());
-    glAttachShader(id(), fragment_shader.id());
-    glLinkProgram(id());
-    glDetachShader(id(), vertex_shader.id());
-    glDetachShader(id(), fragment_shader.id());
+    api().AttachShader(id(), vertex_shader.id());
+    api().AttachShader(id(), fragment_shader.id());
+    api().LinkProgram(id());
+    api().DetachShader(id(), vertex_shader.id());
+    api().DetachShader(id(), fragment_shader.id());
     GLint linked = GL_FALSE;
-    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    api().GetProgramiv(id(), GL_LINK_STATUS, &linked);
     if (!linked) {
         fail("shaders {} do not link: {} ({})", names_, one_line(link_log(id())),
              describe(fragment.defines));
@@ -96,14 +97,14 @@ Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
 }
 
 void Program::use() const {
-    glUseProgram(id());
+    api().UseProgram(id());
 }
 
 int Program::location(std::string_view name) {
     const auto known = locations_.find(name);
     if (known != locations_.end()) return known->second;
     const std::string owned(name);
-    const int found = glGetUniformLocation(id(), owned.c_str());
+    const int found = api().GetUniformLocation(id(), owned.c_str());
     const std::string_view base = name.substr(0, name.find_first_of(".["));
     if (found < 0 && !mentions(source_, base)) fail("shaders {} have no uniform {}", names_, name);
     locations_.emplace(owned, found);
@@ -112,55 +113,57 @@ int Program::location(std::string_view name) {
 
 // Location -1 is ignored by OpenGL.
 void Program::set(std::string_view name, float value) {
-    glProgramUniform1f(id(), location(name), value);
+    api().ProgramUniform1f(id(), location(name), value);
 }
 
 void Program::set(std::string_view name, double value) {
-    glProgramUniform1d(id(), location(name), value);
+    api().ProgramUniform1d(id(), location(name), value);
 }
 
 void Program::set(std::string_view name, int value) {
-    glProgramUniform1i(id(), location(name), value);
+    api().ProgramUniform1i(id(), location(name), value);
 }
 
 void Program::set(std::string_view name, const glm::vec2& value) {
-    glProgramUniform2fv(id(), location(name), 1, &value.x);
+    api().ProgramUniform2fv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::vec3& value) {
-    glProgramUniform3fv(id(), location(name), 1, &value.x);
+    api().ProgramUniform3fv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::dvec2& value) {
-    glProgramUniform2dv(id(), location(name), 1, &value[0]);
+    api().ProgramUniform2dv(id(), location(name), 1, &value[0]);
 }
 
 void Program::set(std::string_view name, const glm::dvec3& value) {
-    glProgramUniform3dv(id(), location(name), 1, &value.x);
+    api().ProgramUniform3dv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, std::span<const glm::vec2> values) {
-    glProgramUniform2fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
+    api().ProgramUniform2fv(id(), location(name), static_cast<GLsizei>(values.size()),
+                            &values[0].x);
 }
 
 void Program::set(std::string_view name, std::span<const glm::vec4> values) {
-    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
+    api().ProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()),
+                            &values[0].x);
 }
 
 void Program::set(std::string_view name, const glm::vec4& value) {
-    glProgramUniform4fv(id(), location(name), 1, &value.x);
+    api().ProgramUniform4fv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::ivec2& value) {
-    glProgramUniform2iv(id(), location(name), 1, &value.x);
+    api().ProgramUniform2iv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::ivec3& value) {
-    glProgramUniform3iv(id(), location(name), 1, &value.x);
+    api().ProgramUniform3iv(id(), location(name), 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::mat4& value) {
-    glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, &value[0].x);
+    api().ProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, &value[0].x);
 }
 
 }  // namespace lamina::gl

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "base/unreachable.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
@@ -147,7 +148,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     }
     draw_parts(parts, seeing_in_units(view, plan_.unit), progress);
     Stage finishing("finish");
-    glFinish();
+    gl::api().Finish();
     finishing.end();
     drawing.count("tets", static_cast<double>(tets_drawn_));
     draw_ms_ = drawing.end();

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina {
@@ -154,8 +155,8 @@ void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
             offsets_.push_back(offset_of(chunk * chunk_parts * size_.indices));
         }
         program->use();
-        glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                            static_cast<GLsizei>(counts_.size()));
+        gl::api().MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
+                                    static_cast<GLsizei>(counts_.size()));
     }
 }
 
@@ -168,8 +169,8 @@ void GlTetStream::submit_with_barriers(std::size_t parts, const Programs& progra
         }
         const int count = part_indices_[i];
         if (count == 0) continue;
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
-        glTextureBarrier();
+        gl::api().DrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
+        gl::api().TextureBarrier();
         index += static_cast<std::size_t>(count);
     }
 }

@@ -33,7 +33,8 @@ namespace lamina {
 class Session {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
-    // session is called, and outlives it.
+    // session is called and when it ends (DrawContext::make_current()), and outlives it. Sessions
+    // of several contexts may draw at the same time, each in a thread of its own.
     Session(Scene scene, std::shared_ptr<const VolumeData> volume, const Capabilities& capabilities,
             OmissionSwitch omissions = {});
     Session(Scene scene, std::shared_ptr<const SceneMesh> mesh, const Capabilities& capabilities,

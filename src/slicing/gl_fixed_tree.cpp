@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/interrupt.h"
+#include "gl/api.h"
 #include "gl/full_screen.h"
 #include "slicing/gl_compositing.h"
 #include "slicing/swizzle.h"
@@ -83,7 +84,7 @@ void GlFixedTree::evaluate(int level, const SampleSpan& node, TreeLeaves& leaves
         buffer.bind();
         leaves.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
         if (progress != nullptr) {
-            glFinish();
+            gl::api().Finish();
             progress->advance();
         }
         check_interrupt();

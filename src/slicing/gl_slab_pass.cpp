@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "gl/api.h"
 #include "slicing/gl_compositing.h"
 #include "slicing/texture_bricks.h"
 
@@ -109,7 +110,8 @@ void GlSlabPass::draw_brick(std::size_t place, const SampleSpan& span) {
     const auto draw_slabs = [&](int from, int count) {
         const std::size_t begin = starts[from], end = starts[from + count];
         if (end > begin) {
-            glDrawArrays(GL_TRIANGLES, static_cast<int>(begin), static_cast<int>(end - begin));
+            gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(begin),
+                                 static_cast<int>(end - begin));
         }
     };
     if (plan_.blending != Blending::barrier) {

@@ -9,6 +9,7 @@
 
 #include "base/stage.h"
 #include "base/unreachable.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
 #include "scene/drawn_range.h"
@@ -85,7 +86,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     Stage upload("upload");
     volume_ = upload_volume(volume, range_, plan);
     if (plan_.occupied_only) distances_.emplace(upload_distances(facts_.occupied_bricks));
-    glFinish();
+    gl::api().Finish();
     upload_ms_ = upload.end();
     gl::check("uploading the volume");
 }

@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "base/stage.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "scene/world_unit.h"
 #include "slicing/gl_compositing.h"
@@ -63,7 +64,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
         draw_straight(progress);
     }
     timeline_.end();
-    glFinish();
+    gl::api().Finish();
     draw_ms_ = drawing.end();
     timeline_.collect();
     gl::check("drawing the slabs");
@@ -77,7 +78,7 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
         const SampleSpan part =
             child_span(all, front_to_back ? batch : plan_.batches - 1 - batch, plan_.batches);
         if (part.count > 0) slabs_->draw(part, target_, 1);
-        glFinish();
+        gl::api().Finish();
         check_interrupt();
         if (progress != nullptr) progress->advance();
     }
