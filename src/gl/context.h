@@ -7,6 +7,7 @@
 
 #include "gl/api.h"
 #include "gl/context_counts.h"
+#include "gl/program_cache.h"
 #include "scene/capabilities.h"
 
 namespace lamina::gl {
@@ -31,6 +32,7 @@ class Context {
 
     const Capabilities& capabilities() const { return capabilities_; }
     ContextCounts& counts() { return counts_; }
+    ProgramCache& programs() { return programs_; }
 
   protected:
     using LoadFunction = void (*(*)(const char* name))();
@@ -53,6 +55,7 @@ class Context {
     std::unique_ptr<GladGLContext> functions_;
     Capabilities capabilities_;
     ContextCounts counts_;
+    ProgramCache programs_;
     std::atomic<std::thread::id> thread_{};  // whose CurrentContexts are there; none: nobody's
     int scopes_ = 0;                         // so many of them
 };

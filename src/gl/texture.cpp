@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gl/api.h"
 #include "gl/check.h"
+#include "gl/current_context.h"
 #include "scene/capabilities.h"
 
 namespace lamina::gl {
@@ -140,6 +141,7 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
     assert(type == info.component_type);
     assert(contains(whole_, box));
     assert(count >= texel_span(box, store) * static_cast<std::size_t>(info.channels));
+    current_context()->counts().bytes_uploaded += texel_count(box) * info.bytes_per_texel;
     api().PixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
     api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
     switch (target_) {

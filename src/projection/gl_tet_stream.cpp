@@ -22,6 +22,10 @@ std::size_t chunks_of(std::size_t parts) {
     return (parts + chunk_parts - 1) / chunk_parts;
 }
 
+std::size_t batch_parts_of(std::size_t parts) {
+    return std::min(most_batch_parts, chunks_of(parts) * chunk_parts);
+}
+
 const void* offset_of(std::size_t index) {
     return reinterpret_cast<const void*>(index * sizeof(std::uint32_t));
 }
@@ -30,9 +34,7 @@ const void* offset_of(std::size_t index) {
 
 GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                          std::size_t parts)
-    : size_(size),
-      batch_parts_(std::min(most_batch_parts, chunks_of(parts) * chunk_parts)),
-      chunks_(chunks_of(batch_parts_)) {
+    : size_(size), batch_parts_(batch_parts_of(parts)), chunks_(chunks_of(batch_parts_)) {
     counts_.reserve(chunks_.size());
     offsets_.reserve(chunks_.size());
     for (Batch& batch : batches_) {
@@ -55,6 +57,10 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
             ++location;
         }
     }
+}
+
+bool GlTetStream::serves(const TetGeometry::Size& size, std::size_t parts) const {
+    return size == size_ && batch_parts_of(parts) == batch_parts_;
 }
 
 void GlTetStream::set_barriers(bool barriers) {

@@ -130,20 +130,16 @@ gl::Program GlShaderTree::make_program(const char* fragment, const gl::Defines& 
 
 void GlShaderTree::make_programs() {
     const bool tree = !images_.empty();
-    const auto make_leaf = [&](NodePlace place) {
-        gl::Program program("slicing/slab.vert", "slicing/leaf.frag",
-                            leaf_defines(plan_, source_.defines(), place));
-        program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
-        return program;
-    };
+    defines_ = leaf_defines(plan_, source_.defines(), leaf_place());
+    gl::Program& leaf =
+        (tree ? leaf_ : root_leaf_).emplace("slicing/slab.vert", "slicing/leaf.frag", defines_);
+    leaf.set("largest_color", static_cast<float>(plan_.tree->largest_color));
     const auto make_encode = [&](NodePlace place) {
         gl::Program program = make_program("slicing/encode.frag", node_defines(plan_, place));
         program.set("sum", sum_unit);
         return program;
     };
-    const NodePlace leaves = tree ? NodePlace::inner : NodePlace::root;
-    (tree ? leaf_ : root_leaf_).emplace(make_leaf(leaves));
-    if (sum_) (tree ? encode_ : root_encode_).emplace(make_encode(leaves));
+    if (sum_) (tree ? encode_ : root_encode_).emplace(make_encode(leaf_place()));
     if (!tree) return;
     const auto make_node = [&](NodePlace place) {
         gl::Program program = make_program("slicing/node.frag", node_defines(plan_, place));
@@ -154,6 +150,10 @@ void GlShaderTree::make_programs() {
     };
     root_node_.emplace(make_node(NodePlace::root));
     if (images_.size() > 1) node_.emplace(make_node(NodePlace::inner));
+}
+
+void GlShaderTree::take_plan() {
+    if (leaf_defines(plan_, source_.defines(), leaf_place()) != defines_) make_programs();
 }
 
 void GlShaderTree::set_view(const View& view, const Slabs& slabs) {

@@ -3,6 +3,8 @@
 
 #include <glad/gl.h>
 
+#include <utility>
+
 #include "base/interrupt.h"
 #include "base/stage.h"
 #include "gl/api.h"
@@ -14,12 +16,17 @@ namespace lamina {
 
 GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                                  const Facts& facts, const SlicePlan& plan,
-                                 const Capabilities& capabilities, int width, int height)
+                                 const Capabilities& capabilities, int width, int height,
+                                 std::shared_ptr<const VolumeTextures> ready)
     : plan_(plan),
       grid_(in_units(facts.grid, plan.unit)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)) {
-    if (plan_.nothing_visible) return;
-    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_);
+    if (plan_.nothing_visible) {
+        kept_ = std::move(ready);
+        return;
+    }
+    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_,
+                    std::move(ready));
     if (plan_.has_tree(NodeArithmetic::shader)) {
         shader_tree_.emplace(*source_, plan_, capabilities, width, height);
         return;
@@ -31,9 +38,17 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     }
 }
 
-// Programs are made for what belongs to a view, too.
+// Where nothing was visible, nothing was made.
 bool GlSliceRenderer::take(const Plan& plan) {
-    return without_remarks(plan.slice) == without_remarks(plan_);
+    const SlicePlan& slice = plan.slice;
+    if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
+        return false;
+    plan_ = slice;
+    if (plan_.nothing_visible) return true;
+    source_->take_plan(plan_);
+    if (slabs_) slabs_->take_plan();
+    if (shader_tree_) shader_tree_->take_plan();
+    return true;
 }
 
 int GlSliceRenderer::step_count() const {
@@ -47,7 +62,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));
     geometry_ms_ = draw_ms_ = 0;
-    if (!source_) return;
+    if (!source_ || plan_.nothing_visible) return;
     Stage geometry("geometry");
     const DepthRange depth = depth_range(grid_, view);
     if (depth.far <= depth.near) return;
