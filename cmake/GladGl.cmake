@@ -13,12 +13,12 @@ endif()
 set(glad_dir ${CMAKE_CURRENT_BINARY_DIR}/glad)
 set(glad_source ${glad_dir}/src/gl.c)
 # --reproducible uses the specification that comes with glad; without it glad fetches one from the
-# network.
+# network. --mx puts the functions into a table for each context (gl/api.h).
 add_custom_command(
     OUTPUT ${glad_source} ${glad_dir}/include/glad/gl.h
     COMMAND ${LAMINA_GLAD_PYTHON} -m glad --quiet --reproducible --api gl:core=4.5
         --extensions GL_EXT_shader_framebuffer_fetch,GL_ARB_fragment_shader_interlock
-        --out-path ${glad_dir} c
+        --out-path ${glad_dir} c --mx
     COMMENT "Generating the OpenGL loader with glad"
     VERBATIM)
 file(MAKE_DIRECTORY ${glad_dir}/include)

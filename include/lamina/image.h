@@ -23,6 +23,13 @@ struct RgbaImage {
           rgba(4 * static_cast<std::size_t>(width_pixels) *
                static_cast<std::size_t>(height_pixels)) {}
 
+    // Keeps its memory where that suffices; all numbers lose their meaning.
+    void resize(int width_pixels, int height_pixels) {
+        width = width_pixels;
+        height = height_pixels;
+        rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    }
+
     Real* pixel(int column, int row) { return rgba.data() + offset(column, row); }
     const Real* pixel(int column, int row) const { return rgba.data() + offset(column, row); }
 

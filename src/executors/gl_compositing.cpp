@@ -7,6 +7,7 @@
 
 #include "base/unreachable.h"
 #include "compositing/codes.h"
+#include "gl/api.h"
 
 namespace lamina {
 
@@ -53,16 +54,16 @@ CompositingState::CompositingState(const CompositingPlan& plan, bool opacity_onl
     : native_(plan.blending == Blending::native) {
     if (plan.blending == Blending::barrier) target.color().bind(target_unit);
     if (!native_) return;
-    glEnable(GL_BLEND);
+    gl::api().Enable(GL_BLEND);
     if (plan.order == Order::back_to_front) {
-        glBlendFunc(GL_ONE, opacity_only ? GL_ONE_MINUS_SRC_COLOR : GL_ONE_MINUS_SRC_ALPHA);
+        gl::api().BlendFunc(GL_ONE, opacity_only ? GL_ONE_MINUS_SRC_COLOR : GL_ONE_MINUS_SRC_ALPHA);
     } else {
-        glBlendFunc(opacity_only ? GL_ONE_MINUS_DST_COLOR : GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        gl::api().BlendFunc(opacity_only ? GL_ONE_MINUS_DST_COLOR : GL_ONE_MINUS_DST_ALPHA, GL_ONE);
     }
 }
 
 CompositingState::~CompositingState() {
-    if (native_) glDisable(GL_BLEND);
+    if (native_) gl::api().Disable(GL_BLEND);
 }
 
 void decode(Image& image, const CompositingPlan& plan) {
@@ -73,7 +74,7 @@ void decode(Image& image, const CompositingPlan& plan) {
 }
 
 void finish_layer(const CompositingPlan& plan) {
-    if (plan.blending == Blending::barrier) glTextureBarrier();
+    if (plan.blending == Blending::barrier) gl::api().TextureBarrier();
 }
 
 }  // namespace lamina

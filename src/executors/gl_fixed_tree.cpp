@@ -6,9 +6,10 @@
 #include <span>
 
 #include "base/interrupt.h"
-#include "gl/full_screen.h"
 #include "executors/gl_compositing.h"
 #include "executors/swizzle.h"
+#include "gl/api.h"
+#include "gl/full_screen.h"
 
 namespace lamina {
 namespace {
@@ -83,7 +84,7 @@ void GlFixedTree::evaluate(int level, const SampleSpan& node, TreeLeaves& leaves
         buffer.bind();
         leaves.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
         if (progress != nullptr) {
-            glFinish();
+            gl::api().Finish();
             progress->advance();
         }
         check_interrupt();

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -13,7 +14,7 @@ namespace {
 
 unsigned new_buffer() {
     GLuint id = 0;
-    glCreateBuffers(1, &id);
+    api().CreateBuffers(1, &id);
     return id;
 }
 
@@ -22,8 +23,8 @@ unsigned new_buffer() {
 Buffer::Buffer(std::size_t byte_count) : handle_(new_buffer()) {
     assert(byte_count > 0);
     require_memory_left(static_cast<std::int64_t>(byte_count) + memory_for_drawing);
-    glNamedBufferStorage(id(), static_cast<GLsizeiptr>(byte_count), nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
+    api().NamedBufferStorage(id(), static_cast<GLsizeiptr>(byte_count), nullptr,
+                             GL_DYNAMIC_STORAGE_BIT);
     check("allocating a buffer");
     bytes_ = AllocatedBytes(static_cast<std::int64_t>(byte_count));
 }
@@ -35,10 +36,11 @@ Buffer Buffer::make_mapped(std::size_t byte_count) {
     Buffer buffer;
     buffer.handle_ = Handle<ObjectKind::buffer>(new_buffer());
     const auto bytes = static_cast<GLsizeiptr>(byte_count);
-    glNamedBufferStorage(buffer.id(), bytes, nullptr, access);
+    api().NamedBufferStorage(buffer.id(), bytes, nullptr, access);
     check("allocating a buffer");
     buffer.bytes_ = AllocatedBytes(static_cast<std::int64_t>(byte_count));
-    buffer.mapped_ = static_cast<std::byte*>(glMapNamedBufferRange(buffer.id(), 0, bytes, access));
+    buffer.mapped_ =
+        static_cast<std::byte*>(api().MapNamedBufferRange(buffer.id(), 0, bytes, access));
     check("mapping a buffer");
     if (buffer.mapped_ == nullptr) fail("mapping a buffer of {} bytes failed", byte_count);
     return buffer;
@@ -46,17 +48,17 @@ Buffer Buffer::make_mapped(std::size_t byte_count) {
 
 void Buffer::write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset) {
     assert(byte_offset + bytes.size() <= byte_count());
-    glNamedBufferSubData(id(), static_cast<GLintptr>(byte_offset),
-                         static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    api().NamedBufferSubData(id(), static_cast<GLintptr>(byte_offset),
+                             static_cast<GLsizeiptr>(bytes.size()), bytes.data());
     check("writing a buffer");
 }
 
 void Buffer::bind_uniform(unsigned binding) const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, binding, id());
+    api().BindBufferBase(GL_UNIFORM_BUFFER, binding, id());
 }
 
 void Buffer::bind_storage(unsigned binding) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
+    api().BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
 }
 
 }  // namespace lamina::gl

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "gl/api.h"
 
 namespace lamina::gl {
 namespace {
@@ -40,8 +41,8 @@ std::string take_debug_message() {
     std::string first;
     std::array<char, 1024> text;
     GLsizei length = 0;
-    while (glGetDebugMessageLog(1, static_cast<GLsizei>(text.size()), nullptr, nullptr, nullptr,
-                                nullptr, &length, text.data()) == 1) {
+    while (api().GetDebugMessageLog(1, static_cast<GLsizei>(text.size()), nullptr, nullptr, nullptr,
+                                    nullptr, &length, text.data()) == 1) {
         if (first.empty())
             first.assign(text.data(), static_cast<std::size_t>(std::max(length - 1, 0)));
     }
@@ -51,10 +52,10 @@ std::string take_debug_message() {
 }  // namespace
 
 void check(std::string_view where) {
-    const GLenum first = glGetError();
+    const GLenum first = api().GetError();
     if (first == GL_NO_ERROR) return;
     // A lost context reports errors for ever.
-    for (int i = 0; i < 32 && glGetError() != GL_NO_ERROR; ++i) {
+    for (int i = 0; i < 32 && api().GetError() != GL_NO_ERROR; ++i) {
     }
     const std::string message = take_debug_message();
     fail("OpenGL: {} while {}{}{}", name_of(first), where, message.empty() ? "" : ": ", message);

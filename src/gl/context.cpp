@@ -12,25 +12,25 @@
 
 #include "base/error.h"
 #include "base/unreachable.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "gl/context_backends.h"
+#include "gl/current_context.h"
 #include "gl/filter_probe.h"
 #include "gl/memory.h"
 
 namespace lamina::gl {
 namespace {
 
-int contexts_alive = 0;
-
 int integer(unsigned name) {
     GLint value = 0;
-    glGetIntegerv(name, &value);
+    api().GetIntegerv(name, &value);
     return value;
 }
 
 int largest_render_target() {
     GLint viewport[2] = {0, 0};
-    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    api().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     return std::min({integer(GL_MAX_TEXTURE_SIZE), integer(GL_MAX_FRAMEBUFFER_WIDTH),
                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
 }
@@ -85,39 +85,37 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
     fail("no OpenGL 4.5 core context ({}): {}", fmt::join(reasons, "; "), advice(kind));
 }
 
-Context::Context() {
-    assert(contexts_alive == 0);
-    ++contexts_alive;
-}
+Context::Context() : functions_(std::make_unique<GladGLContext>()) {}
 
 Context::~Context() {
-    --contexts_alive;
+    assert(scopes_ == 0);
 }
 
 void Context::initialise(LoadFunction load, const char* interface_name, bool software) {
-    const int version = gladLoadGL(load);
+    const CurrentContext current(*this);
+    const int version = gladLoadGLContext(functions_.get(), load);
     const int major = GLAD_VERSION_MAJOR(version);
     const int minor = GLAD_VERSION_MINOR(version);
     if (major < 4 || (major == 4 && minor < 5)) {
         fail("{}: the context has OpenGL {}.{}, 4.5 is needed", interface_name, major, minor);
     }
-    const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string renderer = reinterpret_cast<const char*>(api().GetString(GL_RENDERER));
     capabilities_.renderer = std::string(interface_name) + ": " + renderer;
     capabilities_.software = software || is_software_renderer(renderer);
     capabilities_.max_texture_size = largest_render_target();
     capabilities_.max_array_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
     capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
-    capabilities_.framebuffer_fetch = GLAD_GL_EXT_shader_framebuffer_fetch != 0;
+    capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
 
     // Only errors are logged, for check(); a dither of the driver's own would spoil every
     // fixed-point target.
-    glEnable(GL_DEBUG_OUTPUT);
-    glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
-    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
-    glDisable(GL_DITHER);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    api().Enable(GL_DEBUG_OUTPUT);
+    api().DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+    api().DebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    api().Disable(GL_DITHER);
+    api().PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    api().PixelStorei(GL_PACK_ALIGNMENT, 1);
     check("setting up the context");
 
     const FilterError floats = measure_filter_error(TextureFormat::r32f);

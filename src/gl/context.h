@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <thread>
 
+#include "gl/api.h"
+#include "gl/context_counts.h"
+#include "gl/program_cache.h"
 #include "plan/capabilities.h"
 
 namespace lamina::gl {
@@ -12,9 +17,10 @@ namespace lamina::gl {
 // egl: a GPU where there is one, else a software renderer.
 enum class ContextKind { automatic, gpu, osmesa, egl };
 
-// An OpenGL 4.5 core context without a window or a display server, current in the thread that made
-// it. Only one is alive at a time. Every object of this room belongs to it and must be gone before
-// it.
+// An OpenGL 4.5 core context without a window or a display server. Several may be there, each is
+// current in one thread at a time (gl/current_context.h). Every object of this room belongs to the
+// context that was current when it was made: that is current, too, when it is used and when it
+// goes, and goes later.
 class Context {
   public:
     // An Error that says what was tried, why each attempt failed, and what to install or to pass.
@@ -25,19 +31,33 @@ class Context {
     Context& operator=(const Context&) = delete;
 
     const Capabilities& capabilities() const { return capabilities_; }
+    ContextCounts& counts() { return counts_; }
+    ProgramCache& programs() { return programs_; }
 
   protected:
     using LoadFunction = void (*(*)(const char* name))();
 
     Context();
 
-    // To be called once the context is current: loads OpenGL's functions, fills the capabilities
-    // and sets the state that the whole project relies on. `interface_name` goes in front of
-    // GL_RENDERER.
+    // To be called once the context can be made current: loads OpenGL's functions, fills the
+    // capabilities and sets the state that the whole project relies on. `interface_name` goes in
+    // front of GL_RENDERER.
     void initialise(LoadFunction load, const char* interface_name, bool software);
 
   private:
+    friend class CurrentContext;
+    friend const GladGLContext& api();
+
+    // In this thread, in which the library has no other current one; an Error where it fails.
+    virtual void bind() = 0;
+    virtual void release() = 0;
+
+    std::unique_ptr<GladGLContext> functions_;
     Capabilities capabilities_;
+    ContextCounts counts_;
+    ProgramCache programs_;
+    std::atomic<std::thread::id> thread_{};  // whose CurrentContexts are there; none: nobody's
+    int scopes_ = 0;                         // so many of them
 };
 
 }  // namespace lamina::gl

@@ -17,8 +17,17 @@
 namespace lamina::gl {
 namespace {
 
+constexpr const char* library_name = "libEGL.so.1";
+
+// Mesa's loader reports every driver that it tries in vain on stderr; failures reach the user
+// through Error.
+SharedLibrary load_quietly() {
+    setenv("EGL_LOG_LEVEL", "fatal", 0);
+    return SharedLibrary{library_name};
+}
+
 struct Egl {
-    SharedLibrary library{"libEGL.so.1"};
+    SharedLibrary library = load_quietly();
     decltype(&eglGetProcAddress) get_proc_address =
         library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
     decltype(&eglGetError) get_error = library.function<decltype(&eglGetError)>("eglGetError");
@@ -33,6 +42,13 @@ struct Egl {
         library.function<decltype(&eglDestroyContext)>("eglDestroyContext");
     decltype(&eglMakeCurrent) make_current =
         library.function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
+    decltype(&eglQueryAPI) query_api = library.function<decltype(&eglQueryAPI)>("eglQueryAPI");
+    decltype(&eglGetCurrentContext) current_context =
+        library.function<decltype(&eglGetCurrentContext)>("eglGetCurrentContext");
+    decltype(&eglGetCurrentDisplay) current_display =
+        library.function<decltype(&eglGetCurrentDisplay)>("eglGetCurrentDisplay");
+    decltype(&eglGetCurrentSurface) current_surface =
+        library.function<decltype(&eglGetCurrentSurface)>("eglGetCurrentSurface");
     // Extensions: null where EGL lacks them.
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
@@ -48,9 +64,6 @@ struct Egl {
 };
 
 const Egl& egl() {
-    // Mesa's loader reports every driver that it tries in vain on stderr; failures reach the user
-    // through Error.
-    setenv("EGL_LOG_LEVEL", "fatal", 0);
     static const Egl loaded;
     return loaded;
 }
@@ -120,12 +133,9 @@ std::vector<Route> all_routes() {
 
 class EglContext : public Context {
   public:
+    // The display stays initialised for the next context: Mesa leaks when it unloads its driver.
     ~EglContext() override {
-        if (display_ == EGL_NO_DISPLAY) return;
-        egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         if (context_ != EGL_NO_CONTEXT) egl().destroy_context(display_, context_);
-        // The display stays initialised for the next context: Mesa leaks when it unloads its
-        // driver.
     }
 
     void open(const Route& route) {
@@ -136,6 +146,13 @@ class EglContext : public Context {
         for (const char* needed : {"EGL_KHR_surfaceless_context", "EGL_KHR_no_config_context"}) {
             if (!has_word(extensions, needed)) fail("{} is missing", needed);
         }
+        create();
+        initialise(egl().get_proc_address, "EGL", false);
+    }
+
+  private:
+    void create() {
+        const EGLenum api = egl().query_api();  // the caller's own
         if (!egl().bind_api(EGL_OPENGL_API)) fail("no desktop OpenGL: {}", last_error());
         const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                      4,
@@ -145,14 +162,21 @@ class EglContext : public Context {
                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                      EGL_NONE};
         context_ = egl().create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-        if (context_ == EGL_NO_CONTEXT) fail("it refused OpenGL 4.5 core: {}", last_error());
-        if (!egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
-            fail("eglMakeCurrent: {}", last_error());
-        }
-        initialise(egl().get_proc_address, "EGL", false);
+        const std::string error = context_ == EGL_NO_CONTEXT ? last_error() : "";
+        if (api != EGL_NONE) egl().bind_api(api);
+        if (!error.empty()) fail("it refused OpenGL 4.5 core: {}", error);
     }
 
-  private:
+    void bind() override {
+        egl().bind_api(EGL_OPENGL_API);
+        if (!egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+            fail("eglMakeCurrent: {}", last_error());
+    }
+
+    void release() override {
+        egl().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
 };
@@ -185,6 +209,25 @@ std::unique_ptr<Context> create_egl_context(EglDevices devices) {
     } catch (const Error& error) {
         fail("EGL: {}", error.what());
     }
+}
+
+EglBinding release_egl() {
+    EglBinding found;
+    if (!SharedLibrary::is_loaded(library_name)) return found;
+    found.api = egl().query_api();
+    found.context = egl().current_context();
+    if (found.context == EGL_NO_CONTEXT) return found;
+    found.display = egl().current_display();
+    found.draw = egl().current_surface(EGL_DRAW);
+    found.read = egl().current_surface(EGL_READ);
+    egl().make_current(found.display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    return found;
+}
+
+void restore(const EglBinding& binding) {
+    if (binding.context != EGL_NO_CONTEXT)
+        egl().make_current(binding.display, binding.draw, binding.read, binding.context);
+    if (binding.api != 0 && binding.api != EGL_NONE) egl().bind_api(binding.api);
 }
 
 }  // namespace lamina::gl

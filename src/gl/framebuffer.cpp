@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -15,7 +16,7 @@ namespace {
 
 unsigned new_framebuffer() {
     GLuint id = 0;
-    glCreateFramebuffers(1, &id);
+    api().CreateFramebuffers(1, &id);
     return id;
 }
 
@@ -36,10 +37,10 @@ Framebuffer::Framebuffer(std::vector<Texture> colors)
     for (const Texture& color : colors_) {
         assert(color.width() == width() && color.height() == height() && color.depth() == 1);
         outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
-        glNamedFramebufferTexture(id(), outputs.back(), color.id(), 0);
+        api().NamedFramebufferTexture(id(), outputs.back(), color.id(), 0);
     }
-    glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(outputs.size()), outputs.data());
-    const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
+    api().NamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(outputs.size()), outputs.data());
+    const GLenum status = api().CheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE) {
         fail("OpenGL cannot draw into {} {} textures of {} x {} (framebuffer status {:#x})",
              colors_.size(), info_of(color().format()).name, width(), height(), status);
@@ -48,23 +49,28 @@ Framebuffer::Framebuffer(std::vector<Texture> colors)
 }
 
 void Framebuffer::bind() const {
-    glBindFramebuffer(GL_FRAMEBUFFER, id());
-    glViewport(0, 0, width(), height());
+    api().BindFramebuffer(GL_FRAMEBUFFER, id());
+    api().Viewport(0, 0, width(), height());
 }
 
 void Framebuffer::clear(const glm::vec4& rgba, std::size_t target) {
-    glClearNamedFramebufferfv(id(), GL_COLOR, static_cast<GLint>(target), &rgba.x);
+    api().ClearNamedFramebufferfv(id(), GL_COLOR, static_cast<GLint>(target), &rgba.x);
 }
 
 Image Framebuffer::read_back(std::size_t target) const {
-    Image image(width(), height());
+    Image image;
+    read_back(image, target);
+    return image;
+}
+
+void Framebuffer::read_back(Image& image, std::size_t target) const {
+    image.resize(width(), height());
     color(target).read_rgba(image.rgba);
     const std::size_t row = 4 * static_cast<std::size_t>(width());
     for (int top = 0; top < height() / 2; ++top) {
         float* const upper = image.pixel(0, top);
         std::swap_ranges(upper, upper + row, image.pixel(0, height() - 1 - top));
     }
-    return image;
 }
 
 LayerFramebuffer::LayerFramebuffer() : handle_(new_framebuffer()) {}
@@ -74,20 +80,20 @@ void LayerFramebuffer::bind(std::initializer_list<const Texture*> arrays, int la
     std::vector<GLenum> outputs;
     for (const Texture* const array : arrays) {
         outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
-        glNamedFramebufferTextureLayer(handle_.id(), outputs.back(), array->id(), 0, layer);
+        api().NamedFramebufferTextureLayer(handle_.id(), outputs.back(), array->id(), 0, layer);
     }
     if (count != bound_) {
-        glNamedFramebufferDrawBuffers(handle_.id(), count, outputs.data());
+        api().NamedFramebufferDrawBuffers(handle_.id(), count, outputs.data());
         bound_ = count;
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, handle_.id());
-    glViewport(0, 0, (*arrays.begin())->width(), (*arrays.begin())->height());
+    api().BindFramebuffer(GL_FRAMEBUFFER, handle_.id());
+    api().Viewport(0, 0, (*arrays.begin())->width(), (*arrays.begin())->height());
 }
 
 void LayerFramebuffer::clear() {
     const float zero[4] = {0, 0, 0, 0};
     for (int target = 0; target < bound_; ++target) {
-        glClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
+        api().ClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
     }
 }
 

@@ -25,7 +25,9 @@ class Framebuffer {
     void clear(const glm::vec4& rgba, std::size_t target = 0);
 
     // Target `target` as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
+    // Into `image`: without taking memory where that has the size.
     Image read_back(std::size_t target = 0) const;
+    void read_back(Image& image, std::size_t target = 0) const;
 
     const Texture& color(std::size_t target = 0) const { return colors_[target]; }
     int width() const { return colors_.front().width(); }

@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -14,7 +15,7 @@ void draw_full_screen(const Program& program) {
 void draw_full_screen(const Program& program, const VertexArray& any) {
     any.bind();
     program.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    api().DrawArrays(GL_TRIANGLES, 0, 3);
     check("drawing over the whole target");
 }
 

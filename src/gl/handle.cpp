@@ -3,30 +3,32 @@
 
 #include <glad/gl.h>
 
+#include "gl/api.h"
+
 namespace lamina::gl {
 
 void delete_object(ObjectKind kind, unsigned id) {
     switch (kind) {
         case ObjectKind::buffer:
-            glDeleteBuffers(1, &id);
+            api().DeleteBuffers(1, &id);
             break;
         case ObjectKind::texture:
-            glDeleteTextures(1, &id);
+            api().DeleteTextures(1, &id);
             break;
         case ObjectKind::vertex_array:
-            glDeleteVertexArrays(1, &id);
+            api().DeleteVertexArrays(1, &id);
             break;
         case ObjectKind::framebuffer:
-            glDeleteFramebuffers(1, &id);
+            api().DeleteFramebuffers(1, &id);
             break;
         case ObjectKind::query:
-            glDeleteQueries(1, &id);
+            api().DeleteQueries(1, &id);
             break;
         case ObjectKind::shader:
-            glDeleteShader(id);
+            api().DeleteShader(id);
             break;
         case ObjectKind::program:
-            glDeleteProgram(id);
+            api().DeleteProgram(id);
             break;
     }
 }

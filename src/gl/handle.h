@@ -25,6 +25,7 @@ class Handle {
     }
 
     unsigned id() const { return id_; }
+    void release() { id_ = 0; }  // deletes nothing
 
   private:
     unsigned id_ = 0;

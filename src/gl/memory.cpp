@@ -4,21 +4,21 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <fstream>
 
 #include "base/error.h"
+#include "gl/current_context.h"
 
 namespace lamina::gl {
 namespace {
 
-std::atomic<std::int64_t> total{0};
 constexpr std::int64_t mebibyte = 1 << 20;
 
 }  // namespace
 
 std::int64_t bytes_allocated() {
-    return total;
+    Context* const context = current_context();
+    return context != nullptr ? context->counts().bytes_allocated : 0;
 }
 
 void require_memory_left(std::int64_t bytes) {
@@ -35,11 +35,11 @@ void require_memory_left(std::int64_t bytes) {
 }
 
 AllocatedBytes::AllocatedBytes(std::int64_t count) : count_(count) {
-    total += count_;
+    current_context()->counts().bytes_allocated += count_;
 }
 
 AllocatedBytes::~AllocatedBytes() {
-    total -= count_;
+    if (count_ != 0) current_context()->counts().bytes_allocated -= count_;
 }
 
 }  // namespace lamina::gl

@@ -6,8 +6,8 @@
 
 namespace lamina::gl {
 
-// Bytes of buffers and textures that this process holds now: what was asked for, without the
-// driver's padding.
+// Bytes of buffers and textures that this thread's current context holds now: what was asked for,
+// without the driver's padding. 0 where none is current.
 std::int64_t bytes_allocated();
 
 // Throws Error where a limit on the process's memory (ulimit -v) leaves less than this: Mesa's

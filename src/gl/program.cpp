@@ -3,164 +3,82 @@
 
 #include <glad/gl.h>
 
-#include <cctype>
-
-#include "base/error.h"
-#include "base/stage.h"
-#include "gl/check.h"
+#include "gl/api.h"
+#include "gl/current_context.h"
 
 namespace lamina::gl {
-namespace {
-
-using Shader = Handle<ObjectKind::shader>;
-
-std::string describe(const Defines& defines) {
-    std::string text;
-    for (const auto& [name, value] : defines.list) {
-        text += (text.empty() ? "" : " ") + name + '=' + value;
-    }
-    return text.empty() ? "no defines" : "defines " + text;
-}
-
-std::string compile_log(const Shader& shader) {
-    GLint length = 0;
-    glGetShaderiv(shader.id(), GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    glGetShaderInfoLog(shader.id(), length, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    return log;
-}
-
-std::string link_log(unsigned program) {
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(length), '\0');
-    glGetProgramInfoLog(program, length, &length, log.data());
-    log.resize(static_cast<std::size_t>(length));
-    return log;
-}
-
-Shader compile(GLenum stage, const ShaderSource& source) {
-    Shader shader(glCreateShader(stage));
-    const char* text = source.text.c_str();
-    glShaderSource(shader.id(), 1, &text, nullptr);
-    glCompileShader(shader.id());
-    GLint compiled = GL_FALSE;
-    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
-    if (!compiled) {
-        fail("shader {} does not compile: {} ({})", source.name,
-             readable_log(compile_log(shader), source), describe(source.defines));
-    }
-    return shader;
-}
-
-bool is_word_character(char c) {
-    return c == '_' || std::isalnum(static_cast<unsigned char>(c));
-}
-
-bool mentions(const std::string& text, std::string_view word) {
-    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-        const std::size_t end = at + word.size();
-        const bool begins = at == 0 || !is_word_character(text[at - 1]);
-        const bool ends = end == text.size() || !is_word_character(text[end]);
-        if (begins && ends) return true;
-    }
-    return false;
-}
-
-}  // namespace
 
 Program::Program(const std::string& vertex_name, const std::string& fragment_name,
                  const Defines& defines)
     : Program(compose_shader(vertex_name, defines), compose_shader(fragment_name, defines)) {}
 
 Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
-    : handle_(glCreateProgram()),
-      names_(vertex.name + " + " + fragment.name),
-      source_(vertex.text + fragment.text) {
-    const Stage compiling("compile");
-    const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
-    const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-    glAttachShader(id(), vertex_shader.id());
-    glAttachShader(id(), fragment_shader.id());
-    glLinkProgram(id());
-    glDetachShader(id(), vertex_shader.id());
-    glDetachShader(id(), fragment_shader.id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
-    if (!linked) {
-        fail("shaders {} do not link: {} ({})", names_, one_line(link_log(id())),
-             describe(fragment.defines));
-    }
-    check("making the program " + names_);
-}
+    : linked_(current_context()->programs().get(vertex, fragment)),
+      user_(current_context()->programs().new_user()) {}
 
 void Program::use() const {
-    glUseProgram(id());
+    if (!linked_->belongs_to(user_)) linked_->give_to(user_, values_);
+    api().UseProgram(id());
 }
 
-int Program::location(std::string_view name) {
-    const auto known = locations_.find(name);
-    if (known != locations_.end()) return known->second;
-    const std::string owned(name);
-    const int found = glGetUniformLocation(id(), owned.c_str());
-    const std::string_view base = name.substr(0, name.find_first_of(".["));
-    if (found < 0 && !mentions(source_, base)) fail("shaders {} have no uniform {}", names_, name);
-    locations_.emplace(owned, found);
-    return found;
+void Program::set(std::string_view name, UniformKind kind, std::size_t count, const void* data) {
+    const int location = linked_->location(name);
+    if (location < 0) return;
+    UniformValue& value = values_[location];
+    value.assign(kind, static_cast<int>(count), data);
+    if (linked_->belongs_to(user_)) linked_->set(location, value);
 }
 
-// Location -1 is ignored by OpenGL.
 void Program::set(std::string_view name, float value) {
-    glProgramUniform1f(id(), location(name), value);
+    set(name, UniformKind::float1, 1, &value);
 }
 
 void Program::set(std::string_view name, double value) {
-    glProgramUniform1d(id(), location(name), value);
+    set(name, UniformKind::double1, 1, &value);
 }
 
 void Program::set(std::string_view name, int value) {
-    glProgramUniform1i(id(), location(name), value);
+    set(name, UniformKind::int1, 1, &value);
 }
 
 void Program::set(std::string_view name, const glm::vec2& value) {
-    glProgramUniform2fv(id(), location(name), 1, &value.x);
+    set(name, UniformKind::float2, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::vec3& value) {
-    glProgramUniform3fv(id(), location(name), 1, &value.x);
+    set(name, UniformKind::float3, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::dvec2& value) {
-    glProgramUniform2dv(id(), location(name), 1, &value[0]);
+    set(name, UniformKind::double2, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::dvec3& value) {
-    glProgramUniform3dv(id(), location(name), 1, &value.x);
-}
-
-void Program::set(std::string_view name, std::span<const glm::vec2> values) {
-    glProgramUniform2fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
-}
-
-void Program::set(std::string_view name, std::span<const glm::vec4> values) {
-    glProgramUniform4fv(id(), location(name), static_cast<GLsizei>(values.size()), &values[0].x);
+    set(name, UniformKind::double3, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::vec4& value) {
-    glProgramUniform4fv(id(), location(name), 1, &value.x);
+    set(name, UniformKind::float4, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::ivec2& value) {
-    glProgramUniform2iv(id(), location(name), 1, &value.x);
+    set(name, UniformKind::int2, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::ivec3& value) {
-    glProgramUniform3iv(id(), location(name), 1, &value.x);
+    set(name, UniformKind::int3, 1, &value.x);
 }
 
 void Program::set(std::string_view name, const glm::mat4& value) {
-    glProgramUniformMatrix4fv(id(), location(name), 1, GL_FALSE, &value[0].x);
+    set(name, UniformKind::matrix4, 1, &value[0].x);
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec2> values) {
+    set(name, UniformKind::float2, values.size(), values.data());
+}
+
+void Program::set(std::string_view name, std::span<const glm::vec4> values) {
+    set(name, UniformKind::float4, values.size(), values.data());
 }
 
 }  // namespace lamina::gl

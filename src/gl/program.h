@@ -6,19 +6,21 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <functional>
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "gl/handle.h"
+#include "gl/linked_program.h"
 #include "gl/shader_source.h"
 
 namespace lamina::gl {
 
-// A linked vertex and fragment shader. Compile and link errors are Errors with the shader's name,
-// the file and line, and the defines.
+// A linked vertex and fragment shader with uniforms of its own, 0 at first. Compile and link errors
+// are Errors with the shader's name, the file and line, and the defines. Where the context has
+// lately had one with the same text, nothing is compiled (gl/program_cache.h).
 class Program {
   public:
     // Names of files in shaders/; both are specialised by the same defines.
@@ -26,6 +28,7 @@ class Program {
             const Defines& defines = {});
     Program(const ShaderSource& vertex, const ShaderSource& fragment);
 
+    // For the draws that follow, with its uniforms.
     void use() const;
 
     // Set a uniform; the program need not be in use. A uniform that the source names but this
@@ -45,15 +48,14 @@ class Program {
     void set(std::string_view name, const glm::ivec3& value);
     void set(std::string_view name, const glm::mat4& value);
 
-    unsigned id() const { return handle_.id(); }
+    unsigned id() const { return linked_->id(); }
 
   private:
-    int location(std::string_view name);
+    void set(std::string_view name, UniformKind kind, std::size_t count, const void* data);
 
-    Handle<ObjectKind::program> handle_;
-    std::string names_;   // of both shaders, for messages
-    std::string source_;  // of both shaders, to tell an unused uniform from a misspelt one
-    std::map<std::string, int, std::less<>> locations_;
+    std::shared_ptr<LinkedProgram> linked_;
+    std::uint64_t user_;  // of the linked program
+    std::map<int, UniformValue> values_;
 };
 
 }  // namespace lamina::gl

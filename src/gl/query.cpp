@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -14,7 +15,7 @@ GLenum target_of(Query::Kind kind) {
 
 unsigned new_query(Query::Kind kind) {
     GLuint id = 0;
-    glCreateQueries(target_of(kind), 1, &id);
+    api().CreateQueries(target_of(kind), 1, &id);
     return id;
 }
 
@@ -25,20 +26,20 @@ Query::Query(Kind kind) : kind_(kind), handle_(new_query(kind)) {
 }
 
 void Query::begin() {
-    glBeginQuery(target_of(kind_), handle_.id());
+    api().BeginQuery(target_of(kind_), handle_.id());
 }
 
 void Query::end() {
-    glEndQuery(target_of(kind_));
+    api().EndQuery(target_of(kind_));
 }
 
 void Query::stamp() {
-    glQueryCounter(handle_.id(), GL_TIMESTAMP);
+    api().QueryCounter(handle_.id(), GL_TIMESTAMP);
 }
 
 std::uint64_t Query::result() const {
     GLuint64 value = 0;
-    glGetQueryObjectui64v(handle_.id(), GL_QUERY_RESULT, &value);
+    api().GetQueryObjectui64v(handle_.id(), GL_QUERY_RESULT, &value);
     check("reading a query");
     return value;
 }

@@ -15,6 +15,8 @@ struct Defines {
 
     Defines& set(std::string name, std::string value);
     Defines& set(std::string name, int value);
+
+    friend bool operator==(const Defines&, const Defines&) = default;
 };
 
 // The text of a shader file, or nothing where there is none.

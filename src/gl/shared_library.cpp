@@ -21,6 +21,12 @@ SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
     fail("{}", one_line(reasons));
 }
 
+bool SharedLibrary::is_loaded(const char* name) {
+    void* const handle = dlopen(name, RTLD_NOW | RTLD_NOLOAD);
+    if (handle != nullptr) dlclose(handle);
+    return handle != nullptr;
+}
+
 void* SharedLibrary::symbol(const char* name) const {
     void* address = dlsym(handle_, name);
     if (!address) fail("{} has no function {}", name_, name);

@@ -14,6 +14,9 @@ class SharedLibrary {
     // loaded.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
+    // Whether somebody in this process has loaded it.
+    static bool is_loaded(const char* name);
+
     // The function `name`; an Error that names the library where it has none.
     template <typename Function>
     Function function(const char* name) const {

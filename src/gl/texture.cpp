@@ -7,7 +7,9 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "gl/api.h"
 #include "gl/check.h"
+#include "gl/current_context.h"
 #include "plan/capabilities.h"
 
 namespace lamina::gl {
@@ -15,7 +17,7 @@ namespace {
 
 int limit(GLenum name) {
     GLint value = 0;
-    glGetIntegerv(name, &value);
+    api().GetIntegerv(name, &value);
     return value;
 }
 
@@ -89,34 +91,34 @@ Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, i
 
 void Texture::allocate() {
     GLuint id = 0;
-    glCreateTextures(target_, 1, &id);
+    api().CreateTextures(target_, 1, &id);
     handle_ = Handle<ObjectKind::texture>(id);
     const GLenum internal = info_of(format_).internal_format;
     switch (target_) {
         case GL_TEXTURE_1D:
-            glTextureStorage1D(id, 1, internal, width());
+            api().TextureStorage1D(id, 1, internal, width());
             break;
         case GL_TEXTURE_2D:
-            glTextureStorage2D(id, 1, internal, width(), height());
+            api().TextureStorage2D(id, 1, internal, width(), height());
             break;
         default:
-            glTextureStorage3D(id, 1, internal, width(), height(), depth());
+            api().TextureStorage3D(id, 1, internal, width(), height(), depth());
             break;
     }
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-        glTextureParameteri(id, wrap, GL_CLAMP_TO_EDGE);
+        api().TextureParameteri(id, wrap, GL_CLAMP_TO_EDGE);
     }
     set_filter(TextureFilter::nearest);
 }
 
 void Texture::set_filter(TextureFilter filter) {
     const GLint mode = filter == TextureFilter::linear ? GL_LINEAR : GL_NEAREST;
-    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, mode);
-    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, mode);
+    api().TextureParameteri(id(), GL_TEXTURE_MIN_FILTER, mode);
+    api().TextureParameteri(id(), GL_TEXTURE_MAG_FILTER, mode);
 }
 
 void Texture::bind(unsigned unit) const {
-    glBindTextureUnit(unit, id());
+    api().BindTextureUnit(unit, id());
 }
 
 void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components,
@@ -139,23 +141,24 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
     assert(type == info.component_type);
     assert(contains(whole_, box));
     assert(count >= texel_span(box, store) * static_cast<std::size_t>(info.channels));
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
-    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
+    current_context()->counts().bytes_uploaded += texel_count(box) * info.bytes_per_texel;
+    api().PixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
+    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
     switch (target_) {
         case GL_TEXTURE_1D:
-            glTextureSubImage1D(id(), 0, box.x, box.width, info.layout, type, components);
+            api().TextureSubImage1D(id(), 0, box.x, box.width, info.layout, type, components);
             break;
         case GL_TEXTURE_2D:
-            glTextureSubImage2D(id(), 0, box.x, box.y, box.width, box.height, info.layout, type,
-                                components);
+            api().TextureSubImage2D(id(), 0, box.x, box.y, box.width, box.height, info.layout, type,
+                                    components);
             break;
         default:
-            glTextureSubImage3D(id(), 0, box.x, box.y, box.z, box.width, box.height, box.depth,
-                                info.layout, type, components);
+            api().TextureSubImage3D(id(), 0, box.x, box.y, box.z, box.width, box.height, box.depth,
+                                    info.layout, type, components);
             break;
     }
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    glPixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
+    api().PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
     check("uploading a texture");
 }
 
@@ -176,8 +179,8 @@ void Texture::read_rgba(std::span<float> rgba) const {
         for (int y = 0; y < height(); y += band_rows) {
             const int rows = std::min(band_rows, height() - y);
             const std::size_t floats = row_floats * static_cast<std::size_t>(rows);
-            glGetTextureSubImage(id(), 0, 0, y, z, width(), rows, 1, GL_RGBA, GL_FLOAT,
-                                 static_cast<GLsizei>(floats * sizeof(float)), destination);
+            api().GetTextureSubImage(id(), 0, 0, y, z, width(), rows, 1, GL_RGBA, GL_FLOAT,
+                                     static_cast<GLsizei>(floats * sizeof(float)), destination);
             destination += floats;
         }
     }

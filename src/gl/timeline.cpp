@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/profile.h"
+#include "gl/api.h"
 
 namespace lamina::gl {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 bool is_recording() {
     if (Profile::recording() == nullptr) return false;
     GLint bits = 0;
-    glGetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    api().GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
     return bits > 0;
 }
 
@@ -26,7 +27,7 @@ std::int64_t clock_offset() {
     for (int i = 0; i < looks; ++i) {
         GLint64 opengl = 0;
         const std::int64_t before = Stopwatch::now();
-        glGetInteger64v(GL_TIMESTAMP, &opengl);
+        api().GetInteger64v(GL_TIMESTAMP, &opengl);
         const std::int64_t between = Stopwatch::now() - before;
         if (between >= shortest) continue;
         shortest = between;
@@ -41,11 +42,11 @@ std::int64_t clock_offset() {
 // time: what is submitted before and after a span's beginning must not be drawn together.
 void Timeline::begin(const char* name) {
     if (!is_recording()) return;
-    glFlush();
+    api().Flush();
     if (count_ == spans_.size()) spans_.emplace_back();
     spans_[count_].name = name;
     spans_[count_].begin.stamp();
-    glFlush();
+    api().Flush();
 }
 
 void Timeline::end() {
@@ -54,7 +55,7 @@ void Timeline::end() {
 
 void Timeline::collect() {
     if (count_ == 0) return;
-    glFinish();
+    api().Finish();
     const std::int64_t offset = clock_offset();
     for (std::size_t i = 0; i < count_; ++i) {
         const auto begin = static_cast<std::int64_t>(spans_[i].begin.result());

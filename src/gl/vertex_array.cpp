@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina::gl {
@@ -10,7 +11,7 @@ namespace {
 
 unsigned new_vertex_array() {
     GLuint id = 0;
-    glCreateVertexArrays(1, &id);
+    api().CreateVertexArrays(1, &id);
     return id;
 }
 
@@ -22,33 +23,33 @@ VertexArray::VertexArray() : handle_(new_vertex_array()) {
 
 void VertexArray::set_floats(unsigned location, const Buffer& buffer, int components,
                              std::size_t byte_stride, std::size_t byte_offset) {
-    glVertexArrayAttribFormat(id(), location, components, GL_FLOAT, GL_FALSE, 0);
+    api().VertexArrayAttribFormat(id(), location, components, GL_FLOAT, GL_FALSE, 0);
     set_source(location, buffer, byte_stride, byte_offset);
 }
 
 void VertexArray::set_integers(unsigned location, const Buffer& buffer, int components,
                                std::size_t byte_stride, std::size_t byte_offset) {
-    glVertexArrayAttribIFormat(id(), location, components, GL_INT, 0);
+    api().VertexArrayAttribIFormat(id(), location, components, GL_INT, 0);
     set_source(location, buffer, byte_stride, byte_offset);
 }
 
 void VertexArray::set_source(unsigned location, const Buffer& buffer, std::size_t byte_stride,
                              std::size_t byte_offset) {
     // Each attribute has the binding point of its own number.
-    glVertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(byte_offset),
-                              static_cast<GLsizei>(byte_stride));
-    glVertexArrayAttribBinding(id(), location, location);
-    glEnableVertexArrayAttrib(id(), location);
+    api().VertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(byte_offset),
+                                  static_cast<GLsizei>(byte_stride));
+    api().VertexArrayAttribBinding(id(), location, location);
+    api().EnableVertexArrayAttrib(id(), location);
     check("setting a vertex attribute");
 }
 
 void VertexArray::set_indices(const Buffer& buffer) {
-    glVertexArrayElementBuffer(id(), buffer.id());
+    api().VertexArrayElementBuffer(id(), buffer.id());
     check("setting the indices");
 }
 
 void VertexArray::bind() const {
-    glBindVertexArray(id());
+    api().BindVertexArray(id());
 }
 
 }  // namespace lamina::gl

@@ -25,8 +25,14 @@ class FrameRenderer {
     // in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
-    // The last frame: associated, linear, before the background.
-    virtual Image read() const = 0;
+    // The last frame: associated, linear, before the background. The first takes no memory where
+    // `image` has its size.
+    virtual void read(Image& image) const = 0;
+    Image read() const {
+        Image image;
+        read(image);
+        return image;
+    }
 
     // What took how long, by the names of the statistics: of preparing, or of the last frame.
     virtual std::map<std::string, double> stages_ms() const = 0;

@@ -7,16 +7,18 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "base/unreachable.h"
+#include "executors/gl_compositing.h"
+#include "facts/world_unit.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
-#include "facts/world_unit.h"
-#include "executors/gl_compositing.h"
 
 namespace lamina {
 namespace {
@@ -77,14 +79,15 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
 GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
                                      const TransferFunction& transfer_function,
                                      const ProjectPlan& plan, const Capabilities& capabilities,
-                                     int width, int height)
+                                     int width, int height, std::shared_ptr<VisibilityOrder> order,
+                                     std::shared_ptr<GlTetStream> stream)
     : mesh_(mesh),
       transfer_function_(in_units(transfer_function, plan.unit)),
       plan_(plan),
       margin_(margin_steps / std::exp2(capabilities.subpixel_bits)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)),
       pieces_(transfer_function_, plan.range),
-      order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility) {
+      order_(order_for(mesh, plan, std::move(order))) {
     if (plan_.nothing_visible) return;
     tables_.emplace(transfer_function_, plan_);
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
@@ -96,14 +99,21 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
                    plan_.draw_transparent);
     cutting.end();
     if (parts_->count() == 0) return;
+    make_stream(std::move(stream));
+    if (!plan_.tree.empty()) make_tree();
+}
+
+void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     const auto parts = static_cast<std::size_t>(parts_->count());
-    if (is_fan(plan_)) {
-        stream_.emplace(FanGeometry::largest_size(), fan_attributes, parts);
-    } else {
-        stream_.emplace(SilhouetteGeometry::largest_size(), silhouette_attributes, parts);
+    const bool fan = is_fan(plan_);
+    const TetGeometry::Size size =
+        fan ? FanGeometry::largest_size() : SilhouetteGeometry::largest_size();
+    stream_ = std::move(ready);
+    if (!stream_ || !stream_->serves(size, parts)) {
+        stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, parts)
+                      : std::make_shared<GlTetStream>(size, silhouette_attributes, parts);
     }
     stream_->set_barriers(plan_.blending == Blending::barrier);
-    if (!plan_.tree.empty()) make_tree();
 }
 
 // Samples are the parts: as many in every view.
@@ -139,7 +149,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     tets_drawn_ = 0;
     if (!stream_) return;
     Stage ordering("order");
-    const auto parts = parts_->sorted(order_, eye_of(view), plan_.scattered);
+    const auto parts = parts_->sorted(*order_, eye_of(view), plan_.scattered);
     order_ms_ = ordering.end();
     Stage drawing("draw");
     for (auto& program : programs_) {
@@ -147,7 +157,7 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     }
     draw_parts(parts, seeing_in_units(view, plan_.unit), progress);
     Stage finishing("finish");
-    glFinish();
+    gl::api().Finish();
     finishing.end();
     drawing.count("tets", static_cast<double>(tets_drawn_));
     draw_ms_ = drawing.end();
@@ -204,10 +214,9 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
     });
 }
 
-Image GlProjectRenderer::read() const {
-    Image image = target_.read_back();
+void GlProjectRenderer::read(Image& image) const {
+    target_.read_back(image);
     if (plan_.in_codes() && plan_.blending != Blending::native) decode(image, plan_);
-    return image;
 }
 
 std::map<std::string, double> GlProjectRenderer::stages_ms() const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,19 +33,24 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 // Draws a mesh as the plan says, in the current OpenGL context, which must outlive it.
 class GlProjectRenderer : public ProjectRenderer {
   public:
-    // Builds order, tables and programs; errors of OpenGL are Errors. The mesh must outlive it.
+    // Builds tables and programs, and order and stream where those of another renderer do not
+    // serve; errors of OpenGL are Errors. The mesh must outlive it.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                       const ProjectPlan& plan, const Capabilities& capabilities, int width,
-                      int height);
+                      int height, std::shared_ptr<VisibilityOrder> order = nullptr,
+                      std::shared_ptr<GlTetStream> stream = nullptr);
     GlProjectRenderer(const GlProjectRenderer&) = delete;
     GlProjectRenderer& operator=(const GlProjectRenderer&) = delete;
 
     bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
-    Image read() const override;
+    using FrameRenderer::read;
+    void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
-    const OrderReport& order_report() const override { return order_.report(); }
+    const OrderReport& order_report() const override { return order_->report(); }
+    std::shared_ptr<VisibilityOrder> order() const override { return order_; }
+    std::shared_ptr<GlTetStream> stream() const { return stream_; }
     std::int64_t tets_drawn() const override { return tets_drawn_; }
 
     // Of the last frame:
@@ -56,6 +62,7 @@ class GlProjectRenderer : public ProjectRenderer {
 
   private:
     gl::Program make_program(FragmentKind kind) const;
+    void make_stream(std::shared_ptr<GlTetStream> ready);
     void make_tree();
     void set_view(gl::Program& program, const View& view) const;
     void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
@@ -66,11 +73,11 @@ class GlProjectRenderer : public ProjectRenderer {
     double margin_;
     gl::Framebuffer target_;
     TetPieces pieces_;
-    VisibilityOrder order_;
+    std::shared_ptr<VisibilityOrder> order_;
     // None where nothing is visible.
     std::optional<GlProjectTables> tables_;
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
-    std::optional<GlTetStream> stream_;
+    std::shared_ptr<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;
     std::optional<GlFixedTree> tree_;  // where the plan has one
     std::int64_t tets_drawn_ = 0;

@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "gl/api.h"
 #include "gl/check.h"
 
 namespace lamina {
@@ -21,6 +22,10 @@ std::size_t chunks_of(std::size_t parts) {
     return (parts + chunk_parts - 1) / chunk_parts;
 }
 
+std::size_t batch_parts_of(std::size_t parts) {
+    return std::min(most_batch_parts, chunks_of(parts) * chunk_parts);
+}
+
 const void* offset_of(std::size_t index) {
     return reinterpret_cast<const void*>(index * sizeof(std::uint32_t));
 }
@@ -29,9 +34,7 @@ const void* offset_of(std::size_t index) {
 
 GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                          std::size_t parts)
-    : size_(size),
-      batch_parts_(std::min(most_batch_parts, chunks_of(parts) * chunk_parts)),
-      chunks_(chunks_of(batch_parts_)) {
+    : size_(size), batch_parts_(batch_parts_of(parts)), chunks_(chunks_of(batch_parts_)) {
     counts_.reserve(chunks_.size());
     offsets_.reserve(chunks_.size());
     for (Batch& batch : batches_) {
@@ -54,6 +57,10 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
             ++location;
         }
     }
+}
+
+bool GlTetStream::serves(const TetGeometry::Size& size, std::size_t parts) const {
+    return size == size_ && batch_parts_of(parts) == batch_parts_;
 }
 
 void GlTetStream::set_barriers(bool barriers) {
@@ -154,8 +161,8 @@ void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
             offsets_.push_back(offset_of(chunk * chunk_parts * size_.indices));
         }
         program->use();
-        glMultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
-                            static_cast<GLsizei>(counts_.size()));
+        gl::api().MultiDrawElements(GL_TRIANGLES, counts_.data(), GL_UNSIGNED_INT, offsets_.data(),
+                                    static_cast<GLsizei>(counts_.size()));
     }
 }
 
@@ -168,8 +175,8 @@ void GlTetStream::submit_with_barriers(std::size_t parts, const Programs& progra
         }
         const int count = part_indices_[i];
         if (count == 0) continue;
-        glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
-        glTextureBarrier();
+        gl::api().DrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
+        gl::api().TextureBarrier();
         index += static_cast<std::size_t>(count);
     }
 }

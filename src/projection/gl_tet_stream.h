@@ -30,6 +30,9 @@ class GlTetStream {
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t parts);
 
+    // Whether it is what the constructor would make, for geometry of one kind.
+    bool serves(const TetGeometry::Size& size, std::size_t parts) const;
+
     // Waits between parts, for programs that read the target as a texture.
     void set_barriers(bool barriers);
 

@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "projection/project_renderer.h"
 
+#include <utility>
+
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
 
 namespace lamina {
 
+std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectPlan& plan,
+                                           std::shared_ptr<VisibilityOrder> ready) {
+    const OrderMethod method = plan.nothing_visible ? OrderMethod::none : plan.visibility;
+    if (ready && ready->method() == method) return ready;
+    return std::make_shared<VisibilityOrder>(mesh.mesh, method);
+}
+
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,
                                                        const Capabilities& capabilities, int width,
-                                                       int height) {
+                                                       int height, const FrameRenderer* before) {
+    const auto* const other = dynamic_cast<const ProjectRenderer*>(before);
+    std::shared_ptr<VisibilityOrder> order = other ? other->order() : nullptr;
     if (capabilities.tiles) {
-        return std::make_unique<TileProjectRenderer>(mesh, transfer_function, plan, width, height);
+        return std::make_unique<TileProjectRenderer>(mesh, transfer_function, plan, width, height,
+                                                     std::move(order));
     }
+    const auto* const shaders = dynamic_cast<const GlProjectRenderer*>(before);
     return std::make_unique<GlProjectRenderer>(mesh, transfer_function, plan, capabilities, width,
-                                               height);
+                                               height, std::move(order),
+                                               shaders ? shaders->stream() : nullptr);
 }
 
 }  // namespace lamina

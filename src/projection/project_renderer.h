@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <memory>
 
-#include "visibility/visibility_order.h"
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
 #include "scene/scene_mesh.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 
@@ -15,15 +15,21 @@ namespace lamina {
 class ProjectRenderer : public FrameRenderer {
   public:
     virtual const OrderReport& order_report() const = 0;
+    // For the renderer that takes its place.
+    virtual std::shared_ptr<VisibilityOrder> order() const = 0;
     virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
 };
 
+// What sorts the mesh's tets as the plan says: `ready`, of the same mesh or null, where it does.
+std::shared_ptr<VisibilityOrder> order_for(const SceneMesh& mesh, const ProjectPlan& plan,
+                                           std::shared_ptr<VisibilityOrder> ready);
+
 // Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
 // current OpenGL context, which must outlive it, as must the mesh.
-std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
-                                                       const TransferFunction& transfer_function,
-                                                       const ProjectPlan& plan,
-                                                       const Capabilities& capabilities, int width,
-                                                       int height);
+// `before`: one of the same mesh and capabilities, whose order and buffers are taken over where
+// they serve, or null; it draws no more.
+std::unique_ptr<ProjectRenderer> make_project_renderer(
+    const SceneMesh& mesh, const TransferFunction& transfer_function, const ProjectPlan& plan,
+    const Capabilities& capabilities, int width, int height, const FrameRenderer* before = nullptr);
 
 }  // namespace lamina

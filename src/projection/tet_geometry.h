@@ -21,6 +21,8 @@ class TetGeometry {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
         bool has_record;
+
+        friend bool operator==(const Size&, const Size&) = default;
     };
 
     // Where it goes.

@@ -6,11 +6,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/stage.h"
-#include "projection/tie_shift.h"
 #include "facts/world_unit.h"
+#include "projection/tie_shift.h"
 
 namespace lamina {
 namespace {
@@ -40,12 +41,13 @@ FragmentOutput output_of(const ProjectPlan& plan) {
 
 TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
                                          const TransferFunction& transfer_function,
-                                         const ProjectPlan& plan, int width, int height)
+                                         const ProjectPlan& plan, int width, int height,
+                                         std::shared_ptr<VisibilityOrder> order)
     : mesh_(mesh),
       transfer_function_(in_units(transfer_function, plan.unit)),
       plan_(plan),
       pieces_(transfer_function_, plan.range),
-      order_(mesh.mesh, plan.nothing_visible ? OrderMethod::none : plan.visibility),
+      order_(order_for(mesh, plan, std::move(order))),
       image_(width, height),
       fragment_counts_(static_cast<std::size_t>(image_.grid().count())) {
     if (plan_.nothing_visible) return;
@@ -116,7 +118,7 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     clear();
     if (!parts_) return;
     Stage ordering("order");
-    const auto parts = parts_->sorted(order_, eye_of(view), plan_.scattered);
+    const auto parts = parts_->sorted(*order_, eye_of(view), plan_.scattered);
     ordering.count("parts", static_cast<double>(parts.size()));
     order_ms_ = ordering.end();
     Stage drawing("draw");
@@ -321,8 +323,8 @@ void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile,
     }
 }
 
-Image TileProjectRenderer::read() const {
-    return image_.to_image(fragments_.blend.largest);
+void TileProjectRenderer::read(Image& image) const {
+    image_.read(fragments_.blend.largest, image);
 }
 
 std::map<std::string, double> TileProjectRenderer::stages_ms() const {

@@ -30,9 +30,11 @@ namespace lamina {
 // depend on the number of threads.
 class TileProjectRenderer : public ProjectRenderer {
   public:
-    // Builds order and tables. The mesh must outlive it.
+    // Builds tables, and the order where that of another renderer does not serve. The mesh must
+    // outlive it.
     TileProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
-                        const ProjectPlan& plan, int width, int height);
+                        const ProjectPlan& plan, int width, int height,
+                        std::shared_ptr<VisibilityOrder> order = nullptr);
     TileProjectRenderer(const TileProjectRenderer&) = delete;
     TileProjectRenderer& operator=(const TileProjectRenderer&) = delete;
 
@@ -40,10 +42,12 @@ class TileProjectRenderer : public ProjectRenderer {
     bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
-    Image read() const override;
+    using FrameRenderer::read;
+    void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
 
-    const OrderReport& order_report() const override { return order_.report(); }
+    const OrderReport& order_report() const override { return order_->report(); }
+    std::shared_ptr<VisibilityOrder> order() const override { return order_; }
     std::int64_t tets_drawn() const override {
         return tets_drawn_;
     }  // of the last frame, like these:
@@ -89,7 +93,7 @@ class TileProjectRenderer : public ProjectRenderer {
     TransferFunction transfer_function_;  // in the plan's units
     ProjectPlan plan_;
     TetPieces pieces_;
-    VisibilityOrder order_;
+    std::shared_ptr<VisibilityOrder> order_;
     std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
     std::optional<VisibleParts> parts_;
     std::optional<TileTetTree> tree_;  // where the plan has one

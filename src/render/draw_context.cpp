@@ -40,4 +40,8 @@ DrawContext::DrawContext(ContextChoice choice)
 DrawContext::DrawContext(gl::ContextKind kind)
     : opengl_(gl::Context::create(kind)), capabilities_(opengl_->capabilities()) {}
 
+std::unique_ptr<gl::CurrentContext> DrawContext::make_current() const {
+    return opengl_ ? std::make_unique<gl::CurrentContext>(*opengl_) : nullptr;
+}
+
 }  // namespace lamina

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "gl/context.h"
+#include "gl/current_context.h"
 #include "plan/capabilities.h"
 #include "render/context_choice.h"
 
@@ -18,6 +19,11 @@ class DrawContext {
     explicit DrawContext(gl::ContextKind kind);
 
     const Capabilities& capabilities() const { return capabilities_; }
+
+    // What draws with these capabilities does so while this lives, in the thread that asked for it:
+    // the OpenGL context is current, and the caller's own is so again afterwards
+    // (gl/current_context.h). Null for the native engine, which needs none.
+    std::unique_ptr<gl::CurrentContext> make_current() const;
 
   private:
     std::unique_ptr<gl::Context> opengl_;  // none: the native engine

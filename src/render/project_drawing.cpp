@@ -64,9 +64,9 @@ std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& ca
 
 std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
                                                              const Capabilities& capabilities,
-                                                             FrameRenderer* /*before*/) const {
+                                                             FrameRenderer* before) const {
     return make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
-                                 scene.width, scene.height);
+                                 scene.width, scene.height, before);
 }
 
 }  // namespace lamina

@@ -22,9 +22,12 @@ namespace lamina {
 //
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
 //                       needs no other: no bricks, tables, uploads or programs
-//   size                the same, and a renderer of that size, which takes over the volume's copy
+//   size                the same, and a renderer of that size, which takes over what does not
+//   change
+//                       with it: the volume's copy or textures, programs, a mesh's order
 //   transfer function   the facts of the data, too, and a renderer with its tables, which takes
-//                       over the volume's copy
+//                       over the same; OpenGL compiles where the transfer function has another
+//                       number of points or its tables have other sizes
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
@@ -33,7 +36,8 @@ namespace lamina {
 class SceneRenderer {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
-    // session is called, and outlives it.
+    // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
+    // of several contexts may draw at the same time, each in a thread of its own.
     SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
                   const Capabilities& capabilities, OmissionSwitch omissions = {});
     SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,

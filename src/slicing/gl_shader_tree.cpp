@@ -7,8 +7,9 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "gl/full_screen.h"
 #include "executors/gl_compositing.h"
+#include "gl/api.h"
+#include "gl/full_screen.h"
 #include "slicing/gl_slab_pass.h"
 #include "slicing/texture_bricks.h"
 
@@ -129,20 +130,16 @@ gl::Program GlShaderTree::make_program(const char* fragment, const gl::Defines& 
 
 void GlShaderTree::make_programs() {
     const bool tree = !images_.empty();
-    const auto make_leaf = [&](NodePlace place) {
-        gl::Program program("slicing/slab.vert", "slicing/leaf.frag",
-                            leaf_defines(plan_, source_.defines(), place));
-        program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
-        return program;
-    };
+    defines_ = leaf_defines(plan_, source_.defines(), leaf_place());
+    gl::Program& leaf =
+        (tree ? leaf_ : root_leaf_).emplace("slicing/slab.vert", "slicing/leaf.frag", defines_);
+    leaf.set("largest_color", static_cast<float>(plan_.tree->largest_color));
     const auto make_encode = [&](NodePlace place) {
         gl::Program program = make_program("slicing/encode.frag", node_defines(plan_, place));
         program.set("sum", sum_unit);
         return program;
     };
-    const NodePlace leaves = tree ? NodePlace::inner : NodePlace::root;
-    (tree ? leaf_ : root_leaf_).emplace(make_leaf(leaves));
-    if (sum_) (tree ? encode_ : root_encode_).emplace(make_encode(leaves));
+    if (sum_) (tree ? encode_ : root_encode_).emplace(make_encode(leaf_place()));
     if (!tree) return;
     const auto make_node = [&](NodePlace place) {
         gl::Program program = make_program("slicing/node.frag", node_defines(plan_, place));
@@ -153,6 +150,10 @@ void GlShaderTree::make_programs() {
     };
     root_node_.emplace(make_node(NodePlace::root));
     if (images_.size() > 1) node_.emplace(make_node(NodePlace::inner));
+}
+
+void GlShaderTree::take_plan() {
+    if (leaf_defines(plan_, source_.defines(), leaf_place()) != defines_) make_programs();
 }
 
 void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
@@ -186,19 +187,19 @@ void GlShaderTree::add_leaves(int level, const SampleSpan& node) {
 void GlShaderTree::draw(gl::Framebuffer& target, Progress* progress) {
     target_ = &target;
     progress_ = progress;
-    glEnable(GL_SCISSOR_TEST);
+    gl::api().Enable(GL_SCISSOR_TEST);
     for (int row = 0; row < height_; row += band_rows_) {
         band_ = {row, std::min(band_rows_, height_ - row)};
         next_leaf_ = 0;
         evaluate(0, shape_.root(), 0);
     }
-    glDisable(GL_SCISSOR_TEST);
+    gl::api().Disable(GL_SCISSOR_TEST);
 }
 
 void GlShaderTree::bind_output(int level, int layer) {
     if (level == 0) {
         target_->bind();
-        glScissor(0, band_.first_row, width_, band_.rows);
+        gl::api().Scissor(0, band_.first_row, width_, band_.rows);
         return;
     }
     const LevelImages& images = images_[static_cast<std::size_t>(level) - 1];
@@ -207,7 +208,7 @@ void GlShaderTree::bind_output(int level, int layer) {
     } else {
         layer_.bind({&images.color}, layer);
     }
-    glScissor(0, 0, width_, band_.rows);
+    gl::api().Scissor(0, 0, width_, band_.rows);
     layer_.clear();
 }
 
@@ -250,18 +251,18 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
                           0.5f * static_cast<float>(height_) - static_cast<float>(first_row)));
     if (sum_) {
         sum_->bind();
-        glScissor(0, 0, width_, band_.rows);
+        gl::api().Scissor(0, 0, width_, band_.rows);
         sum_->clear(glm::vec4(0));
-        glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+        gl::api().Enable(GL_BLEND);
+        gl::api().BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
     } else {
         bind_output(level, layer);
         if (level > 0) program.set("node_share", share);
     }
-    glViewport(0, -first_row, width_, height_);
+    gl::api().Viewport(0, -first_row, width_, height_);
     march(program, next_leaf_++);
     if (sum_) {
-        glDisable(GL_BLEND);
+        gl::api().Disable(GL_BLEND);
         bind_output(level, layer);
         sum_->color().bind(sum_unit);
         gl::Program& encode = program_for(level, encode_, root_encode_);
@@ -270,7 +271,7 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
         gl::draw_full_screen(encode, no_attributes_);
     }
     if (progress_ != nullptr) {
-        glFinish();
+        gl::api().Finish();
         progress_->advance();
     }
     check_interrupt();
@@ -284,8 +285,8 @@ void GlShaderTree::march(gl::Program& program, std::size_t leaf) {
         const LeafDraw& draw = leaf_draws_[i];
         if (draw.end_vertex == draw.first_vertex) continue;
         source_.set_brick(program, *view_, slabs_, draw.brick);
-        glDrawArrays(GL_TRIANGLES, static_cast<int>(draw.first_vertex),
-                     static_cast<int>(draw.end_vertex - draw.first_vertex));
+        gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(draw.first_vertex),
+                             static_cast<int>(draw.end_vertex - draw.first_vertex));
     }
 }
 

@@ -31,6 +31,9 @@ class GlShaderTree {
                  const Capabilities& capabilities, int width, int height);
 
     int step_count() const { return bands() * leaf_count_; }  // of the progress
+    // After source and plan have changed in what belongs to one view alone: makes other programs
+    // where that needs them.
+    void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Replaces the target by the picture. Ctrl-C ends it between leaves.
     void draw(gl::Framebuffer& target, Progress* progress);
@@ -53,6 +56,7 @@ class GlShaderTree {
     int count_leaves(int level, const SampleSpan& node) const;
     int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
     void choose_bands(const Capabilities& capabilities, std::int64_t layers, int most_layers);
+    NodePlace leaf_place() const { return images_.empty() ? NodePlace::root : NodePlace::inner; }
     void make_programs();
     gl::Program make_program(const char* fragment, const gl::Defines& defines);
 
@@ -69,6 +73,7 @@ class GlShaderTree {
     const SlicePlan& plan_;
     TreeShape shape_;
     int width_, height_, band_rows_ = 0, leaf_count_ = 0;
+    gl::Defines defines_;  // of the leaves' program
     std::optional<gl::Program> leaf_, root_leaf_, node_, root_node_, encode_, root_encode_;
     std::vector<LevelImages> images_;     // of the children of inner nodes, by level
     std::optional<gl::Framebuffer> sum_;  // of a leaf over several bricks

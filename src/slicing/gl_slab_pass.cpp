@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "executors/gl_compositing.h"
+#include "gl/api.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -56,16 +58,29 @@ void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffe
 GlSlabPass::GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height)
     : source_(source),
       plan_(plan),
-      program_("slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, source.defines())) {
+      image_height_(image_height),
+      defines_(slab_defines(plan, source.defines())),
+      program_("slicing/slab.vert", "slicing/slab.frag", defines_) {
+    if (plan_.dither) ranks_ = upload_ranks(*plan_.dither);
+    set_up_program();
+}
+
+void GlSlabPass::take_plan() {
+    gl::Defines wanted = slab_defines(plan_, source_.defines());
+    if (wanted == defines_) return;
+    program_ = gl::Program("slicing/slab.vert", "slicing/slab.frag", wanted);
+    defines_ = std::move(wanted);
+    set_up_program();
+}
+
+void GlSlabPass::set_up_program() {
     source_.bind(program_);
     if (plan_.blending == Blending::barrier) program_.set("target", target_unit);
     if (plan_.emulation) {
-        program_.set("image_rows", image_height);
+        program_.set("image_rows", image_height_);
         program_.set("seed", static_cast<int>(plan_.emulation->seed));
     }
-    if (!plan_.dither) return;
-    ranks_ = upload_ranks(*plan_.dither);
-    program_.set("dither_ranks", ranks_unit);
+    if (plan_.dither) program_.set("dither_ranks", ranks_unit);
 }
 
 void GlSlabPass::set_view(const View& view, const Slabs& slabs) {
@@ -109,7 +124,8 @@ void GlSlabPass::draw_brick(std::size_t place, const SampleSpan& span) {
     const auto draw_slabs = [&](int from, int count) {
         const std::size_t begin = starts[from], end = starts[from + count];
         if (end > begin) {
-            glDrawArrays(GL_TRIANGLES, static_cast<int>(begin), static_cast<int>(end - begin));
+            gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(begin),
+                                 static_cast<int>(end - begin));
         }
     };
     if (plan_.blending != Blending::barrier) {

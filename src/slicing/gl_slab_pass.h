@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "executors/tree_leaves.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "slicing/gl_slab_source.h"
-#include "executors/tree_leaves.h"
 
 namespace lamina {
 
@@ -23,16 +23,22 @@ class GlSlabPass : public TreeLeaves {
     // `source` and `plan` must outlive it.
     GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height);
 
+    // After source and plan have changed in what belongs to one view alone: makes another program
+    // where that needs one.
+    void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     // Onto the target, in the plan's order. `depth_scale`: of a leaf, samples of the ray over its
     // own.
     void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
 
   private:
+    void set_up_program();
     void draw_brick(std::size_t place, const SampleSpan& span);
 
     const GlSlabSource& source_;
     const SlicePlan& plan_;
+    int image_height_;
+    gl::Defines defines_;  // of the program
     gl::Program program_;
     gl::Texture ranks_;  // of dithering
     gl::VertexArray vertex_array_;

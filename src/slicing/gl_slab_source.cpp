@@ -6,14 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "base/stage.h"
 #include "base/unreachable.h"
-#include "gl/check.h"
-#include "optics/linear_pieces.h"
+#include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
-#include "executors/shader_intervals.h"
+#include "gl/api.h"
+#include "gl/check.h"
+#include "optics/linear_pieces.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -69,12 +71,14 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
 }
 
 GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                           const Facts& facts, const SlicePlan& plan)
+                           const Facts& facts, const SlicePlan& plan,
+                           std::shared_ptr<const VolumeTextures> ready)
     : facts_(facts),
       plan_(plan),
       range_(drawn_range(transfer_function, facts.range)),
       single_color_(first_color(transfer_function, range_.lo, range_.hi)),
-      constant_(transfer_function.at(range_.lo)) {
+      constant_(transfer_function.at(range_.lo)),
+      volume_(std::move(ready)) {
     facts_.grid = in_units(facts.grid, plan.unit);
     Stage tables("tables");
     if (plan_.sampling != VolumeSampling::none) {
@@ -82,12 +86,21 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
                         plan_.table_filtered, sampled_step_advance);
     }
     table_ms_ = tables.end();
+    take_plan(plan);
+    if (plan_.sampling == VolumeSampling::none) return;
+    normalisation_ = normalisation(volume, range_, plan_);
+    if (volume_ && volume_->serves(volume, range_, plan_)) return;
     Stage upload("upload");
-    volume_ = upload_volume(volume, range_, plan);
-    if (plan_.occupied_only) distances_.emplace(upload_distances(facts_.occupied_bricks));
-    glFinish();
+    volume_ = std::make_shared<VolumeTextures>(volume, range_, plan_);
+    gl::api().Finish();
     upload_ms_ = upload.end();
     gl::check("uploading the volume");
+}
+
+void GlSlabSource::take_plan(const SlicePlan& plan) {
+    plan_ = plan;
+    if (plan_.occupied_only && !distances_)
+        distances_.emplace(upload_distances(facts_.occupied_bricks));
 }
 
 gl::Defines GlSlabSource::defines() const {
@@ -98,7 +111,7 @@ gl::Defines GlSlabSource::defines() const {
 void GlSlabSource::bind(gl::Program& program) const {
     program.set("single_color", single_color_);
     if (plan_.ends_early()) program.set("opaque_depth", static_cast<float>(plan_.opaque_depth));
-    if (distances_) {
+    if (plan_.occupied_only) {
         distances_->bind(distances_unit);
         program.set("distances", distances_unit);
         program.set("brick_edge", static_cast<float>(MinMaxBricks::edge));
@@ -129,7 +142,7 @@ void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs&
     const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
     program.set("image_size", size);
     program.set("image_middle", 0.5f * size);
-    program.set("normalisation", volume_.normalisation);
+    program.set("normalisation", normalisation_);
     const double thickness = (slabs.far - slabs.near) / slabs.count;
     if (plan_.precise_rays) {
         program.set("slab_thickness", thickness);
@@ -156,12 +169,12 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     const IndexBox box = box_of(texture, facts_.grid);
     set_real(program, "origin_middle",
              facts_.grid.to_index(view.eye + slabs.near * view.forward) - first);
-    if (distances_) program.set("first_sample", glm::vec3(first));
+    if (plan_.occupied_only) program.set("first_sample", glm::vec3(first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
-    if (!volume_.bricks.empty()) volume_.bricks[brick].bind(GlTransferTables::first_free_unit);
+    if (tables_) volume_->bricks()[brick].bind(GlTransferTables::first_free_unit);
 }
 
 IndexBox GlSlabSource::drawn_box(std::size_t brick) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "executors/gl_transfer_tables.h"
@@ -24,11 +25,14 @@ class GlSlabSource {
   public:
     static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;  // of textures
 
-    // Uploads the volume and builds the tables. The transfer function is in the plan's units, as
-    // views are; facts are the world's.
+    // Uploads the volume where `ready` does not serve, and builds the tables. The transfer function
+    // is in the plan's units, as views are; facts are the world's.
     GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                 const Facts& facts, const SlicePlan& plan);
+                 const Facts& facts, const SlicePlan& plan,
+                 std::shared_ptr<const VolumeTextures> ready);
 
+    // For further frames, a plan that differs in what belongs to one view alone.
+    void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
     // The programs' uniforms: those that stay; those of a view; those of one of the plan's bricks.
@@ -41,6 +45,8 @@ class GlSlabSource {
     IndexBox drawn_box(std::size_t brick) const;
     const Grid& grid() const { return facts_.grid; }
     const glm::vec3& single_color() const { return single_color_; }
+    // Where no scalar is fetched, that of another renderer, or null.
+    std::shared_ptr<const VolumeTextures> volume() const { return volume_; }
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
 
@@ -53,8 +59,9 @@ class GlSlabSource {
     glm::vec3 single_color_{0};
     OpticalProperties constant_;              // where no scalar is fetched
     std::optional<GlTransferTables> tables_;  // elsewhere
-    VolumeTextures volume_;
-    std::optional<gl::Texture> distances_;  // of OccupiedBricks, where the plan leaps by them
+    std::shared_ptr<const VolumeTextures> volume_;
+    glm::vec2 normalisation_{1, 0};
+    std::optional<gl::Texture> distances_;  // of OccupiedBricks, once a plan leaps by them
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

@@ -3,22 +3,30 @@
 
 #include <glad/gl.h>
 
+#include <utility>
+
 #include "base/interrupt.h"
 #include "base/stage.h"
-#include "gl/check.h"
-#include "facts/world_unit.h"
 #include "executors/gl_compositing.h"
+#include "facts/world_unit.h"
+#include "gl/api.h"
+#include "gl/check.h"
 
 namespace lamina {
 
 GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                                  const Facts& facts, const SlicePlan& plan,
-                                 const Capabilities& capabilities, int width, int height)
+                                 const Capabilities& capabilities, int width, int height,
+                                 std::shared_ptr<const VolumeTextures> ready)
     : plan_(plan),
       grid_(in_units(facts.grid, plan.unit)),
       target_(gl::Texture::make_2d(color_format(plan), width, height)) {
-    if (plan_.nothing_visible) return;
-    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_);
+    if (plan_.nothing_visible) {
+        kept_ = std::move(ready);
+        return;
+    }
+    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_,
+                    std::move(ready));
     if (plan_.has_tree(NodeArithmetic::shader)) {
         shader_tree_.emplace(*source_, plan_, capabilities, width, height);
         return;
@@ -30,9 +38,17 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
     }
 }
 
-// Programs are made for what belongs to a view, too.
+// Where nothing was visible, nothing was made.
 bool GlSliceRenderer::take(const Plan& plan) {
-    return without_remarks(plan.slice) == without_remarks(plan_);
+    const SlicePlan& slice = plan.slice;
+    if ((!source_ && !slice.nothing_visible) || of_all_views(slice) != of_all_views(plan_))
+        return false;
+    plan_ = slice;
+    if (plan_.nothing_visible) return true;
+    source_->take_plan(plan_);
+    if (slabs_) slabs_->take_plan();
+    if (shader_tree_) shader_tree_->take_plan();
+    return true;
 }
 
 int GlSliceRenderer::step_count() const {
@@ -46,7 +62,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     target_.bind();
     target_.clear(glm::vec4(0));
     geometry_ms_ = draw_ms_ = 0;
-    if (!source_) return;
+    if (!source_ || plan_.nothing_visible) return;
     Stage geometry("geometry");
     const DepthRange depth = depth_range(grid_, view);
     if (depth.far <= depth.near) return;
@@ -63,7 +79,7 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
         draw_straight(progress);
     }
     timeline_.end();
-    glFinish();
+    gl::api().Finish();
     draw_ms_ = drawing.end();
     timeline_.collect();
     gl::check("drawing the slabs");
@@ -77,16 +93,15 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
         const SampleSpan part =
             child_span(all, front_to_back ? batch : plan_.batches - 1 - batch, plan_.batches);
         if (part.count > 0) slabs_->draw(part, target_, 1);
-        glFinish();
+        gl::api().Finish();
         check_interrupt();
         if (progress != nullptr) progress->advance();
     }
 }
 
-Image GlSliceRenderer::read() const {
-    Image image = target_.read_back();
+void GlSliceRenderer::read(Image& image) const {
+    target_.read_back(image);
     if (plan_.emulation) decode(image, plan_);
-    return image;
 }
 
 std::map<std::string, double> GlSliceRenderer::stages_ms() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "base/progress.h"
@@ -19,18 +20,25 @@ namespace lamina {
 // Draws a volume as the plan says, in the current OpenGL context, which must outlive it.
 class GlSliceRenderer : public FrameRenderer {
   public:
-    // Uploads the volume, builds the tables and compiles the programs; errors of OpenGL are Errors.
+    // Uploads the volume, builds the tables and compiles the programs that the context has not got;
+    // errors of OpenGL are Errors. `ready`: volume() of another renderer, taken over where it
+    // serves.
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                     const Facts& facts, const SlicePlan& plan, const Capabilities& capabilities,
-                    int width, int height);
+                    int width, int height, std::shared_ptr<const VolumeTextures> ready = nullptr);
     GlSliceRenderer(const GlSliceRenderer&) = delete;  // its parts refer to its plan
     GlSliceRenderer& operator=(const GlSliceRenderer&) = delete;
 
     bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
-    Image read() const override;
+    using FrameRenderer::read;
+    void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
+
+    std::shared_ptr<const VolumeTextures> volume() const {
+        return source_ ? source_->volume() : kept_;
+    }
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }
@@ -50,6 +58,7 @@ class GlSliceRenderer : public FrameRenderer {
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
     gl::Timeline timeline_;
+    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer, where this needs none
     double geometry_ms_ = 0, draw_ms_ = 0;
 };
 

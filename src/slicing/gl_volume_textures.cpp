@@ -80,35 +80,45 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
     }
 }
 
-// Codes read as code / max_code; int16 codes are shifted to begin at 0.
-glm::vec2 normalisation_of(SampleType type, const ValueRange& range) {
-    const double max_code = type == SampleType::uint8 ? 255 : 65535;
-    const double shift = type == SampleType::int16 ? 32768 : 0;
-    const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
-    return {static_cast<float>(max_code * scale), static_cast<float>(-(range.lo + shift) * scale)};
-}
-
 }  // namespace
 
-VolumeTextures upload_volume(const Volume& volume, const ValueRange& range, const SlicePlan& plan) {
-    VolumeTextures textures;
-    if (plan.sampling == VolumeSampling::none) return textures;
+VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
+    : volume_(volume),
+      range_(range),
+      parts_(plan.bricks),
+      float_texture_(plan.float_texture),
+      filtered_(plan.sampling != VolumeSampling::fetch) {
     std::int64_t layers = 0;
-    for (const TextureBrick& brick : plan.bricks) layers += brick.size[2];
+    for (const TextureBrick& brick : parts_) layers += brick.size[2];
     Progress progress("uploading the volume", layers);
-    const gl::TextureFormat format = plan.float_texture                   ? gl::TextureFormat::r32f
+    const gl::TextureFormat format = float_texture_                       ? gl::TextureFormat::r32f
                                      : volume.type() == SampleType::uint8 ? gl::TextureFormat::r8
                                                                           : gl::TextureFormat::r16;
-    if (!plan.float_texture) textures.normalisation = normalisation_of(volume.type(), range);
-    for (const TextureBrick& brick : plan.bricks) {
+    for (const TextureBrick& brick : parts_) {
         gl::Texture texture =
             gl::Texture::make_3d(format, static_cast<int>(brick.size[0]),
                                  static_cast<int>(brick.size[1]), static_cast<int>(brick.size[2]));
-        if (plan.sampling != VolumeSampling::fetch) texture.set_filter(gl::TextureFilter::linear);
-        upload_brick(volume, range, plan.float_texture, brick, texture, progress);
-        textures.bricks.push_back(std::move(texture));
+        if (filtered_) texture.set_filter(gl::TextureFilter::linear);
+        upload_brick(volume, range, float_texture_, brick, texture, progress);
+        bricks_.push_back(std::move(texture));
     }
-    return textures;
+}
+
+// Codes are as they are in the volume, whatever its range.
+bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
+                            const SlicePlan& plan) const {
+    return volume.data() == volume_.data() && plan.bricks == parts_ &&
+           plan.float_texture == float_texture_ && (!float_texture_ || range == range_) &&
+           (plan.sampling != VolumeSampling::fetch) == filtered_;
+}
+
+// Codes read as code / max_code; int16 codes are shifted to begin at 0.
+glm::vec2 normalisation(const Volume& volume, const ValueRange& range, const SlicePlan& plan) {
+    if (plan.float_texture) return {1, 0};
+    const double max_code = volume.type() == SampleType::uint8 ? 255 : 65535;
+    const double shift = volume.type() == SampleType::int16 ? 32768 : 0;
+    const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
+    return {static_cast<float>(max_code * scale), static_cast<float>(-(range.lo + shift) * scale)};
 }
 
 }  // namespace lamina

@@ -12,13 +12,25 @@
 namespace lamina {
 
 // The volume as 3D textures, one a brick of the plan.
-struct VolumeTextures {
-    std::vector<gl::Texture> bricks;
-    glm::vec2 normalisation{
-        1, 0};  // scale and offset from what a shader reads to scalars with `range` as [0, 1]
+class VolumeTextures {
+  public:
+    // Samples that are no finite numbers become NaN. Shows progress.
+    VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
+
+    // Whether it is what the constructor would make.
+    bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
+
+    const std::vector<gl::Texture>& bricks() const { return bricks_; }
+
+  private:
+    Volume volume_;
+    ValueRange range_;
+    std::vector<TextureBrick> parts_;
+    bool float_texture_, filtered_;
+    std::vector<gl::Texture> bricks_;
 };
 
-// Samples that are no finite numbers become NaN. Shows progress.
-VolumeTextures upload_volume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
+// Scale and offset from what a shader reads to scalars with `range` as [0, 1].
+glm::vec2 normalisation(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
 }  // namespace lamina

@@ -17,8 +17,10 @@ std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
                                                    height, TileVolume::largest_copy,
                                                    tiles ? tiles->volume() : nullptr);
     }
+    const auto* const textures = dynamic_cast<const GlSliceRenderer*>(before);
     return std::make_unique<GlSliceRenderer>(volume, transfer_function, facts, plan, capabilities,
-                                             width, height);
+                                             width, height,
+                                             textures ? textures->volume() : nullptr);
 }
 
 }  // namespace lamina

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/tile_slice_renderer.h"
 
+#include <utility>
+
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "facts/world_unit.h"
@@ -36,7 +38,10 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
       grid_(in_units(facts.grid, plan.unit)),
       target_(width, height),
       blend_(target_blend(plan)) {
-    if (plan_.nothing_visible) return;
+    if (plan_.nothing_visible) {
+        kept_ = std::move(ready);
+        return;
+    }
     source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_, largest_copy,
                     std::move(ready));
     if (plan_.tree) shape_.emplace(plan_.tree->factors, plan_.slabs);
@@ -87,8 +92,8 @@ std::int64_t TileSliceRenderer::draw_tile(int number) {
     return leaves.samples();
 }
 
-Image TileSliceRenderer::read() const {
-    return target_.to_image(blend_.largest);
+void TileSliceRenderer::read(Image& image) const {
+    target_.read(blend_.largest, image);
 }
 
 std::int64_t TileSliceRenderer::byte_count() const {

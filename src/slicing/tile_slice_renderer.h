@@ -31,13 +31,12 @@ class TileSliceRenderer : public FrameRenderer {
     // Steps are tiles. Takes no memory after the first frame.
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override { return source_ ? target_.grid().count() : 0; }
-    Image read() const override;
+    using FrameRenderer::read;
+    void read(Image& image) const override;
     std::map<std::string, double> stages_ms() const override;
     std::int64_t fragments() const override { return samples_; }
 
-    std::shared_ptr<const TileVolume> volume() const {
-        return source_ ? source_->volume() : nullptr;
-    }
+    std::shared_ptr<const TileVolume> volume() const { return source_ ? source_->volume() : kept_; }
 
     double upload_ms() const { return source_ ? source_->upload_ms() : 0; }
     double table_ms() const { return source_ ? source_->table_ms() : 0; }
@@ -57,6 +56,7 @@ class TileSliceRenderer : public FrameRenderer {
     std::optional<TreeShape> shape_;
     std::optional<TileFixedTree> fixed_tree_;
     std::atomic<std::int64_t> samples_{0};
+    std::shared_ptr<const TileVolume> kept_;  // for another renderer, where this needs none
     double geometry_ms_ = 0, draw_ms_ = 0;
 };
 

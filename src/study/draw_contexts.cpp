@@ -9,10 +9,13 @@ const Capabilities& DrawContexts::use(const std::string& word) {
     const ContextChoice choice = context_choice(word);
     if (choice != ContextChoice::cpu) {
         before_switch_();
+        current_.reset();
         std::erase_if(contexts_,
                       [](const auto& context) { return !context.second.capabilities().tiles; });
     }
-    return contexts_.try_emplace(word, choice).first->second.capabilities();
+    const DrawContext& context = contexts_.try_emplace(word, choice).first->second;
+    if (!context.capabilities().tiles) current_ = context.make_current();
+    return context.capabilities();
 }
 
 }  // namespace lamina::study

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "render/draw_context.h"
@@ -10,7 +11,7 @@
 namespace lamina::study {
 
 // Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
-// there at a time (gl/context.h).
+// there at a time, current in the thread that asked for it.
 class DrawContexts {
   public:
     // `before_switch`: called before the one with OpenGL goes; its renderers must be gone after.
@@ -26,6 +27,7 @@ class DrawContexts {
   private:
     std::function<void()> before_switch_;
     std::map<std::string, DrawContext> contexts_;
+    std::unique_ptr<gl::CurrentContext> current_;
 };
 
 }  // namespace lamina::study

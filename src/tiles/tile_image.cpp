@@ -8,8 +8,8 @@ namespace lamina {
 TileImage::TileImage(int width, int height)
     : grid_(width, height), tiles_(static_cast<std::size_t>(grid_.count())) {}
 
-Image TileImage::to_image(float largest_code) const {
-    Image image(grid_.width(), grid_.height());
+void TileImage::read(float largest_code, Image& image) const {
+    image.resize(grid_.width(), grid_.height());
     for (int number = 0; number < grid_.count(); ++number) {
         const TileGrid::Tile area = grid_.tile(number);
         const TilePixels& pixels = tile(number);
@@ -24,7 +24,6 @@ Image TileImage::to_image(float largest_code) const {
             }
         }
     }
-    return image;
 }
 
 }  // namespace lamina

@@ -30,7 +30,7 @@ class TileImage {
     TilePixels& tile(int number) { return tiles_[static_cast<std::size_t>(number)]; }
     const TilePixels& tile(int number) const { return tiles_[static_cast<std::size_t>(number)]; }
     // `largest_code`: what stands for 1; 1 where the tiles hold values.
-    Image to_image(float largest_code) const;
+    void read(float largest_code, Image& image) const;
     std::int64_t byte_count() const {
         return static_cast<std::int64_t>(tiles_.size() * sizeof(TilePixels));
     }

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "mesh/eye.h"
+#include "mesh/tet_mesh.h"
 #include "visibility/farthest_first.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
-#include "mesh/tet_mesh.h"
 
 namespace lamina {
 
@@ -48,6 +48,7 @@ class VisibilityOrder {
         const Eye& eye, const std::function<void()>& meanwhile = [] {});
     std::span<const std::int32_t> order() const { return order_; }  // of the last sort()
 
+    OrderMethod method() const { return method_; }
     const OrderReport& report() const { return report_; }
     // Number of the cycle that holds the tet in the last sort(), below report().cycles, or -1.
     std::int32_t cycle_of(std::int32_t tet) const { return cycles_.component(tet); }

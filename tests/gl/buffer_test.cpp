@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "gl/vertex_array.h"
@@ -92,7 +93,8 @@ TEST_F(BufferTest, FeedsVertexAttributesAndIndices) {
     target.bind();
     array.bind();
     program.use();
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners.size()), GL_UNSIGNED_INT, nullptr);
+    api().DrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners.size()), GL_UNSIGNED_INT,
+                       nullptr);
     const Image image = target.read_back();
     for (int y = 0; y < 5; ++y) {
         for (int x = 0; x < 6; ++x) EXPECT_EQ(image.pixel(x, y)[0], x < 3 ? 3.0f : 7.0f);

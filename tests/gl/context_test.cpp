@@ -3,16 +3,24 @@
 
 #include <glad/gl.h>
 
+#include <array>
+#include <barrier>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "base/error.h"
+#include "gl/api.h"
 #include "gl/check.h"
 #include "gl/filter_probe.h"
 #include "gl/framebuffer.h"
+#include "gl/full_screen.h"
 #include "gl/shared_library.h"
 #include "gl_fixture.h"
+#include "support/expect_error.h"
 
 namespace lamina::gl {
 namespace {
@@ -78,7 +86,7 @@ TEST_P(AnyContext, MeasuresTheFiltersOfCodes) {
 }
 
 TEST_P(AnyContext, TurnsErrorsIntoExceptions) {
-    glEnable(GL_TEXTURE_2D);  // not in the core profile
+    api().Enable(GL_TEXTURE_2D);  // not in the core profile
     try {
         check("testing");
         FAIL() << "no exception";
@@ -103,9 +111,98 @@ TEST(Context, AlternatesBetweenOsmesaAndEgl) {
     for (int round = 0; round < 3; ++round) {
         for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl}) {
             const auto context = Context::create(kind);
+            const CurrentContext current(*context);
             const float value = static_cast<float>(round) + 0.25f;
             EXPECT_EQ(cleared_value(value), value) << context->capabilities().renderer;
         }
+    }
+}
+
+// Draws picture after picture, each another, and counts the pixels that are not what they must be:
+// sums of small integers, which float32 holds exactly.
+int wrong_pixels(Context& context, int first_value, std::barrier<>& together) {
+    const CurrentContext current(context);
+    Program program = full_screen_program(
+        "#version 450 core\n"
+        "uniform float value;\n"
+        "out vec4 color;\n"
+        "void main() { color = vec4(value + floor(gl_FragCoord.x) + floor(gl_FragCoord.y)); }\n");
+    Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 37, 23));
+    int wrong = 0;
+    for (int round = 0; round < 100; ++round) {
+        together.arrive_and_wait();
+        program.set("value", static_cast<float>(first_value + round));
+        target.bind();
+        draw_full_screen(program);
+        const Image image = target.read_back();
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const int exact = first_value + round + x + image.height - 1 - y;
+                wrong += image.pixel(x, y)[1] != static_cast<float>(exact);
+            }
+        }
+    }
+    return wrong + (bytes_allocated() != 37 * 23 * 16);
+}
+
+TEST(Context, TwoInTwoThreadsDrawWhatEachIsToldTo) {
+    using Pair = std::pair<ContextKind, ContextKind>;
+    for (const auto& [kind, other_kind] :
+         {Pair{ContextKind::osmesa, ContextKind::osmesa},
+          Pair{ContextKind::osmesa, ContextKind::egl}, Pair{ContextKind::egl, ContextKind::egl}}) {
+        if (other_kind == ContextKind::egl && !has_egl()) GTEST_SKIP() << "no libEGL.so.1";
+        const auto context = Context::create(kind);
+        std::barrier together(2);
+        int others_wrong = -1;
+        std::thread other([&] {
+            const auto own = Context::create(other_kind);  // while this thread draws nothing
+            others_wrong = wrong_pixels(*own, 5000, together);
+        });
+        EXPECT_EQ(wrong_pixels(*context, 0, together), 0);
+        other.join();
+        EXPECT_EQ(others_wrong, 0);
+    }
+}
+
+TEST(Context, GoesFromThreadToThread) {
+    const auto context = Context::create(ContextKind::osmesa);
+    std::optional<Texture> texture;
+    std::thread([&] {
+        const CurrentContext current(*context);
+        texture = Texture::make_1d(TextureFormat::r8, 3);
+        const std::array<std::uint8_t, 3> texels{255, 0, 255};
+        texture->upload({.width = 3}, std::span<const std::uint8_t>(texels));
+    }).join();
+    const CurrentContext current(*context);
+    EXPECT_EQ(texture->read_rgba()[8], 1.f);
+    std::thread([&] {
+        expect_error([&] { const CurrentContext other(*context); }, {"current in another thread"});
+    }).join();
+    texture.reset();
+}
+
+// Objects of both have the same numbers.
+TEST(Context, SomeTakeTurnsInOneThread) {
+    const auto outer = Context::create(ContextKind::osmesa);
+    const auto inner = Context::create(has_egl() ? ContextKind::egl : ContextKind::osmesa);
+    EXPECT_EQ(current_context(), nullptr);
+    const CurrentContext current(*outer);
+    Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 3, 2));
+    target.clear(glm::vec4(.5));
+    for (int round = 0; round < 3; ++round) {
+        {
+            const CurrentContext other(*inner);
+            EXPECT_EQ(bytes_allocated(), 0);
+            const float value = static_cast<float>(round) + 0.25f;
+            EXPECT_EQ(cleared_value(value), value);
+            const CurrentContext back(*outer);
+            EXPECT_EQ(target.read_back().pixel(2, 1)[3], .5f);
+            const CurrentContext again(*outer);
+            EXPECT_EQ(current_context(), outer.get());
+        }
+        EXPECT_EQ(current_context(), outer.get());
+        EXPECT_EQ(bytes_allocated(), 3 * 2 * 16);
+        EXPECT_EQ(target.read_back().pixel(2, 1)[3], .5f);
     }
 }
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "gl/context.h"
+#include "gl/current_context.h"
 #include "gl/memory.h"
 #include "gl/program.h"
 #include "gl/shader_files.h"
@@ -27,16 +27,17 @@ inline bool has_egl() {
 template <typename Base>
 class ContextTest : public Base {
   protected:
-    void make_context(ContextKind kind) { context_ = Context::create(kind); }
-    void TearDown() override {
-        EXPECT_EQ(bytes_allocated(), 0);
-        context_.reset();
+    void make_context(ContextKind kind) {
+        context_ = Context::create(kind);
+        current_.emplace(*context_);
     }
+    void TearDown() override { EXPECT_EQ(bytes_allocated(), 0); }
 
     const Capabilities& capabilities() const { return context_->capabilities(); }
 
   private:
     std::unique_ptr<Context> context_;
+    std::optional<CurrentContext> current_;
 };
 
 // With an OSMesa context, which draws the same everywhere.

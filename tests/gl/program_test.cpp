@@ -2,8 +2,10 @@
 #include "gl/program.h"
 
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "gl/current_context.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "gl_fixture.h"
@@ -135,6 +137,60 @@ TEST_P(ProgramTest, LinkErrorsNameBothShaders) {
     EXPECT_EQ(message.rfind("shaders gl/full_screen.vert + test.frag do not link: ", 0), 0u)
         << message;
     EXPECT_NE(message.find("missing"), std::string::npos) << message;
+}
+
+constexpr const char* constant_shader =
+    "#version 450 core\n"
+    "uniform float value;\n"
+    "uniform vec3 other;\n"
+    "out vec4 color;\n"
+    "void main() { color = vec4(value, other); }\n";
+
+glm::vec4 drawn_by(const Program& program) {
+    const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 1, 1));
+    target.bind();
+    draw_full_screen(program);
+    const std::vector<float> rgba = target.color().read_rgba();
+    return {rgba[0], rgba[1], rgba[2], rgba[3]};
+}
+
+TEST_P(ProgramTest, ProgramsOfOneTextAreCompiledOnceAndHaveUniformsOfTheirOwn) {
+    const ProgramCache& cache = current_context()->programs();
+    const int before = cache.compiled();
+    Program first = full_screen_program(constant_shader);
+    Program second = full_screen_program(constant_shader);
+    EXPECT_EQ(cache.compiled(), before + 1);
+    EXPECT_EQ(first.id(), second.id());
+    first.set("value", 1.f);
+    first.set("other", glm::vec3(2, 3, 4));
+    second.set("value", 5.f);
+    for (int round = 0; round < 2; ++round) {
+        EXPECT_EQ(drawn_by(first), glm::vec4(1, 2, 3, 4));
+        EXPECT_EQ(drawn_by(second), glm::vec4(5, 0, 0, 0));
+    }
+    first.set("value", 7.f);  // while OpenGL has the other's
+    EXPECT_EQ(drawn_by(first), glm::vec4(7, 2, 3, 4));
+    EXPECT_EQ(drawn_by(full_screen_program(constant_shader)), glm::vec4(0));
+    EXPECT_EQ(drawn_by(second), glm::vec4(5, 0, 0, 0));
+    EXPECT_EQ(cache.compiled(), before + 1);
+}
+
+TEST_P(ProgramTest, TheProgramUsedLongestAgoIsForgotten) {
+    const ProgramCache& cache = current_context()->programs();
+    Program kept = full_screen_program(constant_shader, Defines{}.set("NUMBER", 0));
+    kept.set("value", 6.f);
+    const int before = cache.compiled();
+    const int most = static_cast<int>(ProgramCache::most_programs);
+    for (int number = 1; number <= most; ++number) {
+        full_screen_program(constant_shader, Defines{}.set("NUMBER", number));
+        full_screen_program(constant_shader, Defines{}.set("NUMBER", 1));
+    }
+    EXPECT_EQ(cache.compiled(), before + most);
+    EXPECT_EQ(drawn_by(kept), glm::vec4(6, 0, 0, 0));  // whoever has it keeps it
+    full_screen_program(constant_shader, Defines{}.set("NUMBER", 1));
+    EXPECT_EQ(cache.compiled(), before + most);
+    full_screen_program(constant_shader, Defines{}.set("NUMBER", 0));
+    EXPECT_EQ(cache.compiled(), before + most + 1);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "gl_fixture.h"
@@ -43,7 +44,7 @@ TEST_P(QueryTest, MeasuresTime) {
         "#version 450 core\nout vec4 color;\nvoid main() { color = vec4(1); }\n");
     Query before(Query::Kind::timestamp), after(Query::Kind::timestamp);
     before.stamp();
-    glFlush();
+    api().Flush();
     draw_full_screen(program);
     after.stamp();
     EXPECT_GT(before.result(), 0u);

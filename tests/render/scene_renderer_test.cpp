@@ -11,44 +11,13 @@
 #include <thread>
 
 #include "base/error.h"
-#include "support/split_box.h"
-#include "support/transfer_functions.h"
+#include "renderer_scenes.h"
 #include "tiles/tile_capabilities.h"
-#include "volume/generate.h"
 
 namespace lamina {
 namespace {
 
 using test::knot;
-
-std::shared_ptr<const VolumeData> blobs() {
-    return std::make_shared<const VolumeData>(
-        generate({"gaussians", std::array<std::int64_t, 3>{24, 20, 28}, SampleType::uint8}));
-}
-
-TransferFunction smooth(double extinction) {
-    return TransferFunction::linear(
-        {knot(0, {.1, .2, .6}, 0), knot(60, {.2, .7, .5}, .2 * extinction),
-         knot(130, {.8, .7, .2}, .5 * extinction), knot(255, {1, .2, .1}, extinction)});
-}
-
-Camera orbit(double degrees, double distance = 2.2) {
-    const double angle = degrees * std::numbers::pi / 180;
-    Camera camera;
-    camera.center = glm::dvec3(.5);
-    camera.eye = camera.center + distance * glm::dvec3(std::sin(angle), .4, std::cos(angle));
-    return camera;
-}
-
-Scene volume_scene() {
-    Scene scene;
-    scene.transfer_function = smooth(6);
-    scene.camera = orbit(20);
-    scene.width = 40;
-    scene.height = 30;
-    scene.slice.classification = Classification::preintegrated;
-    return scene;
-}
 
 // One that is given all that the other has chosen.
 Image fresh(SceneRenderer& session, const std::shared_ptr<const VolumeData>& data) {
@@ -169,27 +138,6 @@ TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
     session.set_size(20, 10);
     session.draw();
     EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
-}
-
-Scene mesh_scene() {
-    Scene scene;
-    scene.method = Method::project;
-    scene.transfer_function = TransferFunction::linear(
-        {knot(0, {1, .2, 0}, .1), knot(.4, {1, 1, 0}, 3), knot(1, {0, .3, 1}, 6)});
-    scene.camera = orbit(20);
-    scene.width = 40;
-    scene.height = 30;
-    return scene;
-}
-
-std::shared_ptr<const SceneMesh> split_box() {
-    MeshData data = test::kuhn_box({3, 2, 4}, [](const glm::dvec3& place) {
-        return .5 + .5 * std::sin(9 * place.x + 5 * place.y * place.z);
-    });
-    MeshScalar scalar = data.point_scalars.front();
-    data.point_scalars.clear();
-    return std::make_shared<const SceneMesh>(
-        SceneMesh{TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}});
 }
 
 TEST(SceneRenderer, MeshesLikewise) {

@@ -7,6 +7,7 @@ namespace {
 
 Image render_in(gl::ContextKind kind, const Volume& volume, const Scene& scene) {
     const auto context = gl::Context::create(kind);
+    const gl::CurrentContext current(*context);
     return render(volume, scene, context->capabilities());
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compositing/random_bits.h"
+#include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "gl/gl_fixture.h"
@@ -93,14 +94,14 @@ void composite_both_ways(const TargetBlend& target, F compare) {
         texture.upload({0, 0, 0, edge, edge, 1}, interleaved);
         texture.bind(0);
         drawn.bind();
-        glEnable(GL_BLEND);
+        gl::api().Enable(GL_BLEND);
         if (target.order == Order::back_to_front) {
-            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+            gl::api().BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         } else {
-            glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+            gl::api().BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
         }
         gl::draw_full_screen(program);
-        glDisable(GL_BLEND);
+        gl::api().Disable(GL_BLEND);
         vector_blend(target, {{fragments[0], fragments[1], fragments[2], fragments[3]}},
                      {{computed[0], computed[1], computed[2], computed[3]}});
         compare(drawn.color().read_rgba(), computed, layer);

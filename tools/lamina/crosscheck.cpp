@@ -89,6 +89,7 @@ void run(const CrosscheckOptions& options) {
     restrict_instructions_as_asked();
     make_folder(folder);
     const DrawContext context(choice);
+    const auto current = context.make_current();
     study::CrosscheckSubject subject{std::filesystem::path(options.scene.file).stem().string(),
                                      scene.max_error, study::describe_machine()};
     subject.environment["drivers"] = renderer_and_threads(context.capabilities());

@@ -15,6 +15,7 @@ Plan FrameJob::plan(RenderStats& stats) {
     method_->load(stats);
     Stage opening("context");
     context_.emplace(request_.context);
+    current_ = context_->make_current();
     stats.stages_ms["context"] = opening.end();
     stats.renderer = context_->capabilities().renderer;
     stats.context = renderer_and_threads(context_->capabilities());

@@ -41,6 +41,7 @@ class FrameJob : public RenderJob {
     const RenderRequest request_;
     std::unique_ptr<FrameMethod> method_;
     std::optional<DrawContext> context_;
+    std::unique_ptr<gl::CurrentContext> current_;
     std::unique_ptr<SceneRenderer> session_;
     std::optional<Image> image_;
 };

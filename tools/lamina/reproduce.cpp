@@ -85,6 +85,7 @@ class Stagehand {
         if (item.draw == nullptr) return item.reproduce(folder);
         if (!context_) {
             context_.emplace(make_context_());
+            current_ = context_->make_current();
             stage_.emplace(context_->capabilities());
         }
         return item.draw(folder, *stage_);
@@ -93,6 +94,7 @@ class Stagehand {
   private:
     MakeContext make_context_;
     std::optional<DrawContext> context_;
+    std::unique_ptr<gl::CurrentContext> current_;
     std::optional<Stage> stage_;
 };
 

@@ -50,6 +50,7 @@ int run(const SelftestOptions& options) {
     AtomicFile report(folder / report_name), table_file(folder / table_name);
     const std::string mistake = mistake_asked_for();
     const DrawContext context(choice);
+    const auto current = context.make_current();
     const selftest::PictureMaker maker(context.capabilities(), mistake);
     if (!mistake.empty())
         print_message("lamina: warning: drawing wrongly on purpose: LAMINA_SELFTEST_MISTAKE={}\n",

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "lamina/error.h"
+#include "lamina/error_norms.h"
+#include "support/allocation_count.h"
+#include "support/expect_error.h"
+#include "support/split_box.h"
+#include "support/temporary_folder.h"
+#include "support/transfer_functions.h"
+
+namespace lamina {
+namespace {
+
+using test::knot;
+
+Volume waves(int size) {
+    auto samples = std::make_shared<std::vector<float>>();
+    for (int i = 0; i < size * size * size; ++i)
+        samples->push_back(.5f + .5f * std::sin(.11f * static_cast<float>(i)));
+    Grid grid;
+    grid.size = {size, size, size};
+    const float* const first = samples->data();
+    return {grid, SampleType::float32, {std::move(samples), first}};
+}
+
+Scene scene_for(const Grid::Bounds& box) {
+    Scene scene;
+    scene.transfer_function = TransferFunction::linear(
+        {knot(.2, {1, .2, 0}, 0), knot(.6, {1, 1, 0}, .3), knot(1, {0, .3, 1}, .9)});
+    scene.camera = orbit(box, 25, 15);
+    scene.width = 50;
+    scene.height = 40;
+    return scene;
+}
+
+const SessionOptions native{ContextChoice::cpu, 0};
+
+TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
+    const Volume volume = waves(12);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    const Image picture = session.draw();
+    ASSERT_EQ(picture.width, 50);
+    // samples: auto claims 1 / 255, found on all rays of so small a picture; trace() is good to
+    // 1e-5, .003 / 255.
+    EXPECT_LE(error_of(picture, session.trace()).linf, 1.003);
+    EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
+    EXPECT_GT(session.plan().slabs, 1);
+    EXPECT_LE(session.plan().error, 1);
+    EXPECT_NE(session.explanation().find("slabs"), std::string::npos);
+    EXPECT_EQ(session.statistics().drawn_by.substr(0, 4), "cpu:");
+    EXPECT_TRUE(session.take_warnings().empty());
+}
+
+TEST(Session, DrawsAMeshInMemory) {
+    MeshData box = test::kuhn_box({3, 2, 4}, [](const glm::dvec3& place) {
+        return .5 + .5 * std::sin(9 * place.x + 5 * place.y * place.z);
+    });
+    Scene scene = scene_for({glm::dvec3(0), glm::dvec3(1)});
+    scene.method = Method::project;
+    Session session(scene, std::move(box), native);
+    const Image picture = session.draw();
+    // Opacity in closed form, colour by weights good to 1 / 255 in all but rounding.
+    EXPECT_LE(error_of(picture, session.trace()).linf, 1);
+    EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
+}
+
+TEST(Session, GoesFromMethodToMethodOfOneVolume) {
+    const Volume volume = waves(8);
+    Scene scene = scene_for(volume.grid().bounds());
+    scene.mesh_request = MeshSettings{.kuhn = true};
+    Session session(scene, volume, native);
+    const Image sliced = session.draw();
+    scene.method = Method::project;
+    session.set_scene(scene);
+    const Image projected = session.draw();
+    scene.method = Method::trace;
+    session.set_scene(scene);
+    const Image traced = session.draw();
+    scene.method = Method::slice;
+    session.set_scene(scene);
+    EXPECT_EQ(session.draw().rgba, sliced.rgba);
+    EXPECT_LE(error_of(sliced, traced).linf, 1.003);
+    // Tets are linear between samples, cells trilinear: the pictures are alike, not equal.
+    EXPECT_LT(error_of(projected, traced).linf, 60);
+    EXPECT_GT(error_of(projected, traced).linf, 0);
+    EXPECT_EQ(session.trace().rgba.size(), traced.rgba.size());
+}
+
+TEST(Session, AsksForAsManyThreadsAsItIsGiven) {
+    const Volume volume = waves(8);
+    const Scene scene = scene_for(volume.grid().bounds());
+    Session one(scene, volume, {ContextChoice::cpu, 1}),
+        two(scene, volume, {ContextChoice::cpu, 2});
+    EXPECT_EQ(one.draw().rgba, two.draw().rgba);
+    EXPECT_TRUE(one.statistics().drawn_by.ends_with("1 thread")) << one.statistics().drawn_by;
+    EXPECT_TRUE(two.statistics().drawn_by.ends_with("2 threads")) << two.statistics().drawn_by;
+}
+
+TEST(Session, PicturesOfOneSizeTakeTheMemoryOnce) {
+    const Volume volume = waves(8);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    const float* const first = session.draw().rgba.data();
+    session.set_camera(orbit(volume.grid().bounds(), 40, -10));
+    EXPECT_EQ(session.draw().rgba.data(), first);
+}
+
+TEST(Session, SessionsOfSeveralThreadsDoNotDisturbEachOther) {
+    for (const ContextChoice context : {ContextChoice::cpu, ContextChoice::osmesa}) {
+        const Volume volume = waves(10);
+        const auto draw = [&](double azimuth) {
+            Scene scene = scene_for(volume.grid().bounds());
+            scene.slice.samples = 60;
+            Session session(scene, volume, {context, 1});
+            Image picture;
+            for (int i = 0; i < 5; ++i) {
+                session.set_camera(orbit(volume.grid().bounds(), azimuth + i, 15));
+                picture = session.draw();
+            }
+            return picture;
+        };
+        const Image alone[] = {draw(10), draw(100)};
+        Image beside[2];
+        std::thread other([&] { beside[1] = draw(100); });
+        beside[0] = draw(10);
+        other.join();
+        for (int i = 0; i < 2; ++i) EXPECT_EQ(beside[i].rgba, alone[i].rgba);
+    }
+}
+
+TEST(Session, StopsWhenAskedAndGoesOn) {
+    const Volume volume = waves(10);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW(session.draw(source.get_token()), Interrupted);
+    EXPECT_THROW(session.trace(source.get_token()), Interrupted);
+    Session fresh(scene_for(volume.grid().bounds()), volume, native);
+    EXPECT_EQ(session.draw().rgba, fresh.draw().rgba);
+}
+
+TEST(Session, ReportsHowFarItIs) {
+    const Volume volume = waves(10);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    session.draw();
+    std::vector<double> shares;
+    session.draw({}, [&](const std::string& activity, double share) {
+        EXPECT_EQ(activity, "slicing");
+        shares.push_back(share);
+    });
+    ASSERT_FALSE(shares.empty());
+    EXPECT_EQ(shares.back(), 1);
+}
+
+TEST(Session, RefusesWhatCannotBeDrawn) {
+    const Volume volume = waves(4);
+    Scene scene = scene_for(volume.grid().bounds());
+    scene.width = 0;
+    expect_error([&] { Session(scene, volume, native); },
+                 "image: found 0 x 40 pixels, expected 1 x 1 or more");
+    scene.width = 50;
+    expect_error(
+        [&] {
+            Session(scene, volume, {ContextChoice::cpu, -1});
+        },
+        "threads: found -1, expected 0 (all) or more");
+    expect_error([&] { Session(scene, native); },
+                 "the session has no volume, and its scene names none");
+    Session session(scene, volume, native);
+    const TemporaryFolder folder;
+    expect_error([&] { session.save_resolved_scene(folder / "a.json"); },
+                 "the scene names no data");
+    scene.method = Method::trace;
+    session.set_scene(scene);
+    expect_error([&] { session.plan(); }, "\"trace\" has no plan");
+}
+
+}  // namespace
+}  // namespace lamina

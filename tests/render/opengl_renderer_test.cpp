@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions that draw with OpenGL.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gl/current_context.h"
+#include "projection/gl_project_renderer.h"
+#include "render/draw_context.h"
+#include "render/scene_renderer.h"
+#include "renderer_scenes.h"
+#include "slicing/gl_slice_renderer.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+bool has_egl() {
+    return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL) != nullptr;
+}
+
+struct Frames {
+    std::vector<Image> volume, mesh;
+};
+
+// Of two sessions that take turns in one context.
+Frames draw_frames(gl::ContextKind kind, double first_degrees) {
+    const DrawContext context(kind);
+    const auto current = context.make_current();
+    SceneRenderer volume(volume_scene(), blobs(), context.capabilities());
+    SceneRenderer mesh(mesh_scene(), split_box(), context.capabilities());
+    Frames frames;
+    for (int frame = 0; frame < 6; ++frame) {
+        const Camera camera = orbit(first_degrees + 25 * frame);
+        volume.set_camera(camera);
+        mesh.set_camera(camera);
+        frames.volume.push_back(volume.draw_picture());
+        frames.mesh.push_back(mesh.draw_picture());
+    }
+    return frames;
+}
+
+void expect_equal(const Frames& drawn, const Frames& alone) {
+    for (std::size_t frame = 0; frame < alone.mesh.size(); ++frame) {
+        EXPECT_EQ(drawn.volume[frame].rgba, alone.volume[frame].rgba) << frame;
+        EXPECT_EQ(drawn.mesh[frame].rgba, alone.mesh[frame].rgba) << frame;
+    }
+}
+
+TEST(OpenGlSessions, SomeInTwoThreadsDrawWhatEachDrawsAlone) {
+    const auto osmesa = gl::ContextKind::osmesa;
+    const auto other_kind = has_egl() ? gl::ContextKind::egl : osmesa;
+    const Frames alone = draw_frames(osmesa, 20);
+    const Frames alone_turned = draw_frames(osmesa, 200);
+    const Frames alone_elsewhere = draw_frames(other_kind, 200);
+    EXPECT_NE(alone.volume[0].rgba, alone_turned.volume[0].rgba);
+    for (int round = 0; round < 3; ++round) {
+        Frames turned, elsewhere;
+        std::thread second([&] { turned = draw_frames(osmesa, 200); });
+        std::thread third([&] { elsewhere = draw_frames(other_kind, 200); });
+        const Frames first = draw_frames(osmesa, 20);
+        second.join();
+        third.join();
+        expect_equal(first, alone);
+        expect_equal(turned, alone_turned);
+        expect_equal(elsewhere, alone_elsewhere);
+    }
+}
+
+TransferFunction one_colored(double extinction) {
+    return TransferFunction::linear(
+        {test::knot(0, {.1, .2, .6}, 0), test::knot(255, {.1, .2, .6}, extinction)});
+}
+
+auto textures_of(SceneRenderer& session) {
+    return dynamic_cast<const GlSliceRenderer&>(session.renderer()).volume();
+}
+
+const GlProjectRenderer& gl_renderer(SceneRenderer& session) {
+    return dynamic_cast<const GlProjectRenderer&>(session.renderer());
+}
+
+// With a context that is current.
+class OpenGlSession : public testing::Test {
+  protected:
+    const Capabilities& capabilities() const { return context_.capabilities(); }
+
+  private:
+    const DrawContext context_{gl::ContextKind::osmesa};
+    const std::unique_ptr<gl::CurrentContext> current_ = context_.make_current();
+};
+
+// What the current context has done until now.
+struct Done {
+    std::int64_t bytes_uploaded = gl::current_context()->counts().bytes_uploaded;
+    int programs_compiled = gl::current_context()->programs().compiled();
+    friend bool operator==(const Done&, const Done&) = default;
+};
+std::ostream& operator<<(std::ostream& out, const Done& done) {
+    return out << done.bytes_uploaded << " bytes, " << done.programs_compiled << " programs";
+}
+
+template <typename Data>
+void expect_fresh(SceneRenderer& session, const Data& data, const Image& drawn,
+                  const std::string& what) {
+    SceneRenderer other(session.resolved_scene(), data, session.capabilities());
+    EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
+}
+
+struct VolumeCase {
+    Scene scene;
+    TransferFunction (*transfer_function)(double extinction);  // more of the same kind
+};
+
+// Slabs, of two classifications; trees that programs compute, and of nodes of codes.
+std::vector<VolumeCase> volume_cases() {
+    std::vector<VolumeCase> cases(4, {volume_scene(), smooth});
+    cases[0].scene.slice.classification = Classification::post;
+    cases[2].scene.slice.tree = cases[3].scene.slice.tree = TreeSettings{.factors = {4}};
+    cases[2].scene.target = cases[3].scene.target = Target::fixed8;
+    cases[3].scene.slice.tree->nodes = NodeArithmetic::fixed;
+    cases[3].transfer_function = one_colored;
+    for (VolumeCase& one : cases) one.scene.transfer_function = one.transfer_function(6);
+    return cases;
+}
+
+TEST_F(OpenGlSession, CamerasUploadAndCompileNothing) {
+    const auto data = blobs();
+    for (VolumeCase& one : volume_cases()) {
+        // Segments are short: a table of one layer, in any view.
+        one.scene.transfer_function = one.transfer_function(1);
+        SceneRenderer session(one.scene, data, capabilities());
+        session.draw();
+        session.set_camera(orbit(40));
+        session.draw();
+        const int renderers = session.counts().renderers;
+        for (int degrees = 50; degrees < 400; degrees += 30) {
+            const Done before;
+            session.set_camera(orbit(degrees));
+            const Image drawn = session.draw_picture();
+            EXPECT_EQ(Done(), before);
+            EXPECT_EQ(session.counts().renderers, renderers);
+            expect_fresh(session, data, drawn, std::to_string(degrees));
+        }
+    }
+}
+
+// Other programs, or none: orthographic, past the box, into it.
+TEST_F(OpenGlSession, CamerasOfOtherKindsKeepTheVolume) {
+    const auto data = blobs();
+    Camera parallel = orbit(70);
+    parallel.projection = Projection::orthographic;
+    parallel.height = 1.5;
+    Camera away = orbit(30);
+    away.center = 2. * away.eye;
+    for (const VolumeCase& one : volume_cases()) {
+        SceneRenderer session(one.scene, data, capabilities());
+        session.draw();
+        const auto textures = textures_of(session);
+        for (const Camera& camera :
+             {parallel, orbit(71), away, orbit(20, .6), orbit(200, .05), parallel, orbit(20)}) {
+            session.set_camera(camera);
+            const Image drawn = session.draw_picture();
+            EXPECT_EQ(textures_of(session), textures);
+            expect_fresh(session, data, drawn, "");
+        }
+    }
+}
+
+TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing) {
+    const auto data = blobs();
+    for (VolumeCase& one : volume_cases()) {
+        // Tables have these sizes whatever their errors are, and programs know sizes.
+        one.scene.slice.table = SliceTableSettings{256, 4, 2};
+        SceneRenderer session(one.scene, data, capabilities());
+        session.draw();
+        const auto textures = textures_of(session);
+        const Done before;
+        for (const double extinction : {7., 8., 5.}) {
+            session.set_transfer_function(one.transfer_function(extinction));
+            session.draw();
+            EXPECT_EQ(textures_of(session), textures);
+            EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
+            EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
+            expect_fresh(session, data, session.picture(), std::to_string(extinction));
+        }
+        session.set_size(53, 21);
+        const Image drawn = session.draw_picture();
+        EXPECT_EQ(textures_of(session), textures);
+        EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
+        expect_fresh(session, data, drawn, "another size");
+    }
+}
+
+// The programs are the same, what they are set to is not.
+TEST_F(OpenGlSession, TwoTakeTurnsWithTheSamePrograms) {
+    const auto data = blobs();
+    for (const VolumeCase& one : volume_cases()) {
+        SceneRenderer first(one.scene, data, capabilities());
+        Scene others = one.scene;
+        others.width = 31;
+        others.transfer_function = one.transfer_function(3);
+        SceneRenderer second(others, data, capabilities());
+        for (int degrees = 0; degrees < 90; degrees += 30) {
+            for (SceneRenderer* const session : {&first, &second}) {
+                session->set_camera(orbit(degrees));
+                session->draw();
+            }
+            expect_fresh(second, data, second.picture(), std::to_string(degrees));
+            expect_fresh(first, data, first.picture(), std::to_string(degrees));
+        }
+    }
+}
+
+TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
+    const auto data = split_box();
+    for (const ProjectGeometry geometry :
+         {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
+        Scene scene = mesh_scene();
+        scene.project.geometry = geometry;
+        SceneRenderer session(scene, data, capabilities());
+        session.draw();
+        for (int degrees = 30; degrees < 360; degrees += 30) {
+            const Done before;
+            session.set_camera(orbit(degrees));
+            session.draw();
+            EXPECT_EQ(Done(), before);
+            EXPECT_EQ(session.counts().renderers, 1);
+            expect_fresh(session, data, session.picture(), std::to_string(degrees));
+        }
+        const Done before;
+        const auto order = gl_renderer(session).order();
+        const auto stream = gl_renderer(session).stream();
+        session.set_transfer_function(
+            TransferFunction::linear({test::knot(0, {1, .2, 0}, .2), test::knot(.4, {1, 1, .5}, 2),
+                                      test::knot(1, {0, .3, 1}, 5)}));
+        session.draw();
+        EXPECT_EQ(session.counts().renderers, 2);
+        EXPECT_EQ(gl_renderer(session).order(), order);
+        EXPECT_EQ(gl_renderer(session).stream(), stream);
+        EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
+        expect_fresh(session, data, session.picture(), "another transfer function");
+    }
+}
+
+TEST(SessionOfTheNativeEngine, KeepsAMeshsOrder) {
+    const auto data = split_box();
+    SceneRenderer session(mesh_scene(), data, tile_capabilities());
+    const auto order = [&] {
+        return dynamic_cast<const ProjectRenderer&>(session.renderer()).order();
+    };
+    session.draw();
+    const auto first = order();
+    session.set_transfer_function(
+        TransferFunction::linear({test::knot(0, {1, 1, 1}, 0), test::knot(1, {1, .5, 0}, 5)}));
+    session.draw();
+    EXPECT_EQ(order(), first);
+    expect_fresh(session, data, session.picture(), "another transfer function");
+}
+
+TEST(OpenGlSessions, TheNativeEngineNeedsNothingCurrent) {
+    EXPECT_EQ(DrawContext(ContextChoice::cpu).make_current(), nullptr);
+}
+
+}  // namespace
+}  // namespace lamina
