@@ -23,8 +23,7 @@ namespace lamina {
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
 //                       needs no other: no bricks, tables, uploads or programs
 //   size                the same, and a renderer of that size, which takes over what does not
-//   change
-//                       with it: the volume's copy or textures, programs, a mesh's order
+//                       change with it: the volume's copy or textures, programs, a mesh's order
 //   transfer function   the facts of the data, too, and a renderer with its tables, which takes
 //                       over the same; OpenGL compiles where the transfer function has another
 //                       number of points or its tables have other sizes
