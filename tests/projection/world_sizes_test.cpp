@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes as small as atoms and as large as galaxies give the picture of one of size 1.
+#include "base/error.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
 

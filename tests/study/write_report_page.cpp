@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     try {
         std::ifstream file(argv[1]);
         const auto report = nlohmann::ordered_json::parse(file);
-        lamina::write_text(argv[2], lamina::report_page(report));
+        lamina::study::write_text(argv[2], lamina::study::report_page(report));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "write_report_page: %s\n", error.what());
         return 1;
