@@ -16,7 +16,7 @@ struct Capabilities {
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
-    int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: of the grid that corners are rounded to
+    int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
     // GL's own limits mislead (docs/numerics.md, section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
