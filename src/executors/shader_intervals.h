@@ -24,8 +24,8 @@ struct ShaderIntervals {
 
     int count = 0;
     std::vector<float> texels;  // rows * count * 4
-    std::array<float, start_count>
-        starts{};  // the interval in which each 1024th of [0, 1] begins: where to search from
+    // The interval in which each 1024th of [0, 1] begins: where to search from.
+    std::array<float, start_count> starts{};
 };
 
 // At a step's very value the later side counts, and volumes of labels have whole regions there.

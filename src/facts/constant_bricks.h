@@ -14,8 +14,8 @@ namespace lamina {
 // border samples, so constant bricks that touch have the same optical properties.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
-    static constexpr std::size_t most_kinds =
-        16;  // the most frequent ones; the others count as varied
+    // The most frequent ones; the others count as varied.
+    static constexpr std::size_t most_kinds = 16;
 
     double share = 0;  // share of the bricks that show something
     std::vector<OpticalProperties> kinds;

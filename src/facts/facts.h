@@ -68,10 +68,10 @@ struct Facts {
     bool eye_inside = false;
     double near_depth = 0;
     double far_depth = 0;  // <= near_depth where the whole box lies behind the eye
-    double voxels_along_view =
-        0;  // index-space length of the view axis between near_depth and far_depth
-    double max_length_per_depth =
-        1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+    // Index-space length of the view axis between near_depth and far_depth.
+    double voxels_along_view = 0;
+    // Longest |direction| of a pixel's ray (1 for orthographic views).
+    double max_length_per_depth = 1;
 
     RayShares ray_shares;
     ScalarRays scalar_rays;  // filled where segments are pre-integrated and a table may be needed

@@ -41,8 +41,8 @@ class TetPieces {
     std::int32_t last() const { return static_cast<std::int32_t>(pieces_.size()) - 1; }
 
     std::vector<LinearPiece> pieces_;
-    std::vector<int> visible_before_{
-        0};  // number of pieces that show something before each piece, and in all
+    // Number of pieces that show something before each piece, and in all.
+    std::vector<int> visible_before_{0};
 };
 
 }  // namespace lamina

@@ -36,15 +36,15 @@ struct PreintegrationTable {
 
     std::vector<double> nodes;  // S scalars over [lo, hi], non-decreasing; a step's value stands
                                 // twice (left, right)
-    std::vector<Anchor>
-        anchors;  // lo, the knots in (lo, hi) (steps twice), hi; equally spaced nodes between two
-                  // of them, at least one. lo == hi: one node, one anchor
-    std::vector<double>
-        lengths;  // L >= 1, equally spaced from lengths[0] = 0, the limit, to max_length
+    // Lo, the knots in (lo, hi) (steps twice), hi; equally spaced nodes between two of them, at
+    // least one. lo == hi: one node, one anchor.
+    std::vector<Anchor> anchors;
+    // L >= 1, equally spaced from lengths[0] = 0, the limit, to max_length.
+    std::vector<double> lengths;
     bool colored = true;
     glm::dvec3 single_color{0};  // the colour where colored is false
-    std::vector<float>
-        mean_extinction;          // S * S, index back * S + front: tbar = optical depth / length
+    // S * S, index back * S + front: tbar = optical depth / length.
+    std::vector<float> mean_extinction;
     std::vector<float> emission;  // L * S * S * 3, index ((layer * S + back) * S + front) * 3 +
                                   // channel: E = tbar * C / alpha; empty where colored is false.
                                   // Look-ups meet pairs of nodes within one linear piece and pairs

@@ -57,10 +57,10 @@ struct SlicePlan : CompositingPlan {
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;  // samples normalised to their range and stored as R32F
-    bool table_filtered =
-        false;  // tables are read through the texture unit's filter, not by single fetches
-    bool orthographic =
-        false;  // rays are parallel; all have one direction and one length per depth
+    // Tables are read through the texture unit's filter, not by single fetches.
+    bool table_filtered = false;
+    // Rays are parallel; all have one direction and one length per depth.
+    bool orthographic = false;
     bool single_color = false;     // the colour is a constant of the program
     bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN

@@ -45,8 +45,8 @@ struct ProjectPlan : CompositingPlan {
     bool draw_transparent = false;  // transparent tets are drawn, too
     bool nothing_visible = false;   // no tet is drawn
     bool table_filtered = false;    // tables are read through the texture unit's filter
-    double near_depth =
-        0;  // eye-space depth of the near plane, in the plan's units, as are lengths in tables
+    // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
+    double near_depth = 0;
     ValueRange range;           // of scalars, [0, 1] in shaders; lo < hi
     SegmentTableRequest table;  // for SegmentSource::table
     TablePlan aligned;          // for SegmentSource::cut_table

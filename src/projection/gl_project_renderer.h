@@ -24,15 +24,16 @@
 
 namespace lamina {
 
-// Whether programs of that kind are needed beside those of later ones.
+// Whether the plan needs a program of that kind beside those of later kinds.
 bool has_program(const ProjectPlan& plan, FragmentKind kind);
-// What projection/tet.frag and its vertex shader are specialised by, but for the tables.
+// The definitions that specialise projection/tet.frag and its vertex shader, except for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
-// Draws a mesh as the plan says, in the current OpenGL context, which must outlive it.
+// Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
   public:
-    // Builds order, tables and programs; errors of OpenGL are Errors. The mesh must outlive it.
+    // Builds the visibility order, tables and programs. Throws Error where OpenGL fails. The mesh
+    // must outlive the renderer.
     GlProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                       const ProjectPlan& plan, const Capabilities& capabilities, int width,
                       int height);
@@ -47,10 +48,12 @@ class GlProjectRenderer : public ProjectRenderer {
     const OrderReport& order_report() const override { return order_.report(); }
     std::int64_t tets_drawn() const override { return tets_drawn_; }
 
-    // Of the last frame:
+    // Times of the last frame:
     double order_ms() const { return order_ms_; }
     double geometry_ms() const { return stream_ ? stream_->write_ms() : 0; }
-    double draw_ms() const { return draw_ms_; }  // with the geometry, which runs beside it
+    double draw_ms() const {
+        return draw_ms_;
+    }  // includes the geometry, which is written at the same time
     double table_ms() const { return tables_ ? tables_->build_ms() : 0; }
     std::int64_t table_bytes() const { return tables_ ? tables_->table_bytes() : 0; }
 
@@ -67,7 +70,7 @@ class GlProjectRenderer : public ProjectRenderer {
     gl::Framebuffer target_;
     TetPieces pieces_;
     VisibilityOrder order_;
-    // None where nothing is visible.
+    // The following are empty where nothing is visible.
     std::optional<GlProjectTables> tables_;
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::optional<GlTetStream> stream_;

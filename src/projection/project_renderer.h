@@ -4,22 +4,23 @@
 #include <cstdint>
 #include <memory>
 
-#include "visibility/visibility_order.h"
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
 #include "scene/scene_mesh.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 
-// Draws frames of a mesh. Both are of the last one.
+// Draws frames of a mesh. The following are about the last frame.
 class ProjectRenderer : public FrameRenderer {
   public:
     virtual const OrderReport& order_report() const = 0;
-    virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
+    virtual std::int64_t tets_drawn() const = 0;  // number of tets that cover the centre of a pixel
 };
 
-// Draws a mesh as the plan says with what the capabilities are of: the native engine, or the
-// current OpenGL context, which must outlive it, as must the mesh.
+// Makes a renderer that draws a mesh as the plan says. The capabilities decide whether it is the
+// native engine or OpenGL in the current context. The context and the mesh must outlive the
+// renderer.
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
                                                        const TransferFunction& transfer_function,
                                                        const ProjectPlan& plan,

@@ -13,8 +13,8 @@ namespace lamina {
 // out of all later rounding.
 struct Chord {
     glm::dvec3 entry{0};  // index space, inside the closed box
-    glm::dvec3 direction{
-        0};  // index space, per unit of z; exactly 0 along axes that the ray is perpendicular to
+    // Index space, per unit of z; exactly 0 along axes that the ray is perpendicular to.
+    glm::dvec3 direction{0};
     double length_z = 0;     // 0: the ray misses the box, or only touches it in a point
     double world_per_z = 0;  // world length per unit of z
 

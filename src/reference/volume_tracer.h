@@ -24,8 +24,8 @@ struct TraceOptions {
 
 struct TraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
-    double error_estimate =
-        0;  // largest over all pixels and channels, of full scale; without rounding (some 1e-14)
+    // Largest over all pixels and channels, of full scale; without rounding (some 1e-14).
+    double error_estimate = 0;
     std::int64_t segments = 0;  // pieces of rays with extinction that were integrated, each inside
                                 // one cell and one interval of the transfer function
 };

@@ -14,8 +14,8 @@ namespace lamina {
 // The volume as 3D textures, one a brick of the plan.
 struct VolumeTextures {
     std::vector<gl::Texture> bricks;
-    glm::vec2 normalisation{
-        1, 0};  // scale and offset from what a shader reads to scalars with `range` as [0, 1]
+    // Scale and offset from what a shader reads to scalars with `range` as [0, 1].
+    glm::vec2 normalisation{1, 0};
 };
 
 // Samples that are no finite numbers become NaN. Shows progress.

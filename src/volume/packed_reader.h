@@ -23,8 +23,8 @@ class PackedReader {
 
     // What nobody asked for.
     struct Surplus {
-        std::uint64_t unpacked =
-            0;  // bytes of the member that was read last, counted to most_unpacked
+        // Bytes of the member that was read last, counted to most_unpacked.
+        std::uint64_t unpacked = 0;
         std::uint64_t behind = 0;  // bytes of the file behind that member
     };
     static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 26;
