@@ -53,13 +53,14 @@ class TetProjector {
     DepthPlane depth_plane(const Tet& tet, std::size_t face, FaceSigns signs,
                            const std::array<Seen, 4>& corners) const;
     DepthPlane level_plane(const PartField& field, double level) const;
-    // The corners of what lies beyond the near plane of a tet, where it can be seen; at most 6.
+    // The corners of the region of a tet beyond the near plane (z >= near_depth), which is what can
+    // be seen of it; at most 6.
     struct VisibleCorners {
         std::size_t count = 0;
         std::array<Seen, 6> seen;
     };
     VisibleCorners clip_near(const std::array<Seen, 4>& corners) const;
-    // The size of what can be seen of a tet beyond the near plane.
+    // The size of that region.
     struct Extent {
         double columns, rows;  // pixels
         double depth_range;    // thickness of the tet in `Depth` at its far end
