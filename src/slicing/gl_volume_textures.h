@@ -11,14 +11,14 @@
 
 namespace lamina {
 
-// The volume as 3D textures, one a brick of the plan.
+// The volume as 3D textures, one for each brick of the plan.
 struct VolumeTextures {
     std::vector<gl::Texture> bricks;
-    // Scale and offset from what a shader reads to scalars with `range` as [0, 1].
+    // Scale and offset that turn what a shader reads into scalars with `range` as [0, 1].
     glm::vec2 normalisation{1, 0};
 };
 
-// Samples that are no finite numbers become NaN. Shows progress.
+// Uploads the volume, with progress. Samples that are not finite become NaN.
 VolumeTextures upload_volume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
 }  // namespace lamina
