@@ -17,11 +17,11 @@
 
 namespace lamina::gl {
 
-// A linked vertex and fragment shader. Compile and link errors are Errors with the shader's name,
+// A linked vertex and fragment shader. Where compiling or linking fails, Error names the shader,
 // the file and line, and the defines.
 class Program {
   public:
-    // Names of files in shaders/; both are specialised by the same defines.
+    // `vertex_name`, `fragment_name`: files in shaders/. Both are specialised by the same defines.
     Program(const std::string& vertex_name, const std::string& fragment_name,
             const Defines& defines = {});
     Program(const ShaderSource& vertex, const ShaderSource& fragment);
@@ -29,8 +29,8 @@ class Program {
     void use() const;
 
     // Set a uniform; the program need not be in use. A uniform that the source names but this
-    // specialisation does not use (optimised out, or under another #if) is ignored; a name that is
-    // nowhere in the source is an Error.
+    // specialisation does not use (optimised out, or under another #if) is ignored. A name that is
+    // nowhere in the source throws Error.
     void set(std::string_view name, float value);
     void set(std::string_view name, double value);  // of a uniform double
     void set(std::string_view name, int value);     // also a sampler's texture unit

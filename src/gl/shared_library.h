@@ -6,15 +6,15 @@
 
 namespace lamina::gl {
 
-// A library loaded at run time. It is never unloaded: Mesa and LLVM leave threads and exit handlers
-// behind.
+// A library loaded at run time. It is never unloaded, because Mesa and LLVM leave threads and exit
+// handlers behind.
 class SharedLibrary {
   public:
-    // The first of `names` that the dynamic linker finds; an Error that says why each was not
-    // loaded.
+    // Loads the first of `names` that the dynamic linker finds. Throws Error, which says why each
+    // could not be loaded.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
-    // The function `name`; an Error that names the library where it has none.
+    // The function `name`. Throws Error, which names the library, where it has no such function.
     template <typename Function>
     Function function(const char* name) const {
         return reinterpret_cast<Function>(symbol(name));

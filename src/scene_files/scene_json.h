@@ -9,11 +9,11 @@
 namespace lamina {
 
 // A scene file (docs/scene.md) with every key written out, from which read_scene() makes the same
-// scene: paths are absolute, numbers have all their digits, the transfer function is its points,
-// whatever they were made from.
+// scene. Paths are absolute, numbers have all their digits, and the transfer function is given by
+// its points, whatever it was made from.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
-// Writes that. Throws Error where it cannot.
+// Writes that document to a file. Throws Error where it cannot.
 void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace lamina

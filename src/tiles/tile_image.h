@@ -14,14 +14,14 @@ namespace lamina {
 // One number for each pixel of a tile, at TileGrid::place().
 struct alignas(64) TilePlane : std::array<float, TileGrid::pixels> {};
 
-// The pixels of one tile: associated colour and opacity; of fixed-point targets codes, which floats
-// hold exactly.
+// The pixels of one tile: associated colour and opacity. Fixed-point targets store codes, which
+// floats hold exactly.
 struct TilePixels {
     using Plane = TilePlane;
     Plane red, green, blue, alpha;
 };
 
-// A picture in tiles. Takes its memory once.
+// A picture in tiles. It takes its memory once.
 class TileImage {
   public:
     TileImage(int width, int height);
@@ -29,7 +29,7 @@ class TileImage {
     const TileGrid& grid() const { return grid_; }
     TilePixels& tile(int number) { return tiles_[static_cast<std::size_t>(number)]; }
     const TilePixels& tile(int number) const { return tiles_[static_cast<std::size_t>(number)]; }
-    // `largest_code`: what stands for 1; 1 where the tiles hold values.
+    // `largest_code`: the value that represents 1; it is 1 where the tiles hold values.
     Image to_image(float largest_code) const;
     std::int64_t byte_count() const {
         return static_cast<std::int64_t>(tiles_.size() * sizeof(TilePixels));
