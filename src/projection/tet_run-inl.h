@@ -109,7 +109,7 @@ class CarefulDepths {
             // The ray perturbation moves the ray in space. Its component along the ray does not
             // count.
             return move(dd, place, record_.center[0], fragments_.image_middle.x,
-                        fragments_.tie_shift.x);
+                        fragments_.ray_perturbation.x);
         };
         return each_half(moved, to_doubles(d, column));
     }
@@ -117,7 +117,7 @@ class CarefulDepths {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
             return move(dd, place, record_.center[1], fragments_.image_middle.y,
-                        fragments_.tie_shift.y);
+                        fragments_.ray_perturbation.y);
         };
         const Doubles<D> rows = each_half(moved, to_doubles(d, row));
         const auto depth = [&](std::size_t face) HWY_ATTR {
@@ -144,7 +144,7 @@ class CarefulDepths {
         const auto from_middle =
             hn::Add(place, hn::Set(dd, static_cast<double>(center) - static_cast<double>(middle)));
         const double per_pixel =
-            fragments_.tie_shift.z * static_cast<double>(fragments_.pixel_size);
+            fragments_.ray_perturbation.z * static_cast<double>(fragments_.pixel_size);
         return hn::Sub(hn::Add(place, hn::Set(dd, shift)),
                        hn::Mul(from_middle, hn::Set(dd, per_pixel)));
     }

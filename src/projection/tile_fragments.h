@@ -43,7 +43,7 @@ struct TetFragments {
     // Whether one division serves both ends of a run. That needs depths whose squares are finite
     // floats. It is not used for codes, because these must equal those of OpenGL's programs.
     bool one_division;
-    glm::dvec3 tie_shift;
+    glm::dvec3 ray_perturbation;
     glm::vec4 constant_optics;               // SegmentSource::constant
     glm::vec3 single_color;                  // where colored is false
     const float* front_weights = nullptr;    // SegmentSource::parts, where colored

@@ -33,8 +33,8 @@ struct Fragment {
     V red, green, blue, alpha;
 };
 
-// Rounds to half precision, towards zero, as llvmpipe stores floats. The last place is kept; below
-// 2^-14 it is 2^-24.
+// Rounds towards zero to half precision, as llvmpipe stores floats. Below 2^-14 the last place is
+// 2^-24.
 template <class D>
 HWY_INLINE hn::Vec<D> truncate_to_half(D d, hn::Vec<D> v) {
     const hn::RebindToUnsigned<D> du;
