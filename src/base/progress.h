@@ -10,9 +10,9 @@
 
 namespace lamina {
 
-// A line on stderr with the share done and the time left, for work that takes longer than a second
-// or so. Drawn only on a terminal, at most twice a second, and wiped when done; silent everywhere
-// else. Of several at a time only the first is drawn: the one of the whole work.
+// A line on stderr with the share of work that is done and the time that is left, for work that
+// takes longer than about a second. It is drawn only on a terminal, at most twice a second, and
+// wiped at the end. Of several at a time only the first is drawn, which stands for the whole work.
 class Progress {
   public:
     Progress(std::string label, std::int64_t total);

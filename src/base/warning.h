@@ -6,12 +6,13 @@
 
 namespace lamina {
 
-// Something in a user's data that is no error and that no result shows: the text names the file,
-// what was found and what was expected. Goes to who takes warnings; nobody does at first. Safe from
-// any thread.
+// Reports something in a user's data that is no error and that no result shows. The text names the
+// file, what was found and what was expected. It goes to the warning taker; at first there is none.
+// Safe from any thread.
 void warn(const std::string& text);
 
-// Whoever started the work and can tell people. Replaces the one before; an empty one: nobody.
+// Sets the function that receives warnings, in place of the one before; an empty function means
+// none.
 using WarningTaker = std::function<void(const std::string&)>;
 void take_warnings(WarningTaker taker);
 
