@@ -9,7 +9,8 @@
 
 namespace lamina {
 
-// Of e in units of 1/255 (docs/numerics.md; the signed mean is what LaMar's Table 4 calls L1).
+// Norms of e in units of 1/255 (docs/numerics.md). The signed mean is what LaMar's Table 4 calls
+// L1.
 struct ErrorNorms {
     double linf = 0;  // max |e|
     double l1 = 0;    // mean of e, with its sign
@@ -29,7 +30,7 @@ struct ImageError {
     Worst worst;  // the first component with |e| = all.linf
 };
 
-// Throws Error when some e is not finite.
+// Throws Error where some e is not finite.
 ImageError measure(const Difference& difference);
 
 template <typename RealA, typename RealB>
