@@ -8,8 +8,8 @@ namespace lamina {
 // How an opacity becomes a code (LaMar 2004, section 4.1: the paper's hardware truncates).
 enum class AlphaRounding { truncate, nearest, stochastic };
 
-// How OVER rounds. separate: both products are rounded, as the paper's hardware does; fused: their
-// sum is.
+// How OVER rounds. separate: each of the two products is rounded, as the paper's hardware does.
+// fused: only their sum is rounded.
 enum class OverRounding { separate, fused };
 
 // Fixed-point compositing computed step by step instead of by a blending unit (render.emulate).
@@ -17,7 +17,7 @@ struct Emulation {
     int bits = 8;
     AlphaRounding alpha = AlphaRounding::truncate;
     OverRounding over = OverRounding::separate;
-    std::uint32_t seed = 1;  // of stochastic rounding
+    std::uint32_t seed = 1;  // of the random numbers of stochastic rounding
 
     friend bool operator==(const Emulation&, const Emulation&) = default;
 };

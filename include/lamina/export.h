@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What programs outside of the library may use; all else is hidden from them.
+// Marks what programs outside the library may use. All other symbols are hidden from them.
 #define LAMINA_API __attribute__((visibility("default")))

@@ -14,7 +14,9 @@ namespace lamina {
 struct GeneratorRequest {
     std::string name;  // "gaussians", "ramp", ...: docs/scene.md
     std::optional<std::array<std::int64_t, 3>>
-        size;                             // 128^3 where none is given, ramp: 256 x 4 x 1
+        // Samples along x, y and z. Without a size a volume has 128^3 samples, and a ramp 256 x 4 x
+        // 1.
+        size;
     SampleType type = SampleType::uint8;  // or uint16, float32
 };
 

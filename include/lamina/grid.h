@@ -12,9 +12,10 @@ namespace lamina {
 
 enum class Centering { node, cell };
 
-// Where the samples of a regular grid lie in the world. "Index space" has sample (i, j, k) at (i,
-// j, k); the box that is rendered spans the samples (`node`) or whole voxels (`cell`: half a voxel
-// more at each end, where the border value repeats), axis by axis.
+// Where the samples of a regular grid lie in the world. In index space sample (i, j, k) lies at (i,
+// j, k). The box that is rendered is chosen axis by axis: with Centering::node it spans the
+// samples; with Centering::cell it spans whole voxels, half a voxel more at each end, where the
+// border value repeats.
 struct LAMINA_API Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
     std::array<Centering, 3> centering{Centering::cell, Centering::cell, Centering::cell};

@@ -8,8 +8,8 @@
 
 namespace lamina {
 
-// Associated (premultiplied) RGBA in linear light, before any background. Row 0 is the top; pixels
-// row by row, four numbers each.
+// An image of associated (premultiplied) RGBA in linear light, before any background. Row 0 is the
+// top. Pixels are stored row by row, four numbers each.
 template <typename Real>
 struct RgbaImage {
     int width = 0;

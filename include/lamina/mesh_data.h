@@ -16,15 +16,15 @@ struct MeshScalar {
     std::vector<double> values;  // one a point, or one a tet
 };
 
-// What became of cells that are no tets with four points.
+// How many cells of a file are not tets with four points, by what became of them.
 struct CellCounts {
     std::int64_t split = 0;         // hexahedra, wedges and pyramids that were cut into tets
     std::int64_t skipped = 0;       // vertices, lines, polygons: no volume
     std::int64_t straightened = 0;  // quadratic tets, of which the four corners are used
 };
 
-// A tetrahedral mesh as a file or a generator gives it, nothing checked or repaired: what
-// mesh/tet_mesh.h starts from and what mesh files are written from.
+// A tetrahedral mesh as a file or a generator gives it: nothing is checked or repaired. TetMesh
+// (mesh/tet_mesh.h) is made from it, and mesh files are written from it.
 struct MeshData {
     std::vector<glm::dvec3> points;  // world
     std::vector<Tet> tets;           // in the file's order and orientation

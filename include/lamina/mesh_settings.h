@@ -7,19 +7,23 @@ namespace lamina {
 
 // How a mesh is made from a volume (scene file: "mesh").
 struct MeshSettings {
-    double tolerance = 0.02;  // of the volume's range of values, > 0
+    double tolerance = 0.02;  // largest error, as a share of the volume's range of values; > 0
     std::int64_t max_tets = 5000000;
-    bool kuhn = false;  // every sample, six tets a cell, instead of as few as the tolerance allows
+    // Every sample of the volume becomes a point, with six tets a cell (the Kuhn split). Otherwise
+    // the mesh has as few tets as the tolerance allows.
+    bool kuhn = false;
 };
 
-// What came out.
+// What is known of the mesh that was made.
 struct MeshReport {
     std::int64_t points = 0;
     std::int64_t tets = 0;
-    std::int64_t kuhn_tets = 0;  // that the Kuhn split has, or would have
+    std::int64_t kuhn_tets = 0;  // the Kuhn split has so many, or would have
     int rounds = 0;              // of the adaptive mesh
     double range = 0;            // of the volume's values: largest - least
-    double error = 0;  // in the data's units: nowhere is the mesh farther from the trilinear field
+    // Largest difference between the mesh and the volume's trilinear field, anywhere, in the data's
+    // units.
+    double error = 0;
     bool within_tolerance = false;
     bool stopped_by_max_tets = false;
 

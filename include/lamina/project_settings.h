@@ -9,12 +9,12 @@
 
 namespace lamina {
 
-// How the colour of a projected tetrahedron comes about.
+// How the colour of a projected tetrahedron is computed.
 enum class Coloring {
     preintegrated,  // a table over (scalar at the front, at the back, length), Roettger et al. 2000
     attenuation,    // mean of colours and mean extinction of front and back, Stein et al. 1994
-    vertex,         // colours and opacities of vertices, interpolated: Shirley and Tuchman 1990
-    analytic        // the transfer function's pieces, each in closed form
+    vertex,   // colours and opacities are interpolated between vertices, Shirley and Tuchman 1990
+    analytic  // the transfer function's pieces, each in closed form
 };
 enum class Interpolation { perspective, linear };
 enum class Thickness {
@@ -25,13 +25,15 @@ enum class ProjectOrder { automatic, mpvo, exact, centroid, none };
 enum class ProjectGeometry {
     automatic,
     silhouette,  // one polygon around the tet, faces as linear functions of the pixel
-    triangles    // three or four, with a thick vertex (Kraus 2004, Figure 3)
+    triangles    // three or four triangles around a thick vertex (Kraus 2004, Figure 3)
 };
-// Rounding of opacity to codes of 8 or 16 bits by chance.
+// How opacity is rounded at random to codes of 8 or 16 bits.
 enum class ProjectDither {
     none,
-    alpha,       // of the fragment, before the blending unit rounds again (Kraus 2004, section 4.2)
-    after_blend  // of the result of a programmable blend: unbiased (docs/numerics.md, section 8)
+    alpha,       // the fragment's opacity, before the blending unit rounds again (Kraus 2004,
+                 // section 4.2)
+    after_blend  // the result of a programmable blend, which is unbiased (docs/numerics.md, section
+                 // 8)
 };
 
 struct ProjectSettings {

@@ -21,7 +21,7 @@ namespace lamina {
 
 enum class Method { slice, project, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
-// What the method "trace" looks at.
+// What the method "trace" draws.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 
@@ -44,7 +44,9 @@ struct Scene {
     Target target = Target::float32;
     bool automatic_target = false;  // "target": "auto": the plan chooses
     Emulation emulate;              // for Target::emulated
-    double max_error = 1;           // in 1/255: the bound for what is automatic
+    // In 1/255. Choices that the scene leaves open ("auto") keep the picture's error below this
+    // bound.
+    double max_error = 1;
     SliceSettings slice;
     ProjectSettings project;
     TraceOf trace_of = TraceOf::volume;
@@ -53,7 +55,7 @@ struct Scene {
 
     bool has_volume() const { return !volume_file.empty() || volume_request; }
     bool has_mesh() const { return !mesh_file.empty() || mesh_request; }
-    // The mesh is what is drawn; the volume is needed at most to make it.
+    // Whether the mesh is drawn. The volume is then needed at most to make it.
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
     }
@@ -72,7 +74,7 @@ LAMINA_API const char* name_of(NodeCode code);
 LAMINA_API const char* name_of(AlphaRounding rounding);
 LAMINA_API const char* name_of(OverRounding rounding);
 
-// The volume that the scene names: read from its file, or generated.
+// Loads the volume that the scene names: it is read from its file, or generated.
 LAMINA_API Volume load_volume(const Scene& scene);
 
 // Reads a scene file (docs/scene.md). Writes one with every key written out. Both throw Error.

@@ -13,7 +13,7 @@ enum class Classification { post, preintegrated };
 enum class Filter { exact, hardware, automatic };
 
 struct DitherSettings {
-    std::optional<int> period = 16;  // slabs; none: "auto"
+    std::optional<int> period = 16;  // slabs after which the pattern repeats; none: "auto"
     std::uint32_t seed = 1;
     bool color = false;
     int increment = 1;
@@ -21,15 +21,15 @@ struct DitherSettings {
 
 inline constexpr int max_slabs = 65536;
 
-// A pre-integration table whose nodes lie on the transfer function's points.
+// The size of a pre-integration table whose nodes lie on the transfer function's points.
 struct SliceTableSettings {
-    int scalars = 256;      // about so many nodes
-    int lengths = 1;        // layers
-    double max_length = 0;  // world units: of the longest segment
+    int scalars = 256;      // number of scalar nodes, about
+    int lengths = 1;        // number of layers along length
+    double max_length = 0;  // of a segment that the table knows, world units
 };
 
 struct SliceSettings {
-    std::optional<int> samples;  // slabs N; none: "auto"
+    std::optional<int> samples;  // number of slabs; none: "auto"
     Classification classification = Classification::post;
     Order order = Order::back_to_front;
     Filter filter = Filter::exact;

@@ -5,29 +5,30 @@
 
 namespace lamina {
 
-// Where the layers lie along length, and what runs straight between two of them. With L layers and
-// dl = max_length / 2^(L-2) the latter two have nodes 0, dl, 2 dl, 4 dl, ..., max_length.
+// At which segment lengths the layers of a table lie, and which coordinate is linear between two
+// layers. With L layers and dl = max_length / 2^(L-2), `octave` and `log2` have layers at 0, dl, 2
+// dl, 4 dl, ..., max_length.
 enum class LengthMapping {
     octave,  // linear in length between two layers
-    log2,    // Kraus 2004, Equation 1: linear in log2 of length from dl on
+    log2,    // linear in log2 of length from dl on: Kraus 2004, Equation 1
     linear   // equally spaced lengths
 };
 enum class TableStore {
-    // tbar = optical depth / length, and with colour the emission tbar * C / alpha: what stays
-    // bounded and smooth as the length goes to 0 (docs/numerics.md, section 5). A single layer is
-    // the limit at length 0.
+    // Stores the mean extinction tbar = optical depth / length and, with colour, the emission tbar
+    // * C / alpha. Both stay bounded and smooth as the length goes to 0 (docs/numerics.md, section
+    // 5). A single layer holds the limit at length 0.
     mean_extinction,
-    // alpha and the associated colour C themselves: the paper's. A single layer is that of
-    // max_length.
+    // Stores alpha and the associated colour C themselves, as the paper does. A single layer holds
+    // the entries of max_length.
     opacity
 };
 enum class TableFormat { fixed16, fixed8, float16, float32 };
 enum class TableConstruction {
-    exact,       // every entry by the closed form of its segment
-    incremental  // layers from those of shorter segments (Weiler et al. 2003): the paper's
+    exact,       // every entry comes from the closed form of its segment
+    incremental  // layers come from those of shorter segments, as in the paper (Weiler et al. 2003)
 };
 
-// Of pre-integration tables with equally spaced scalars.
+// A pre-integration table with equally spaced scalars: so many scalars, so many lengths.
 struct TableSettings {
     int scalar = 256;
     int length = 16;

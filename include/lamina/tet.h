@@ -6,7 +6,8 @@
 
 namespace lamina {
 
-// Indices of the four corners (a, b, c, d); positively oriented: det(b - a, c - a, d - a) > 0.
+// Indices of the four corners (a, b, c, d) of a tet. A tet is positively oriented: det(b - a, c -
+// a, d - a) > 0.
 using Tet = std::array<std::int32_t, 4>;
 
 // Face i of a tet lies opposite corner i. Its corners are counter-clockwise seen from outside the

@@ -21,32 +21,34 @@ struct TransferKnot {
     OpticalProperties optics;
 };
 
-// Scalar value to colour and extinction: linear between knots, constant outside them. Two knots at
-// one value make a step; at the step's very value the later knot counts. A palette (`nearest`) is
-// the same thing with a step halfway between neighbouring points, so nothing else needs to know
-// about palettes.
+// Maps a scalar value to colour and extinction, linearly between knots and constant outside them.
+// Two knots at one value make a step; at that value itself the later knot counts. A palette
+// (`nearest`) has a step halfway between neighbouring points. Because it is stored in this form, no
+// other code treats palettes separately.
 class LAMINA_API TransferFunction {
   public:
-    // Knots in order of value, at least one, at most two at one value, all numbers finite, colour
-    // and extinction >= 0; else throws Error, naming the point by its index.
+    // Makes a transfer function from knots in order of value. There must be at least one, and at
+    // most two at one value; all numbers must be finite, colour and extinction >= 0. Else throws
+    // Error, which names the point by its index.
     static TransferFunction linear(const std::vector<TransferKnot>& points);
     static TransferFunction nearest(const std::vector<TransferKnot>& points);
 
-    // Points on the straight line between their neighbours are left out.
+    // The knots, without those that lie on the straight line between their neighbours.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
-    // With all extinctions times `factor`, at most the largest number that there is.
+    // The same function with all extinctions times `factor`; they are clamped to the largest finite
+    // number.
     TransferFunction attenuated(double factor) const;
 
-    // Largest extinction and the range of colours met over the closed interval [lo, hi] (both sides
-    // of steps count).
+    // The following are about the closed interval [lo, hi]; both sides of steps in it count.
+    // Largest extinction:
     double max_extinction(double lo, double hi) const;
     bool transparent(double lo, double hi) const { return max_extinction(lo, hi) == 0; }
-    bool constant(double lo, double hi) const;  // same colour and extinction everywhere
+    bool constant(double lo, double hi) const;  // one colour and one extinction
     bool constant_extinction(double lo, double hi) const;
-    bool constant_color(double lo, double hi) const;  // also of what shows nothing
-    bool single_color(double lo,
-                      double hi) const;  // the colours of all parts with extinction > 0 are equal
+    bool constant_color(double lo, double hi) const;  // colours where extinction is 0 count, too
+    // Whether the colour is the same wherever extinction is > 0.
+    bool single_color(double lo, double hi) const;
 
   private:
     explicit TransferFunction(std::span<const TransferKnot> knots);

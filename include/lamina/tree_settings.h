@@ -5,19 +5,20 @@
 
 namespace lamina {
 
-// How a node of a tree stores its optical depth S, with which it would fill a whole ray with the
-// depth sigma (docs/numerics.md, section 4).
-// phi:     1 - exp(-sigma), the paper's: opacity as if the node's share filled the whole ray
-// alpha:   1 - exp(-S), the node's own opacity
-// minimax: equal worst effect of one rounding on the ray's opacity, for every sigma
+// How a node of a compositing tree stores its optical depth S as a code. Here sigma is the optical
+// depth of a whole ray that is filled like the node's share of it (docs/numerics.md, section 4).
+//  phi:     1 - exp(-sigma), as in the paper: the opacity if the node's share filled the whole ray
+//  alpha:   1 - exp(-S), the node's own opacity
+//  minimax: rounding has the same worst effect on the ray's opacity for every sigma
 enum class NodeCode { minimax, phi, alpha };
 
-// Who composites in a node of a tree: a program, in float, or a fixed-point buffer (the paper's).
+// What composites the children of a node: a program with float arithmetic, or a fixed-point buffer
+// as in the paper.
 enum class NodeArithmetic { shader, fixed };
 
 struct TreeSettings {
-    bool automatic = false;    // "tree": "auto": the plan chooses factors and code
-    std::vector<int> factors;  // from the root to the leaves
+    bool automatic = false;    // "tree": "auto"; then the plan chooses factors and code
+    std::vector<int> factors;  // children of a node, for each level from the root to the leaves
     NodeArithmetic nodes = NodeArithmetic::shader;
     NodeCode code = NodeCode::minimax;
     int alpha_bits = 8;

@@ -16,8 +16,8 @@ enum class SampleType { uint8, int16, uint16, float32 };
 LAMINA_API std::size_t bytes_of(SampleType type);
 LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16", "float"
 
-// Scalars on a regular grid, in the file's own type, x fastest. Immutable once made; copies share
-// the samples.
+// Scalars on a regular grid, in the file's own type; x changes fastest. A volume is immutable, and
+// copies share the samples.
 class Volume {
   public:
     // `samples`: grid.sample_count() values of `type` in native byte order.
@@ -31,8 +31,8 @@ class Volume {
         return static_cast<std::size_t>(grid_.sample_count()) * bytes_of(type_);
     }
 
-    // Calls visitor(pointer to the first sample), typed: std::uint8_t, std::int16_t, std::uint16_t
-    // or float.
+    // Calls visitor(pointer to the first sample). The pointer has the type of the samples:
+    // std::uint8_t, std::int16_t, std::uint16_t or float.
     template <typename Visitor>
     decltype(auto) visit(Visitor&& visitor) const {
         switch (type_) {

@@ -3,7 +3,7 @@
 uniform sampler2D intervals;
 uniform sampler2D interval_starts;
 
-// The interval that holds `scalar`; at a step's very value the upper one (optics/transfer_function.h).
+// The interval that holds `scalar`; at a step's very value the upper one (lamina/transfer_function.h).
 int find_interval(float scalar) {
 #if INTERVALS == 1
     return 0;

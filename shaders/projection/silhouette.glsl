@@ -3,7 +3,7 @@
 // decided here: the polygon covers a little more than the tet, and rasterisers move its corners.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
-uniform dvec3 tie_shift;   // pixels: moves rays that run along faces to one side, the same for all tets
+uniform dvec3 ray_perturbation;   // pixels: moves rays that run along faces to one side, the same for all tets
 uniform float near_depth;  // "depth" of the near plane
 #else
 flat in vec4 face_depths[3];
@@ -44,7 +44,7 @@ dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
 vec2 find_depths(vec2 place) {
     // The ray is moved in space; what that moves along the ray itself does not count.
     dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
-    dvec2 moved = dvec2(place) + tie_shift.xy - tie_shift.z * from_middle;
+    dvec2 moved = dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
     vec4 depths = vec4(four_doubles(face_depths[0], face_depths[1]) +
                        four_doubles(face_depths[2], face_depths[3]) * moved.x +
                        four_doubles(face_depths[4], face_depths[5]) * moved.y);

@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// A sum of many numbers whose rounding does not grow with their count (Neumaier 1974).
+// A sum of many numbers. Its rounding error does not grow with their count (Neumaier 1974).
 class CompensatedSum {
   public:
     void add(double term) {

@@ -11,8 +11,8 @@
 
 namespace lamina {
 
-// Names contents: FNV-1a over words of 64 bits, with a final mix (Steele et al. 2014, SplitMix64).
-// Against accidents, not against malice.
+// A hash that identifies contents: FNV-1a over words of 64 bits, with a final mix (Steele et al.
+// 2014, SplitMix64). It protects against accidents, not against attacks.
 class ContentHash {
   public:
     void add(const void* bytes, std::size_t count) {
@@ -35,7 +35,7 @@ class ContentHash {
     }
 
   private:
-    // Multiplication carries upwards only: the rotation brings high bits back.
+    // Multiplication carries only to higher bits. The rotation brings high bits down again.
     void add_word(std::uint64_t word) {
         state_ = (state_ ^ word) * 0x100000001b3u;
         state_ = (state_ << 29) | (state_ >> 35);

@@ -5,9 +5,9 @@
 
 namespace lamina {
 
-// The unevaluated sum hi + lo with |lo| <= ulp(hi)/2: about 31 digits (Dekker 1971; Hida, Li and
-// Bailey 2001). For the few operations per ray whose rounding would decide whether, and how far,
-// the ray meets the box.
+// The unevaluated sum hi + lo with |lo| <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida,
+// Li and Bailey 2001). It is used for the few operations of a ray whose rounding would decide
+// whether, and at what length, the ray meets the box.
 struct DoubleDouble {
     double hi = 0;
     double lo = 0;

@@ -5,9 +5,9 @@
 
 namespace lamina {
 
-// A file of the source tree that the build put into the program (cmake/EmbedFiles.cmake).
+// A file of the source tree that the build embeds into the program (cmake/EmbedFiles.cmake).
 struct EmbeddedFile {
-    std::string_view name;  // relative to the folder that was embedded: "slicing/slab.frag"
+    std::string_view name;  // relative to the embedded folder: "slicing/slab.frag"
     std::string_view text;
 };
 

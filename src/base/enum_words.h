@@ -6,10 +6,10 @@
 
 namespace lamina {
 
-// The words of an enum class as files and messages have them, with their values, in the order in
-// which the enum lists these. name_of(Enum) is their only table: a switch with a case for every
-// value, so that the compiler names it where a new one lacks its word, and nullptr behind it, where
-// the words end. The enum's values must be 0, 1, 2, ...
+// The words of an enum class that files and messages use, with their values, in the order of the
+// enum. name_of(Enum) is the only table of these words. It is a switch with a case for every value,
+// so that the compiler warns where a new value lacks its word, followed by a return of nullptr,
+// which marks the end of the words. The enum's values must be 0, 1, 2, ...
 template <typename Enum>
 std::vector<std::pair<const char*, Enum>> enum_words() {
     std::vector<std::pair<const char*, Enum>> words;

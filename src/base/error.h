@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors that a user can cause: Error (exit code 1), Interrupted by a signal (128 and its
-// number), UsageError. Mistakes of the program itself are assert()s.
+// The errors that a user can cause: Error (exit code 1), UsageError (2), and Interrupted by a
+// signal (128 plus its number). Mistakes of the program itself are assert()s.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// A command line that makes no sense: exit code 2.
+// The command line is not valid: exit code 2.
 class UsageError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -6,10 +6,10 @@
 
 namespace lamina {
 
-// Throws Error unless it is a regular file: opening a pipe may never end.
+// Throws Error unless `path` is a regular file, because opening a pipe may never end.
 void expect_regular_file(const std::filesystem::path& path);
 
-// All bytes of a regular file. Throws Error when it is none or cannot be read.
+// Reads all bytes of a regular file. Throws Error where it is not one or cannot be read.
 std::string read_file_bytes(const std::filesystem::path& path);
 
 }  // namespace lamina

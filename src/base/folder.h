@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// With the folders that it is in, where they are not there yet. Throws Error.
+// Makes a folder and its parent folders, where they do not exist yet. Throws Error.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace lamina

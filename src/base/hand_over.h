@@ -19,8 +19,8 @@
 namespace lamina {
 
 // Tells the thread sanitizer what oneTBB guarantees, which it cannot see in a library that was
-// built without it: a task comes after what its caller did before the loop, and the caller goes on
-// after all tasks. Between tasks it says nothing, so that races among them are found. In every
+// built without it: a task runs after what its caller did before the loop, and the caller goes on
+// after all tasks. It claims no order between tasks, so that races among them are found. In every
 // other build it is empty.
 class HandOver {
   public:
@@ -29,8 +29,8 @@ class HandOver {
     HandOver(const HandOver&) = delete;
     HandOver& operator=(const HandOver&) = delete;
 
-    // Calls `work` as a task. What calls this reads the task's captures, which oneTBB may have
-    // copied on another core: it must be LAMINA_UNSEEN_BY_THREAD_SANITIZER.
+    // Calls `work` as a task. The calling function reads the task's captures, which oneTBB may have
+    // copied on another core. So it must be marked LAMINA_UNSEEN_BY_THREAD_SANITIZER.
     template <typename Work>
     void task(const Work& work) {
         acquire(&given_);

@@ -3,8 +3,8 @@
 
 namespace lamina {
 
-// After this, SIGINT, SIGTERM and SIGHUP no longer end the process: they make check_interrupt()
-// throw. What the caller had it ignore (nohup, a shell's background) stays ignored.
+// After this call SIGINT, SIGTERM and SIGHUP no longer end the process but make check_interrupt()
+// throw. Signals that the caller had set to be ignored (nohup, a shell's background) stay ignored.
 void catch_interrupts();
 
 // Throws Interrupted once a signal has come, or the client that this thread works for

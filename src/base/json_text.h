@@ -12,9 +12,9 @@
 
 namespace lamina {
 
-// Limits that every JSON text is held to while it is parsed.
+// Limits that are checked while a JSON text is parsed.
 inline constexpr std::uintmax_t most_json_bytes = 64u << 20;
-inline constexpr std::size_t most_json_depth = 64;  // lists and objects in each other
+inline constexpr std::size_t most_json_depth = 64;  // nesting of lists and objects
 inline constexpr std::size_t most_json_values = 10'000'000;
 
 class JsonSyntaxError : public Error {
@@ -22,17 +22,17 @@ class JsonSyntaxError : public Error {
     using Error::Error;
 };
 
-// The document of a text. Nothing else parses what a user can write: time and memory are
-// proportional to the text's length, and signals are heard (throws Interrupted). Throws
-// JsonSyntaxError, and Error where a key stands twice in one object or a limit is passed; both say
-// line and column.
+// Parses a JSON text. All JSON that a user can write is parsed here: time and memory are
+// proportional to the text's length, and signals are noticed (throws Interrupted). Throws
+// JsonSyntaxError, and Error where a key occurs twice in one object or a limit is exceeded. Both
+// give line and column.
 nlohmann::json parse_json(std::string_view text);
 
-// The document of a file; errors begin with its name.
+// Parses a JSON file. Error messages begin with its name.
 nlohmann::json load_json(const std::filesystem::path& file);
 
-// `json` as a file or a message has it. Names of files and of what is in them, and words of the
-// command line, may be of any encoding: bytes that are not UTF-8 become U+FFFD.
+// `json` as text for a file or a message. Names of files, names inside files, and words of the
+// command line may have any encoding, so bytes that are not UTF-8 become U+FFFD.
 template <typename Json>
 std::string json_text(const Json& json, int indent = -1) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -6,7 +6,8 @@
 
 namespace lamina {
 
-// Of an even number of values the mean of the two in the middle. At least one value.
+// The median of at least one value. For an even number of values it is the mean of the two in the
+// middle.
 inline double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;

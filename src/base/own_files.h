@@ -8,22 +8,23 @@
 
 namespace lamina {
 
-// Which files of a folder a verb wrote itself and may replace. The folder says so in
-// lamina-files.txt: a line "VERB: NAME" a file.
+// The files of a folder that a verb wrote itself and may therefore replace. They are listed in the
+// folder's lamina-files.txt, with a line "VERB: NAME" for each file.
 class OwnFiles {
   public:
     static constexpr const char* list_name = "lamina-files.txt";
 
     OwnFiles(std::filesystem::path folder, std::string verb);
 
-    // Throws Error where a file or folder of these names is there that the verb did not write.
+    // Throws Error where a file or folder of these names exists that the verb did not write.
     void expect_own(const std::vector<std::string>& names) const;
-    // Puts them on the list, before they are written: what is there without being on it is
-    // somebody else's, whenever a run is stopped. Makes the folder if need be.
+    // Adds names to the list before the files are written. So a file that is not on the list
+    // belongs to somebody else, even after a run was stopped. Makes the folder where it does not
+    // exist.
     void add(const std::vector<std::string>& names) const;
 
   private:
-    std::set<std::string> listed() const;  // lines
+    std::set<std::string> listed() const;  // lines of the list
 
     std::filesystem::path folder_;
     std::string verb_;

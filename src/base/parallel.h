@@ -15,9 +15,9 @@
 
 namespace lamina {
 
-// Calls body(i) for every i in [0, count) on all cores, in no particular order; an exception of one
-// call ends the loop and is rethrown, and so does Ctrl-C or a stop that is requested. `grain`: how
-// many calls make one task (make a task at least some 10 us long).
+// Calls body(i) for every i in [0, count) on all cores, in no particular order. The loop ends early
+// on an exception, which is rethrown, on Ctrl-C, and on a requested stop. `grain`: number of calls
+// in one task, which should take at least some 10 us.
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
     HandOver hand_over;
@@ -34,7 +34,8 @@ void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {
                       });
 }
 
-// Calls both, on two cores where there are; an exception of one is rethrown after both have ended.
+// Calls both functions, on two cores where possible. An exception of one is rethrown after both
+// have ended.
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
@@ -49,8 +50,9 @@ void parallel_invoke(const First& first, const Second& second) {
                          [&]() LAMINA_UNSEEN_BY_THREAD_SANITIZER { task(second); });
 }
 
-// Sorts on all cores; elements that `less` does not tell apart come in any order. Under the thread
-// sanitizer on one core: oneTBB hands the pieces on inside of the sort, where nothing can be told.
+// Sorts on all cores. Elements that `less` does not distinguish come in any order. Under the thread
+// sanitizer it sorts on one core, because oneTBB passes data between tasks inside its sort, where
+// HandOver cannot be called.
 template <typename Iterator, typename Less>
 void parallel_sort(Iterator begin, Iterator end, const Less& less) {
 #ifdef LAMINA_THREAD_SANITIZER

@@ -6,9 +6,9 @@
 
 namespace lamina {
 
-// `text` as a terminal can show it without being told to do something: control characters (also
-// those of two bytes, which some terminals obey) and bytes that are not UTF-8 become \n, \t or
-// \xNN. Names of files and of what is in them may hold any bytes.
+// `text` in a form that a terminal shows without executing it. Control characters (also those of
+// two bytes, which some terminals obey) and bytes that are not UTF-8 become \n, \t or \xNN. Names
+// of files and names inside files may contain any bytes.
 std::string printable(std::string_view text);
 
 }  // namespace lamina

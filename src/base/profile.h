@@ -12,10 +12,10 @@
 
 namespace lamina {
 
-// What happened when in this process, as spans of time on rows: one row for each thread that has
-// a Stage, and one for OpenGL. Records from its making to its end; only one does at a time. Where
-// none does, a Stage is a stopwatch. Keeps the first most_spans of them and counts the others, so
-// that a million frames take no more memory than some ten thousand.
+// A record of what happened when in this process, as spans of time on rows. There is one row for
+// each thread that has a Stage, and one for OpenGL. A Profile records while it exists, and only one
+// records at a time. Where none does, a Stage is a stopwatch. It keeps the first most_spans spans
+// and only counts the others, so that its memory is bounded for any number of frames.
 class Profile {
   public:
     struct Count {
@@ -24,10 +24,11 @@ class Profile {
     };
     using Counts = std::array<Count, 4>;
 
-    static constexpr int opengl_row = 0, first_row = 1;  // first_row: the thread that made it
+    static constexpr int opengl_row = 0, first_row = 1;  // first_row is the thread that made it
     static constexpr std::size_t most_spans = std::size_t{1} << 18;  // 24 MiB
 
-    // Times are Stopwatch::now(). Names are literals: they are kept as they are.
+    // Times come from Stopwatch::now(). Names must be literals, because only their pointers are
+    // kept.
     struct Span {
         const char* name;
         std::int64_t begin_ns, end_ns;
@@ -46,13 +47,13 @@ class Profile {
     void add(const char* name, std::int64_t begin_ns, std::int64_t end_ns, const Counts& counts);
     void add_opengl(const char* name, std::int64_t begin_ns, std::int64_t end_ns);
 
-    // In the order in which they ended; to be asked when no other thread is at work.
+    // The spans in the order in which they ended. Must be called while no other thread is working.
     const std::vector<Span>& spans() const { return spans_; }
     std::int64_t spans_left_out() const { return left_out_; }
-    int row_count() const;  // OpenGL's among them
+    int row_count() const;  // including OpenGL's row
 
   private:
-    void keep(const Span& span);  // with adding_ held
+    void keep(const Span& span);  // adding_ must be locked
 
     std::mutex adding_;
     std::vector<Span> spans_;

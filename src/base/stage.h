@@ -9,8 +9,8 @@
 
 namespace lamina {
 
-// A stage of the work: timed, and recorded where a Profile is. Ends in the thread that began it,
-// and stages of one thread end in the reverse of the order in which they began.
+// A stage of the work. It is timed, and recorded where a Profile exists. It must end in the thread
+// that began it, and stages of one thread must end in reverse order.
 class Stage {
   public:
     explicit Stage(const char* name) : name_(name) {}  // a literal
@@ -18,13 +18,13 @@ class Stage {
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    // Something to know about it, before its end; at most as many as Profile::Counts holds.
+    // Adds a number to the stage before its end; at most as many as Profile::Counts holds.
     void count(const char* name, double value) {
         assert(count_ < counts_.size());
         counts_[count_++] = {name, value};
     }
 
-    // Milliseconds that it took. The first call ends it.
+    // Ends the stage at the first call. Returns its duration in milliseconds.
     double end() {
         if (end_ns_) return 1e-6 * static_cast<double>(*end_ns_ - begin_ns_);
         end_ns_ = Stopwatch::now();

@@ -8,20 +8,21 @@
 
 namespace lamina {
 
-// At the start, before any file is opened. Writing into a pipe that nobody reads, or beyond the
-// limit on the size of files, becomes an error of the write instead of the process's end. And
-// descriptors that the caller closed are taken, or the first file opened would become stdout and
-// get the results: whatever uses them still fails.
+// Must be called at the start, before any file is opened. Afterwards writing into a pipe without a
+// reader, or beyond the limit on the size of files, is an error of the write and does not end the
+// process. It also occupies standard descriptors that the caller closed. Otherwise the first file
+// that is opened would become stdout and receive the results. Using such a descriptor still fails.
 void make_streams_safe();
 
-// A result, to stdout. Throws Error when it does not arrive (a full disk, nobody who reads).
+// Writes a result to stdout. Throws Error where it cannot be written (a full disk, no reader).
 void write_result(const std::string& text);
-void flush_results();  // of what still waits in memory; throws Error
+void flush_results();  // writes out what is buffered; throws Error
 
-// For people, to stderr: one line with its end, which alone is not shown as printable() does. What
-// does not arrive is lost: no reason to fail.
+// Writes a message for people to stderr: one line with its newline, which is the only control
+// character that is not escaped as by printable(). Where it cannot be written, it is lost without
+// an error.
 void write_message(const std::string& line);
-// The same, in place of the line in which a terminal's cursor is and without ending it.
+// The same, but it replaces the terminal's current line and does not end it.
 void replace_line(const std::string& line);
 
 template <typename... Args>

@@ -11,7 +11,7 @@ class Stopwatch {
     double seconds() const { return 1e-9 * static_cast<double>(now() - start_ns_); }
     double milliseconds() const { return 1e3 * seconds(); }
 
-    // Of the clock that is measured with: nanoseconds since some moment.
+    // The current time of the clock that measurements use: nanoseconds since some moment.
     static std::int64_t now() {
         using std::chrono::duration_cast, std::chrono::nanoseconds, std::chrono::steady_clock;
         return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();

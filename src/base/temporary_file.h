@@ -7,10 +7,11 @@
 
 namespace lamina {
 
-// Where temporary files lie: TMPDIR, else /tmp.
+// The folder of temporary files: TMPDIR, or /tmp where it is not set.
 std::string temporary_folder();
 
-// A file there without a name: gone with this object, and with the process, however that ends.
+// A temporary file without a name. It disappears with this object, and with the process, however
+// that ends.
 class TemporaryFile {
   public:
     TemporaryFile();  // throws Error
@@ -20,7 +21,7 @@ class TemporaryFile {
 
     std::FILE* stream() const { return stream_; }
     void write(const void* bytes, std::size_t count);  // throws Error
-    // Writes out what is buffered; the next byte, of whoever reads, is the first. Throws Error.
+    // Writes out what is buffered and goes to the first byte, for any reader. Throws Error.
     void rewind();
 
   private:

@@ -12,7 +12,8 @@ namespace lamina {
 // thread.
 void warn(const std::string& text);
 
-// Whoever started the work and can tell people. Replaces the one before; an empty one: nobody.
+// Sets the function that receives warnings, in place of the one before; an empty function means
+// none.
 using WarningTaker = std::function<void(const std::string&)>;
 void take_warnings(WarningTaker taker);
 

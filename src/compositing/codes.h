@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of n bits, n = 1..16: whole numbers 0..M, M = 2^n - 1, that stand for code / M. Twin of
-// shaders/compositing/codes.glsl, bit for bit.
+// Codes of n bits, n = 1..16: whole numbers 0..M with M = 2^n - 1, which represent code / M. Twin
+// of shaders/compositing/codes.glsl, bit for bit.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ constexpr std::uint32_t largest_code(int bits) {
 // rounding errors of double precision must not turn the opacity of code k into code k - 1.
 inline constexpr double code_noise = 1e-9;
 
-// A scaled value as its whole part and the rest, 0 <= rest < 1.
+// A scaled value, split into its whole part and the rest, 0 <= rest < 1.
 struct ScaledValue {
     std::uint32_t whole;
     double rest;
@@ -36,7 +36,8 @@ inline std::uint32_t code_nearest(double scaled) {
     return static_cast<std::uint32_t>(std::floor(scaled + 0.5));
 }
 
-// `random`: 32 random bits, for stochastic rounding only: the mean over them is the value.
+// Rounds an opacity to a code. `random`: 32 random bits, used for stochastic rounding only, whose
+// mean is the value.
 inline std::uint32_t round_alpha(AlphaRounding rounding, const ScaledValue& scaled,
                                  std::uint32_t random) {
     switch (rounding) {

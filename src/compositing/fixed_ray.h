@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixed-point compositing of one ray on the processor: what an emulated target holds, and what
-// LaMar 2004 plots.
+// Fixed-point compositing of one ray on the processor. It gives what an emulated target holds, and
+// what LaMar 2004 plots.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lamina {
 
-// One channel and opacity, as codes. `color` is associated.
+// One colour channel and opacity, as codes. `color` is associated.
 struct FixedPixel {
     std::uint32_t color = 0;
     std::uint32_t alpha = 0;
@@ -26,16 +26,16 @@ struct RaySample {
     double alpha = 0;
 };
 
-// The pixel after all samples, of which 0 is nearest the eye. `column`, `row`: the pixel's place,
-// for stochastic rounding.
+// The pixel after all samples; sample 0 is the nearest to the eye. `column`, `row`: the pixel's
+// place, for stochastic rounding.
 FixedPixel composite_straight(std::span<const RaySample> samples, const Emulation& emulation,
                               const std::optional<Dither>& dither = {},
                               Order order = Order::back_to_front, std::uint32_t column = 0,
                               std::uint32_t row = 0);
 
-// Exponent-factoring (LaMar 2004, section 6; docs/numerics.md, section 3): the opacity of the root,
-// as a code, of samples given by their per-unit opacity A, where the unit is the whole ray. Samples
-// may be dithered; nodes are rounded as alpha is.
+// Exponent-factoring (LaMar 2004, section 6; docs/numerics.md, section 3). Returns the opacity of
+// the root as a code. Samples are given by their per-unit opacity A, where the unit is the whole
+// ray. Samples may be dithered; nodes are rounded like alpha.
 std::uint32_t composite_tree(std::span<const double> unit_opacities, const TreeShape& tree,
                              const Emulation& emulation, const std::optional<Dither>& dither = {},
                              Order order = Order::back_to_front, std::uint32_t column = 0,

@@ -7,15 +7,15 @@
 
 namespace lamina {
 
-// Optical depth that a code of 1 stands for: opaque.
+// The optical depth that a code of 1 represents: opaque.
 inline constexpr double opaque_node_depth = 1e4;
 
 // The code in [0, 1] of optical depth S >= 0 in a node that holds `share` (0 < share <= 1) of its
-// ray's samples. sigma = S / share is what the whole ray's depth would be if all of it were like
-// the node.
+// ray's samples. sigma = S / share is the optical depth of a whole ray that is filled like the
+// node.
 double encode_depth(NodeCode code, double depth, double share);
 
-// Its inverse: S of a code in [0, 1].
+// The inverse: S of a code in [0, 1].
 double decode_depth(NodeCode code, double value, double share);
 
 }  // namespace lamina

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OVER operator on n-bit codes (LaMar 2004, section 4; docs/numerics.md, section 2). Twin of
-// shaders/compositing/over.glsl, bit for bit. M is odd, so that no product lies in the middle
-// between two codes.
+// shaders/compositing/over.glsl, bit for bit. M is odd, so no quotient lies exactly between two
+// codes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace lamina {
 
-// x / M to the nearest whole number, x <= M * M; (2x + M) / (2M) would overflow for 16 bits.
+// x / M, rounded to the nearest whole number, for x <= M * M. The formula (2x + M) / (2M) would
+// overflow for 16 bits.
 constexpr std::uint32_t divide_nearest(std::uint32_t x, std::uint32_t largest) {
     return (x + (largest - 1) / 2) / largest;
 }
@@ -25,10 +26,10 @@ constexpr std::uint32_t over(OverRounding rounding, std::uint32_t color, std::ui
                : divide_nearest(source, largest) + divide_nearest(kept, largest);
 }
 
-// Front to back: adds `color` with opacity `alpha` behind what is there: associated colour
-// `above`, opacity `above_alpha`. separate: the source is multiplied by its opacity, rounded,
-// attenuated and rounded again, as blending with (1 - destination alpha, 1) does; fused: one
-// rounding.
+// Compositing front to back: adds `color` with opacity `alpha` behind the associated colour `above`
+// with opacity `above_alpha`. separate: the source is multiplied by its opacity, rounded,
+// attenuated and rounded again, as blending with (1 - destination alpha, 1) does. fused: there is
+// one rounding.
 constexpr std::uint32_t under(OverRounding rounding, std::uint32_t color, std::uint32_t alpha,
                               std::uint32_t above, std::uint32_t above_alpha,
                               std::uint32_t largest) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reproducible random numbers: of a place for stochastic rounding, in a row for permutations.
+// Reproducible random numbers: hashes of a place, for stochastic rounding, and sequences, for
+// permutations.
 #pragma once
 
 #include <cstdint>

@@ -7,20 +7,23 @@
 
 namespace lamina {
 
-// Samples first .. first + count - 1 of a ray, or slabs of a volume; 0 is nearest the eye.
+// Samples first .. first + count - 1 of a ray, or slabs of a volume. Number 0 is the nearest to the
+// eye.
 struct SampleSpan {
     int first = 0;
     int count = 0;
     int end() const { return first + count; }
 };
 
-// Child i of the k of a node (docs/numerics.md, section 3): samples floor(i n / k) .. floor((i + 1)
-// n / k) of its n, so that the children's sizes differ by at most one; some are empty where k > n.
+// The samples of child i of a node with k children and n samples (docs/numerics.md, section 3):
+// floor(i n / k) .. floor((i + 1) n / k). The children's sizes differ by at most one; some are
+// empty where k > n.
 SampleSpan child_span(const SampleSpan& node, int child, int children);
 
-// A compositing tree over N samples (LaMar 2004, section 6): bifurcation factors from the root to
-// the leaves, any factors and any N >= 1. A node on the last level is a leaf: its children are
-// samples. Where the factors' product is less than N, another level takes the rest.
+// A compositing tree over N samples (LaMar 2004, section 6), given by bifurcation factors from the
+// root to the leaves, for any factors and any N >= 1. A node on the last level is a leaf: its
+// children are samples. Where the product of the factors is less than N, another level takes the
+// rest.
 class TreeShape {
   public:
     TreeShape(const std::vector<int>& factors, int samples);
@@ -34,12 +37,12 @@ class TreeShape {
     bool is_leaf(int level, const SampleSpan& node) const {
         return level + 1 == levels() || node.count <= 1;
     }
-    // A node whose children are single samples, or fewer, takes them one after the other where
-    // nodes are computed in float, whatever its level: that is the same.
+    // Where nodes are computed in float, a node on any level whose children are single samples
+    // composites them one after the other. The result is the same as with child nodes.
     bool is_marched(int level, const SampleSpan& node) const {
         return is_leaf(level, node) || factor(level) >= node.count;
     }
-    // Nodes that hold samples.
+    // The number of nodes that hold samples.
     std::int64_t node_count() const;
     std::int64_t leaf_count() const;
 
@@ -53,7 +56,7 @@ class TreeShape {
 inline constexpr int max_tree_levels = 16;
 inline constexpr int max_tree_factor = 65536;
 
-// "32x32", "4^5": as lists; throws Error on anything else.
+// Parses factors such as "32x32" or "4^5"; throws Error on anything else.
 std::vector<int> parse_factors(const std::string& text);
 std::string to_text(const std::vector<int>& factors);
 

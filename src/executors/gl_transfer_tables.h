@@ -12,23 +12,23 @@
 
 namespace lamina {
 
-// The transfer function, and where one is wanted its pre-integration table, as the textures that
+// The transfer function and, where it is needed, its pre-integration table, as the textures that
 // shaders/optics/intervals.glsl and preintegration.glsl read.
 class GlTransferTables {
   public:
     static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
 
-    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: of the pre-integration, or
-    // null. `filtered`: it goes through the texture unit's filter. `step_advance`: see
-    // make_intervals().
+    // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the plan of the
+    // pre-integration table, or null. `filtered`: the table is read through the texture unit's
+    // filter. `step_advance`: see make_intervals().
     GlTransferTables(const TransferFunction& transfer_function, const ValueRange& range,
                      const TablePlan* table, bool filtered, double step_advance);
 
     int intervals() const { return interval_count_; }
-    int nodes() const { return node_count_; }  // along an axis of the table; 0 without
-    void bind(gl::Program& program) const;     // textures and uniforms
+    int nodes() const { return node_count_; }  // along an axis of the table; 0 without a table
+    void bind(gl::Program& program) const;     // binds textures and sets uniforms
 
-    // Of the pre-integration table.
+    // The anchors of the pre-integration table.
     const std::vector<PreintegrationTable::Anchor>& anchors() const { return anchors_; }
 
   private:

@@ -9,13 +9,15 @@
 
 namespace lamina {
 
-// What each code of a child is worth in its node (LaMar 2004, section 6.2): 1 - (1 - Phi)^share
-// times the largest code, as its whole part and the rest, in double precision.
+// The value of each code Phi of a child in its node (LaMar 2004, section 6.2): 1 - (1 - Phi)^share
+// times the largest code. It is computed in double precision and split into its whole part and the
+// rest.
 struct Swizzle {
     std::vector<float> whole, rest;
 };
 
-// All that a tree of fixed-point nodes needs, by the samples of child and node. `bits`: of a code.
+// All swizzles that a tree of fixed-point nodes needs. The key is the number of samples of the
+// child and of the node. `bits`: length of a code.
 using Swizzles = std::map<std::pair<int, int>, Swizzle>;
 Swizzles make_swizzles(const TreeShape& shape, int bits);
 

@@ -11,31 +11,33 @@
 
 namespace lamina {
 
-// What a tree of fixed-point nodes is made of, in one tile: samples in the order of visibility, 0
-// nearest the eye.
+// The samples of a tree of fixed-point nodes in one tile. They are numbered in visibility order; 0
+// is the nearest to the eye.
 class TileLeaves {
   public:
     virtual ~TileLeaves() = default;
 
-    // Composites the opacity of these samples onto a plane of the tile, in the plan's order and as
-    // codes. Optical depths are multiplied by `depth_scale`: all samples over those of the leaf.
+    // Composites the opacity of these samples, as codes, onto a plane of the tile, in the plan's
+    // order. Optical depths are multiplied by `depth_scale`, the number of all samples over that of
+    // the leaf.
     virtual void draw(const SampleSpan& span, double depth_scale, TilePixels::Plane& opacity) = 0;
 };
 
-// LaMar's exponent-factoring (2004, section 6) in tiles: every node composites opacity in a plane
-// of fixed-point codes, which goes through a table into its parent's. One plane a level is enough,
-// because a node's plane is used up at once. Twin of GlFixedTree.
+// LaMar's exponent-factoring (2004, section 6) in tiles; GlFixedTree does the same with OpenGL.
+// Every node composites opacity in a plane of fixed-point codes, which goes through a table into
+// the plane of its parent. One plane a level is enough, because a node's plane is used up at once.
 class TileFixedTree {
   public:
-    // `plan`: of the nodes. Leaves may be drawn in another way.
+    // `plan`: how the nodes composite. Leaves may be drawn in another way.
     TileFixedTree(const CompositingPlan& plan, const TreeShape& shape,
                   const std::array<float, 3>& single_color);
 
     // Replaces a tile by the picture of the leaves. Safe from several threads at a time.
     void draw(const TileGrid::Tile& area, TileLeaves& leaves, TilePixels& pixels) const;
 
-    // Its steps by themselves, for those who evaluate the tree: puts a child's opacity into that of
-    // its node, the `number`th one to do so in the frame; replaces pixels by what the root shows.
+    // The steps of draw(), for callers that evaluate the tree themselves. put_into_parent() puts a
+    // child's opacity into that of its node; `number` counts these calls in a frame. colorize()
+    // replaces pixels by what the root shows.
     void put_into_parent(const SampleSpan& child, const SampleSpan& node, std::uint32_t number,
                          const TileGrid::Tile& area, const TilePixels::Plane& from,
                          TilePixels::Plane& to) const;
@@ -55,12 +57,12 @@ class TileFixedTree {
     Swizzles swizzles_;
 };
 
-// The vector parts of it.
+// The steps of TileFixedTree that are compiled for each instruction set.
 struct TileSwizzle {
     TargetBlend blend;
     bool emulated = false;
     const float *whole = nullptr, *rest = nullptr;
-    std::uint32_t stage = 0;  // of the frame: for stochastic rounding
+    std::uint32_t stage = 0;  // number of the step in the frame, for stochastic rounding
 };
 void swizzle_tile(const TileSwizzle& swizzle, const TileGrid::Tile& area,
                   const TilePixels::Plane& child, TilePixels::Plane& node);

@@ -18,7 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// How intervals are looked up: there is one; by permutations of vectors that hold all; by gathers.
+// How the interval of a scalar is looked up. one: there is only one interval. permute: by
+// permutations of vectors that hold all intervals. gather: by gathers from memory.
 enum class Lookup { one, permute, gather };
 
 // Calls body(std::integral_constant<Lookup, ...>).
@@ -46,7 +47,7 @@ HWY_INLINE Floats look_up(const std::vector<float>& values, Ints interval) {
     }
 }
 
-// The interval that holds a scalar of [0, 1]; at a step's very value the upper one.
+// The interval that holds a scalar in [0, 1]. At the value of a step it is the upper one.
 template <Lookup kind>
 HWY_INLINE Ints find_interval(const TileTransfer& transfer, Floats scalar) {
     const FloatTag d;
@@ -75,7 +76,7 @@ HWY_INLINE Ints find_interval(const TileTransfer& transfer, Floats scalar) {
     }
 }
 
-// Where in its interval a scalar lies, 0..1.
+// The position of a scalar in its interval, 0 to 1.
 template <Lookup kind>
 HWY_INLINE Floats share_of_interval(const TileTransfer& transfer, Ints interval, Floats scalar) {
     const Floats end = look_up<kind>(transfer.end, interval);
@@ -90,7 +91,7 @@ HWY_INLINE Floats optics_at(const TileTransfer& transfer, std::size_t channel, I
                    look_up<kind>(transfer.left[channel], interval));
 }
 
-// The extinction in double precision.
+// The extinction, in double precision.
 template <Lookup kind>
 HWY_INLINE TwoDoubles precise_extinction_at(const TileTransfer& transfer, Ints interval,
                                             Floats share) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of how shaders/slicing/segment.glsl uses the table of pre-integration.
+// Vector form of how shaders/slicing/segment.glsl reads the pre-integration table.
 #if defined(LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_
 #undef LAMINA_EXECUTORS_TILE_PREINTEGRATION_INL_H_
@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Coordinates of a scalar: its interval, its node.
+// A scalar's interval and its node coordinate in the table.
 struct TablePlace {
     Ints interval;
     Floats node;
@@ -30,13 +30,14 @@ HWY_INLINE TablePlace table_place(const TileTransfer& transfer, Floats scalar) {
                               look_up<kind>(transfer.first_node, interval))};
 }
 
-// Colour, associated, and optical depth of the part of a segment behind which the next is put.
+// Associated colour and optical depth of the front of a segment, behind which the next run is
+// added.
 struct RunSum {
     Floats color[3];
     Floats depth;
 };
 
-// Adds a part with an entry behind `sum`.
+// Adds a run with the given table entry behind `sum`.
 HWY_INLINE void add_entry(const TableEntry& entry, Floats length, RunSum& sum) {
     const FloatTag d;
     const Floats depth = hn::Mul(entry.extinction, length);
@@ -54,18 +55,18 @@ struct RunEnds {
     TablePlace front_place, back_place;
 };
 
-// The part of a segment that is looked up at a time.
+// The stretch of a segment that one look-up integrates.
 struct TableRun {
     TableCell cell;
     Floats length;
 };
 
-// A segment before the table is looked up. Where it crosses ends of intervals it is cut at the
-// first and at the last of these: `first` is the part before them, else all of it. Most cross one
-// end, and have nothing `between`.
+// A segment before the table is looked up. Where the segment crosses ends of intervals, it is cut
+// at the first and at the last of these. `first` is the stretch before the first cut, or all of the
+// segment. Most segments that are cut cross one end only and have nothing `between`.
 struct Segment {
     TableRun first, between, last;
-    FloatMask seen, cut, parted;  // shows anything at all; is cut; has something between
+    FloatMask seen, cut, parted;  // shows something; is cut; has something between
     bool some_cut;
 };
 
@@ -73,7 +74,7 @@ HWY_INLINE std::int32_t table_nodes(const TileTransfer& transfer) {
     return static_cast<std::int32_t>(transfer.table->nodes.size());
 }
 
-// Sets the parts of lanes that are cut.
+// Sets first, between and last in the lanes that are cut.
 template <Lookup kind>
 HWY_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run, Segment& segment) {
     const IntTag di;
@@ -107,7 +108,8 @@ HWY_INLINE void cut_segment(const TileTransfer& transfer, const RunEnds& run, Se
     segment.last = {table_cell(nodes, back_end, run.back_place.node), length(last_end, run.back)};
 }
 
-// Lanes that are not cut must not read beyond the intervals.
+// Replaces the intervals of lanes that are not cut, so that these do not read beyond the last
+// interval.
 HWY_INLINE RunEnds ends_of_cut(const RunEnds& run, FloatMask cut) {
     const FloatTag d;
     const auto keep = hn::RebindMask(IntTag(), cut);
@@ -140,12 +142,12 @@ HWY_INLINE Segment segment_of(const TileTransfer& transfer, Floats front, Floats
     return segment;
 }
 
-// The entries of a segment's first and last parts.
+// The table entries of `first` and `last` of a segment.
 struct SegmentEntries {
     TableEntry first, last;
 };
 
-// Colour and depth of the lanes that are cut; others lose their meaning.
+// Colour and optical depth of the lanes that are cut. The values of other lanes have no meaning.
 HWY_INLINE RunSum sum_of_parts(const TileTransfer& transfer, bool colored, const Segment& segment,
                                const SegmentEntries& entries) {
     const FloatTag d;
@@ -169,7 +171,8 @@ HWY_INLINE RunSum sum_of_parts(const TileTransfer& transfer, bool colored, const
     return sum;
 }
 
-// A segment's colour, not associated, and its optical depth; `entries`: of tables with colour.
+// A segment's colour, which is not associated, and its optical depth. `entries` are used for tables
+// with colour.
 HWY_INLINE RunSum integrate_segment(const TileTransfer& transfer, bool colored,
                                     const Segment& segment, const SegmentEntries& entries) {
     const FloatTag d;
@@ -214,8 +217,9 @@ HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floa
     return integrate_segment(transfer, colored, segment, entries);
 }
 
-// Whether there is extinction anywhere between two scalars: in an interval before the last, or in
-// that one, unless it only begins there, with none.
+// Whether there is extinction anywhere between two scalars: in an interval before the last one, or
+// in the last one. The last interval does not count where `largest` is its left end and the
+// extinction there is 0.
 template <Lookup kind>
 HWY_INLINE FloatMask shows_something(const TileTransfer& transfer, Floats least, Floats largest) {
     const FloatTag d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Look-ups in the table of pre-integration: vector form of shaders/optics/preintegration.glsl.
+// Look-ups in the pre-integration table: vector form of shaders/optics/preintegration.glsl.
 #if defined(LAMINA_EXECUTORS_TILE_TABLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_TILE_TABLE_INL_H_
 #undef LAMINA_EXECUTORS_TILE_TABLE_INL_H_
@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// A cell of the table and where in it.
+// A cell of the table and the position in it.
 struct TableCell {
     Ints corner;  // front node + nodes * back node
     Floats front, back;
@@ -32,13 +32,13 @@ HWY_INLINE TableCell table_cell(std::int32_t nodes, Floats front, Floats back) {
             hn::Sub(front, hn::ConvertTo(d, column)), hn::Sub(back, hn::ConvertTo(d, row))};
 }
 
-// An entry of the table: emission, of coloured tables, and mean extinction.
+// An entry of the table: mean extinction and, in coloured tables, emission.
 struct TableEntry {
     Floats emission[3];
     Floats extinction;
 };
 
-// Bilinear between the four nodes of a cell.
+// Interpolates bilinearly between the four nodes of a cell.
 HWY_INLINE Floats table_extinction(const PreintegrationTable& table, const TableCell& cell) {
     const FloatTag d;
     const auto nodes = static_cast<std::int32_t>(table.nodes.size());
@@ -59,7 +59,8 @@ HWY_INLINE hn::Vec<D> mixed_nodes(D d, const float* texels, std::ptrdiff_t right
     return mix(near, far, hn::Set(d, back));
 }
 
-// Between two layers of length, which lie side by side: both at once where vectors are long enough.
+// Interpolates between two layers of length. Their texels lie side by side, so that both are
+// interpolated at once where vectors are long enough.
 template <class D8>
 HWY_INLINE void mix_layers(D8 d8, const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
                            float front, float back, float layer, float* entry) {
@@ -84,9 +85,10 @@ HWY_INLINE void for_each_lane(FloatMask mask, const Body& body) {
         body(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
-// Where the lanes of a vector look entries up.
+// The positions at which the lanes of a vector look up entries.
 struct EntryPlaces {
-    alignas(64) std::int32_t first[most_lanes];  // of the cell's nodes and layers, an entry each
+    // Number of the entry at the cell's corner and lower layer.
+    alignas(64) std::int32_t first[most_lanes];
     alignas(64) float front[most_lanes], back[most_lanes], layer[most_lanes];
 };
 
@@ -104,9 +106,9 @@ HWY_INLINE void set_places(const TileTransfer& transfer, const TableCell& cell, 
     hn::Store(hn::Sub(layer, hn::ConvertTo(d, lower)), d, places.layer);
 }
 
-// Calls entry_at(lane, entries + 4 * lane) for the lanes that are `wanted`; 0 in others. Lane by
-// lane, because an entry's numbers lie side by side: several times as fast as gathers of one
-// number each.
+// Calls entry_at(lane, entries + 4 * lane) for the lanes that are `wanted`; the entries of other
+// lanes become 0. It goes lane by lane, because the numbers of an entry lie side by side: this is
+// several times as fast as gathers of one number each.
 template <class EntryAt>
 HWY_INLINE void set_entries(FloatMask wanted, float* entries, const EntryAt& entry_at) {
     const FloatTag d;
@@ -118,7 +120,7 @@ HWY_INLINE void set_entries(FloatMask wanted, float* entries, const EntryAt& ent
     for_each_lane(wanted, [&](std::size_t lane) HWY_ATTR { entry_at(lane, entries + 4 * lane); });
 }
 
-// Four numbers a lane.
+// Writes four numbers a lane.
 HWY_INLINE void look_up_entries(const TileTransfer& transfer, const EntryPlaces& places,
                                 FloatMask wanted, float* entries) {
     const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());

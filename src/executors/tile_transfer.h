@@ -15,29 +15,33 @@
 
 namespace lamina {
 
-// The transfer function as vectors look it up: ShaderIntervals, one array a component. Arrays end
-// with copies of the last interval, so that a vector may be loaded from their beginning.
+// The transfer function in the form that vectors look it up: ShaderIntervals with one array a
+// component. Arrays end with copies of the last interval, so that a whole vector may be loaded from
+// their beginning.
 struct TileTransfer {
-    static constexpr int few = 16;  // intervals that are found by comparisons
+    static constexpr int few = 16;  // up to so many intervals are searched by comparisons
 
-    // `range`: the scalars seen as [0, 1]; lo < hi. `table`: of the pre-integration, or null.
-    // `step_advance`: see make_intervals().
+    // `range`: the scalars that become [0, 1]; lo < hi. `table`: the plan of the pre-integration
+    // table, or null. `step_advance`: see make_intervals().
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
                  const TablePlan* table, double step_advance);
 
     int intervals = 0;
-    std::vector<float> end, inverse_width;     // left end, 1 / width
-    std::vector<float> first_node, nodes;      // of the table: at the left end, to the right end
+    std::vector<float> end, inverse_width;  // left end, 1 / width
+    // Of the table: at the left end; their number to the right end.
+    std::vector<float> first_node, nodes;
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end
-    std::array<std::vector<float>, 4> change;  // to the right end
+    std::array<std::vector<float>, 4> change;  // from the left end to the right end
     std::vector<float> right_extinction;
-    std::vector<float> left_rest, right_rest;  // what float leaves over of the extinctions
-    std::vector<float> shown_before, shown;  // intervals with extinction before it; it itself: 0, 1
-    std::vector<std::int32_t> starts;        // ShaderIntervals::starts
+    // Remainders of the extinctions that float does not hold.
+    std::vector<float> left_rest, right_rest;
+    // Number of intervals with extinction before it; whether it has extinction: 0 or 1.
+    std::vector<float> shown_before, shown;
+    std::vector<std::int32_t> starts;  // ShaderIntervals::starts
 
     std::shared_ptr<const PreintegrationTable> table;
-    // Of a coloured table: emission and mean extinction, RGBA, the layers of a pair of scalars side
-    // by side; aligned, so that two of them are in one line of the cache.
+    // The texels of a coloured table: emission and mean extinction as RGBA. The layers of a pair of
+    // scalars lie side by side and are aligned, so that two of them share a line of the cache.
     using Texels = std::vector<float, tbb::cache_aligned_allocator<float>>;
     Texels texels;
     float layers_per_length = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vectors that renderers compute with: one number for each pixel of a block.
+// The vectors that the native renderers compute with: one number for each pixel of a block.
 #if defined(LAMINA_EXECUTORS_TILE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_TILE_VECTORS_INL_H_
 #undef LAMINA_EXECUTORS_TILE_VECTORS_INL_H_
@@ -27,7 +27,7 @@ using Floats = hn::Vec<FloatTag>;
 using FloatMask = hn::Mask<FloatTag>;
 using Ints = hn::Vec<IntTag>;
 using Words = hn::Vec<WordTag>;
-// As many doubles as floats take two vectors.
+// A vector of floats corresponds to two vectors of doubles.
 using HalfDoubles = hn::Vec<DoubleTag>;
 using TwoDoubles = Doubles<FloatTag>;
 

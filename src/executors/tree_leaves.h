@@ -6,15 +6,15 @@
 
 namespace lamina {
 
-// What a tree of fixed-point nodes is made of: samples in the order of visibility, 0 nearest the
-// eye.
+// The samples of a tree of fixed-point nodes. They are numbered in visibility order; 0 is the
+// nearest to the eye.
 class TreeLeaves {
   public:
     virtual ~TreeLeaves() = default;
 
-    // Composites the opacity of these samples onto the target, which is bound, in its one channel
-    // and in the plan's order. Optical depths are multiplied by `depth_scale`: all samples over
-    // those of the leaf.
+    // Composites the opacity of these samples onto the one channel of the bound target, in the
+    // plan's order. Optical depths are multiplied by `depth_scale`, the number of all samples over
+    // that of the leaf.
     virtual void draw(const SampleSpan& span, const gl::Framebuffer& target,
                       double depth_scale) = 0;
 };

@@ -9,22 +9,24 @@
 
 namespace lamina {
 
-// The bricks over which the transfer function has one colour and one extinction, where these are at
-// least `least_share` of those that show something; else none. Neighbours share their border
-// samples, so constant bricks that touch are of one kind.
+// The bricks over which the transfer function has one colour and one extinction. Empty where these
+// are less than `least_share` of the bricks that show something. Neighbouring bricks share their
+// border samples, so constant bricks that touch have the same optical properties.
 struct ConstantBricks {
     static constexpr double least_share = 0.05;
-    static constexpr std::size_t most_kinds = 16;  // the commonest; others count as varied
+    // The most frequent ones; the others count as varied.
+    static constexpr std::size_t most_kinds = 16;
 
-    double share = 0;  // of the bricks that show something
+    double share = 0;  // share of the bricks that show something
     std::vector<OpticalProperties> kinds;
-    std::vector<std::uint8_t> kind;  // of each constant brick, into kinds; x fastest
-    OccupiedBricks varied;           // how far it is to the nearest brick that is not constant
+    std::vector<std::uint8_t> kind;  // for each constant brick an index into kinds; x fastest
+    OccupiedBricks varied;           // distance to the nearest brick that is not constant
 
     std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
 };
 
-// `occupied`: of the same bricks and transfer function. `margin`: scalars may be wrong by so much.
+// `occupied` must come from the same bricks and transfer function. `margin`: the largest error of a
+// scalar.
 ConstantBricks find_constant_bricks(const TransferFunction& transfer_function,
                                     const MinMaxBricks& bricks, const OccupiedBricks& occupied,
                                     double margin);

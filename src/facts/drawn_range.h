@@ -6,8 +6,9 @@
 
 namespace lamina {
 
-// The range of a scalar as it is drawn, lo < hi: wider than it is where it is one value, and a
-// little more where the transfer function has a step at its end, whose later side counts.
+// The range of a scalar as it is drawn, lo < hi. It is widened where all values are the same, and a
+// little where the transfer function has a step at its end, because the later side of the step
+// counts there.
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
 
 }  // namespace lamina

@@ -26,8 +26,8 @@ struct IndexBox {
     friend bool operator==(const IndexBox&, const IndexBox&) = default;
 };
 
-// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box; far <= near: all
-// behind the eye.
+// Eye-space depths of the nearest (>= 0) and the farthest point of the grid's box. Where far <=
+// near, the box lies behind the eye.
 struct DepthRange {
     double near = 0;
     double far = 0;
@@ -35,52 +35,54 @@ struct DepthRange {
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
-// What the data and the view really contain: measured, not declared.
+// What the data and the view really contain. Facts are measured, not taken from headers.
 struct Facts {
     Grid grid;
     SampleType type = SampleType::uint8;
-    ValueRange range;             // of the finite samples
-    std::int64_t non_finite = 0;  // NaN or infinite samples
+    ValueRange range;             // range of the finite samples
+    std::int64_t non_finite = 0;  // number of NaN or infinite samples
 
-    double side_ratio = 1;  // longest to shortest side of the box, in the world
+    double side_ratio = 1;  // longest side of the box over the shortest, in the world
 
-    // The transfer function over `range`.
+    // The following describe the transfer function over `range`.
     bool constant = false;      // one colour, one extinction
     bool single_color = false;  // one colour wherever there is extinction
     double max_extinction = 0;  // per world unit
     double max_color = 0;       // largest component of a colour
-    std::int64_t knots = 0;     // strictly inside the range
-    std::int64_t pieces = 1;    // linear ones over drawn_range()
+    std::int64_t knots = 0;     // number strictly inside the range
+    std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
 
     // The smallest box, made of whole min/max bricks, outside which the transfer function shows
     // nothing.
     IndexBox occupied;
     OccupiedBricks occupied_bricks;
-    double occupied_share = 0;  // of the bricks
+    double occupied_share = 0;  // share of the bricks that show something
     DepthRange occupied_depth;  // eye-space depths of `occupied`
     ConstantBricks constant_bricks;
     // Half, nine tenths and all of the bricks have at most this extinction, per world unit.
     std::array<double, 3> extinction_quantiles{};
 
-    // The view: eye-space depths of the box's nearest and farthest point in front of the eye.
+    // The following describe the view. near_depth and far_depth are the eye-space depths of the
+    // nearest and the farthest point of the box in front of the eye.
     bool orthographic = false;
     bool eye_inside = false;
     double near_depth = 0;
-    double far_depth = 0;          // <= near_depth: the whole box lies behind the eye
-    double voxels_along_view = 0;  // index-space length of the forward direction over that depth
-    double max_length_per_depth =
-        1;  // longest |direction| of a pixel's ray (1 for orthographic views)
+    double far_depth = 0;  // <= near_depth where the whole box lies behind the eye
+    // Index-space length of the view axis between near_depth and far_depth.
+    double voxels_along_view = 0;
+    // Longest |direction| of a pixel's ray (1 for orthographic views).
+    double max_length_per_depth = 1;
 
     RayShares ray_shares;
-    ScalarRays scalar_rays;  // where segments are pre-integrated and a table may be needed
+    ScalarRays scalar_rays;  // filled where segments are pre-integrated and a table may be needed
 };
 
-// Throws Error when the volume has samples that are no finite numbers and the scene does not say
-// what to do with them, or has none but such.
+// Measures all facts. Throws Error where the volume has samples that are not finite and the scene
+// does not say how to treat them, or where no sample is finite.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// The same in parts, each of which needs those before: what the volume and the transfer function
-// say; what the view says, but for rays; what rays of the view meet.
+// The same in three steps, each of which needs those before: the facts of the volume and the
+// transfer function; those of the view except for rays; those of rays of the view.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
 void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);

@@ -11,36 +11,37 @@
 
 namespace lamina {
 
-// Which bricks of MinMaxBricks the transfer function shows something in, and how far it is to them.
+// Which bricks of MinMaxBricks show something under the transfer function, and how far each brick
+// is from them.
 struct OccupiedBricks {
     static constexpr int farthest = 255;
 
     std::array<std::int64_t, 3> count{0, 0, 0};
-    // From each brick to the nearest that shows something, in bricks along the axis on which they
-    // are farthest apart: 0 for those that do. At most `farthest`, also where there are none. x
-    // fastest.
+    // From each brick the distance to the nearest one that shows something: 0 for those that do. It
+    // is counted in bricks along the axis on which the two are farthest apart, and is at most
+    // `farthest`, also where no brick shows anything. x fastest.
     std::vector<std::uint8_t> distance;
 
-    // Replaces distances of 0 and `farthest`, shown and not, by the true ones.
+    // Computes the distances from an input of 0 (shows something) and `farthest` (shows nothing).
     void measure_distances();
 
     std::size_t place(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return static_cast<std::size_t>((z * count[1] + y) * count[0] + x);
     }
-    // Of the brick that holds a point of index space, or is nearest to it.
+    // The place of the brick that holds a point of index space, or that is nearest to it.
     std::size_t place_of(const glm::dvec3& point) const;
 
     std::uint8_t distance_at(std::int64_t x, std::int64_t y, std::int64_t z) const {
         return distance[place(x, y, z)];
     }
 
-    // Whether one that shows something touches the part of the volume between two points of index
-    // space. Its outermost bricks also hold what lies beyond them.
+    // Whether a brick that shows something touches the box between two points of index space. The
+    // outermost bricks also stand for what lies beyond the volume.
     bool any_in(const glm::dvec3& min, const glm::dvec3& max) const;
 
-    // A part of index space with a point's brick in its middle: the largest known that shows
-    // nothing, or, where that brick does show something (false), it alone. Endless beyond the
-    // volume.
+    // Finds a box of index space around a point's brick. True: the box is the largest known that
+    // shows nothing. False: that brick shows something, and the box is the brick alone. Boxes that
+    // reach the volume's border are endless beyond it.
     bool empty_around(const glm::dvec3& point, glm::dvec3& min, glm::dvec3& max) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scalars along rays of the view: what tables of segments are tried on.
+// Scalars along rays of the view, on which tables of segments are tried.
 #pragma once
 
 #include <vector>
@@ -15,15 +15,15 @@ struct ScalarRays {
     struct Ray {
         double length_per_depth = 1;  // world length per unit of eye-space depth
         double near = 0, far = 0;     // eye-space depths where it enters and leaves the box
-        // At depths evenly from `near` to `far`, two or more: the scalar, and the optical depth in
-        // front of it.
+        // The scalar, and the optical depth in front of it, at two or more evenly spaced depths
+        // from `near` to `far`.
         std::vector<float> scalars;
         std::vector<float> optical_depths;
     };
     std::vector<Ray> rays;  // all over the picture, each through the box
 };
 
-// Takes its grid and view from the facts.
+// Takes the grid and the view from the facts.
 ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts);
 
 }  // namespace lamina

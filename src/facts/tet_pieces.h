@@ -11,8 +11,8 @@
 
 namespace lamina {
 
-// The linear pieces of a transfer function over a range, neighbours that show nothing as one, and
-// which of them a tet's scalar runs through.
+// The linear pieces of a transfer function over a range, and which of them a tet's scalar runs
+// through. Neighbouring pieces that show nothing are joined into one.
 class TetPieces {
   public:
     // range: finite, lo < hi.
@@ -24,25 +24,25 @@ class TetPieces {
         return visible_before_[place] == visible_before_[place + 1];
     }
 
-    // The first and the last piece of several: last < first where there is none.
+    // The first and the last of some consecutive pieces; last < first where there is none.
     struct Span {
         std::int32_t first = 0, last = -1;
 
         bool empty() const { return last < first; }
     };
-    // Of those that some point of the tet lies in; none where a corner has a value that is no
-    // finite number.
+    // The pieces in which some point of the tet lies. Empty where a corner's value is not finite.
     Span met(std::span<const double> scalar, const Tet& tet) const;
-    // Of these, those that show something.
+    // The same, without transparent pieces at both ends.
     Span visible(std::span<const double> scalar, const Tet& tet) const;
-    // So many of them show something.
+    // The number of pieces in a span that show something.
     int count(const Span& span) const;
 
   private:
     std::int32_t last() const { return static_cast<std::int32_t>(pieces_.size()) - 1; }
 
     std::vector<LinearPiece> pieces_;
-    std::vector<int> visible_before_{0};  // of pieces that show something, before each and in all
+    // Number of pieces that show something before each piece, and in all.
+    std::vector<int> visible_before_{0};
 };
 
 }  // namespace lamina

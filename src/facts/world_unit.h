@@ -7,18 +7,19 @@
 
 namespace lamina {
 
-// Worlds may be as small as atoms and as large as galaxies, and float32 overflows at the square of
-// 1e20: renderers measure lengths in units in which what they draw has about size 1. They are
-// powers of two, so that no digit changes: a world twice as large, with half the extinction, gives
+// Worlds may be as small as atoms or as large as galaxies, and float32 overflows at the square of
+// 1e20. So renderers measure lengths in a unit in which the scene has about size 1. The unit is a
+// power of two, so that no digit changes: a world twice as large, with half the extinction, gives
 // the same picture bit for bit.
 
-// Lengths times this are in those units: `diagonal` becomes 1 to 2. 1 where that is 0.
+// The factor from world lengths to these units: `diagonal` becomes 1 to 2. It is 1 where the
+// diagonal is 0.
 double world_unit(double diagonal);
 double box_diagonal(const Grid& grid);
 
 Grid in_units(Grid grid, double unit);
 View in_units(View view, double unit);
-// Extinctions, which are per length.
+// Converts extinctions, which are per length.
 TransferFunction in_units(const TransferFunction& transfer_function, double unit);
 
 }  // namespace lamina

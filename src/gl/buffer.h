@@ -16,8 +16,8 @@ class Buffer {
   public:
     Buffer() = default;
     explicit Buffer(std::size_t byte_count);
-    // For a stream of data: mapped from now on, and what is written through mapped() is seen by the
-    // draws that follow. The writer takes care not to change what a draw still reads (Fence).
+    // Makes a buffer for a stream of data. It stays mapped, and draws see what was written through
+    // mapped() before them. The writer must not change data that a draw still reads (see Fence).
     static Buffer make_mapped(std::size_t byte_count);
 
     template <typename T, std::size_t extent>
@@ -32,11 +32,12 @@ class Buffer {
         write_bytes(std::as_bytes(elements), byte_offset);
     }
 
-    // As block number `binding` of the shaders' uniform or buffer (shader storage) blocks.
+    // Binds the buffer to block number `binding` of the shaders' uniform or shader storage blocks.
     void bind_uniform(unsigned binding) const;
     void bind_storage(unsigned binding) const;
 
-    std::byte* mapped() const { return mapped_; }  // null where it is not; slow to read
+    // Null where the buffer is not mapped; slow to read.
+    std::byte* mapped() const { return mapped_; }
 
     unsigned id() const { return handle_.id(); }
     std::size_t byte_count() const { return static_cast<std::size_t>(bytes_.count()); }

@@ -5,8 +5,8 @@
 
 namespace lamina::gl {
 
-// Throws an Error where OpenGL has reported one since the last call; `where` completes "OpenGL: ...
-// while ": "drawing the slabs". Waits for nothing.
+// Throws Error where OpenGL has reported an error since the last call. `where` completes "OpenGL:
+// ... while ", for example "drawing the slabs". Does not wait for the GPU.
 void check(std::string_view where);
 
 }  // namespace lamina::gl

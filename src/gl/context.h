@@ -23,7 +23,8 @@ enum class ContextKind { automatic, gpu, osmesa, egl };
 // goes, and goes later.
 class Context {
   public:
-    // An Error that says what was tried, why each attempt failed, and what to install or to pass.
+    // Makes a context. Throws Error, which says what was tried, why each attempt failed, and what
+    // to install or to pass.
     static std::unique_ptr<Context> create(ContextKind kind);
 
     virtual ~Context();

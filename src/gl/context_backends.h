@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two ways to a context; each is an Error with its reason where it fails.
+// The two ways to make a context. Each throws Error with the reason where it fails.
 #pragma once
 
 #include <memory>

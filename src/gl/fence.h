@@ -3,7 +3,7 @@
 
 namespace lamina::gl {
 
-// A point in the stream of commands that can be waited for.
+// A point in the stream of OpenGL commands that the program can wait for.
 class Fence {
   public:
     Fence() = default;
@@ -11,8 +11,9 @@ class Fence {
     Fence(const Fence&) = delete;
     Fence& operator=(const Fence&) = delete;
 
-    void set();   // here
-    void wait();  // until all commands before it are complete; returns at once where it was not set
+    void set();  // places the fence at the current point
+    // Waits until all commands before it are complete; returns at once where it was not set.
+    void wait();
 
   private:
     void* sync_ = nullptr;

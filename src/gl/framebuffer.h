@@ -13,15 +13,15 @@
 
 namespace lamina::gl {
 
-// Render targets: 2D textures of one size, which it owns. Texture i receives the shader's output
-// `location = i`.
+// Render targets: 2D textures of one size, which the framebuffer owns. Texture i receives the
+// shader's output `location = i`.
 class Framebuffer {
   public:
-    // An Error where the driver cannot draw into these formats.
+    // Throws Error where the driver cannot draw into these formats.
     explicit Framebuffer(std::vector<Texture> colors);
     explicit Framebuffer(Texture color);
 
-    void bind() const;  // for drawing, with the viewport over all of it
+    void bind() const;  // for drawing; the viewport covers all of it
     void clear(const glm::vec4& rgba, std::size_t target = 0);
 
     // Target `target` as floats. OpenGL's row 0 is the bottom one, the image's row 0 the top one.
@@ -44,10 +44,10 @@ class LayerFramebuffer {
   public:
     LayerFramebuffer();
 
-    // For drawing into layer `layer` of each texture, texture i being the shader's output i, with
-    // the viewport over all of it.
+    // Binds layer `layer` of each texture for drawing. Texture i receives the shader's output i,
+    // and the viewport covers all of it.
     void bind(std::initializer_list<const Texture*> arrays, int layer);
-    void clear();  // every target that is bound, to zero
+    void clear();  // sets all bound targets to zero
 
   private:
     Handle<ObjectKind::framebuffer> handle_;

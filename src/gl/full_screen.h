@@ -9,7 +9,7 @@ namespace lamina::gl {
 // Runs the program, whose vertex shader is "gl/full_screen.vert", once for every pixel of the bound
 // framebuffer.
 void draw_full_screen(const Program& program);
-// The same without making a vertex array: for every frame.
+// The same with a given vertex array, so that frames need not make one.
 void draw_full_screen(const Program& program, const VertexArray& any);
 
 }  // namespace lamina::gl

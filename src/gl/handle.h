@@ -9,7 +9,7 @@ enum class ObjectKind { buffer, texture, vertex_array, framebuffer, query, shade
 
 void delete_object(ObjectKind kind, unsigned id);
 
-// Owns one OpenGL object: deletes it at the end of its life. Move-only; 0 owns nothing.
+// Owns one OpenGL object and deletes it in the destructor. Move-only; 0 owns nothing.
 template <ObjectKind kind>
 class Handle {
   public:

@@ -10,14 +10,15 @@ namespace lamina::gl {
 // without the driver's padding. 0 where none is current.
 std::int64_t bytes_allocated();
 
-// Throws Error where a limit on the process's memory (ulimit -v) leaves less than this: Mesa's
-// software renderers crash when they get none, and cannot be told to stop before.
+// Throws Error where a limit on the process's memory (ulimit -v) leaves less than `bytes`. Mesa's
+// software renderers crash when they run out of memory and cannot be stopped earlier.
 void require_memory_left(std::int64_t bytes);
 
 inline constexpr std::int64_t memory_for_context = std::int64_t{1} << 30;
-inline constexpr std::int64_t memory_for_drawing = std::int64_t{1} << 28;  // once it is there
+// Needed once the context exists.
+inline constexpr std::int64_t memory_for_drawing = std::int64_t{1} << 28;
 
-// The share of one object in bytes_allocated(), from its making to its end.
+// The contribution of one object to bytes_allocated() during its lifetime.
 class AllocatedBytes {
   public:
     AllocatedBytes() = default;

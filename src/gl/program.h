@@ -23,7 +23,7 @@ namespace lamina::gl {
 // lately had one with the same text, nothing is compiled (gl/program_cache.h).
 class Program {
   public:
-    // Names of files in shaders/; both are specialised by the same defines.
+    // `vertex_name`, `fragment_name`: files in shaders/. Both are specialised by the same defines.
     Program(const std::string& vertex_name, const std::string& fragment_name,
             const Defines& defines = {});
     Program(const ShaderSource& vertex, const ShaderSource& fragment);
@@ -32,8 +32,8 @@ class Program {
     void use() const;
 
     // Set a uniform; the program need not be in use. A uniform that the source names but this
-    // specialisation does not use (optimised out, or under another #if) is ignored; a name that is
-    // nowhere in the source is an Error.
+    // specialisation does not use (optimised out, or under another #if) is ignored. A name that is
+    // nowhere in the source throws Error.
     void set(std::string_view name, float value);
     void set(std::string_view name, double value);  // of a uniform double
     void set(std::string_view name, int value);     // also a sampler's texture unit

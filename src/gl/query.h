@@ -7,8 +7,8 @@
 
 namespace lamina::gl {
 
-// Counts what the draws between begin() and end() do; two queries of the same kind must not
-// overlap. A timestamp has no span: stamp() asks when all that was submitted before is done.
+// Counts events of the draws between begin() and end(). Two queries of the same kind must not
+// overlap. A timestamp has no span: stamp() records when all commands submitted before it are done.
 class Query {
   public:
     enum class Kind { samples_passed, timestamp };

@@ -17,9 +17,9 @@ std::span<const EmbeddedFile> embedded_shaders();
 // Names of all embedded files, included ones (.glsl) too.
 std::vector<std::string> shader_names();
 
-// The text of `name`: from the directory that the environment variable LAMINA_SHADER_DIR names
-// where it has this file (so that shaders can be worked on without a build), else the embedded one,
-// else nothing.
+// The text of shader file `name`, or nothing where there is none. If the directory named by the
+// environment variable LAMINA_SHADER_DIR has the file, it is read from there, so that shaders can
+// be edited without a build. Otherwise the embedded file is returned.
 std::optional<std::string> find_shader(const std::string& name);
 
 }  // namespace lamina::gl

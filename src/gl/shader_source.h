@@ -9,7 +9,7 @@
 
 namespace lamina::gl {
 
-// What a shader is specialised by: `#define NAME VALUE` lines, in this order.
+// The definitions that specialise a shader: `#define NAME VALUE` lines, in this order.
 struct Defines {
     std::vector<std::pair<std::string, std::string>> list;
 
@@ -33,20 +33,21 @@ struct ShaderSource {
     std::string name;
     std::string text;
     Defines defines;
-    // Of every line of `text`. Not #line directives: Mesa loses their file number in some of its
-    // messages.
+    // The origin of every line of `text`. #line directives would not do: Mesa loses their file
+    // number in some of its messages.
     std::vector<ShaderLine> lines;
 };
 
-// Composes the shader `name`. Its first directive must be `#version 450 core`; the defines follow
-// it. A line `#include "compositing/over.glsl"` stands for that file, named from the root of
-// shaders/, unless the compiler has seen it already; it may be under an #if. A file that is
-// missing, a cycle and a malformed include are Errors that name file and line.
+// Composes the shader `name`. Its first directive must be `#version 450 core`; the defines are
+// inserted after it. A line `#include "compositing/over.glsl"`, which may be under an #if, is
+// replaced by that file (named from the root of shaders/), unless the compiler has already seen it.
+// Throws Error, which names file and line, where a file is missing, includes form a cycle, or an
+// include is malformed.
 ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
 ShaderSource compose_shader(const std::string& name, const Defines& defines,
                             const ShaderFinder& find);
 
-// A compiler's log on one line, with the places in the files instead of those in the text:
+// A compiler's log as one line, in which positions refer to the files instead of the composed text:
 // "slicing/slab.frag:12: ...".
 std::string readable_log(const std::string& log, const ShaderSource& source);
 

@@ -6,12 +6,12 @@
 
 namespace lamina::gl {
 
-// A library loaded at run time. It is never unloaded: Mesa and LLVM leave threads and exit handlers
-// behind.
+// A library loaded at run time. It is never unloaded, because Mesa and LLVM leave threads and exit
+// handlers behind.
 class SharedLibrary {
   public:
-    // The first of `names` that the dynamic linker finds; an Error that says why each was not
-    // loaded.
+    // Loads the first of `names` that the dynamic linker finds. Throws Error, which says why each
+    // could not be loaded.
     explicit SharedLibrary(std::initializer_list<const char*> names);
 
     // Whether somebody in this process has loaded it.

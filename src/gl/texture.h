@@ -14,22 +14,24 @@ namespace lamina::gl {
 
 enum class TextureFilter { nearest, linear };
 
-// A part of a texture: first texel and size. For a 2D array, z counts layers.
+// A box of texels: first texel and size. For a 2D array, z counts layers.
 struct TexelBox {
     int x = 0, y = 0, z = 0;
     int width = 1, height = 1, depth = 1;
 };
 
-// How texels lie in our memory: texels from one row to the next, and rows from one slice to the
-// next, as for a box cut out of a larger grid. 0: the box's own width and height.
+// The layout of texels in host memory: the number of texels from one row to the next, and of rows
+// from one slice to the next, as for a box cut out of a larger grid. 0 means the box's own width or
+// height.
 struct PixelStore {
     int row_length = 0;
     int slice_rows = 0;
 };
 
-// An immutable-size texture with one level, clamped to its edge, filtered `nearest` unless told
-// otherwise. Contents are undefined until uploaded or drawn. Sizes below 1 or over the context's
-// limits, more than Capabilities::max_texture_bytes, and a driver out of memory are Errors.
+// A texture of fixed size with one level, clamped to its edge, filtered `nearest` unless specified
+// otherwise. Contents are undefined until uploaded or drawn. Throws Error for sizes below 1 or over
+// the context's limits, for more than Capabilities::max_texture_bytes, and where the driver is out
+// of memory.
 class Texture {
   public:
     Texture() = default;

@@ -11,9 +11,9 @@ struct TextureFormatInfo {
     int channels;
     int bytes_per_texel;       // in GPU memory
     unsigned internal_format;  // GL_R8, ...
-    unsigned layout;           // of texels in our memory: GL_RED, GL_RG or GL_RGBA
-    unsigned
-        component_type;  // of texels in our memory: GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_FLOAT
+    unsigned layout;           // of texels in host memory: GL_RED, GL_RG or GL_RGBA
+    // The type of texels in host memory: GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT or GL_FLOAT.
+    unsigned component_type;
 };
 
 const TextureFormatInfo& info_of(TextureFormat format);

@@ -9,14 +9,14 @@
 
 namespace lamina::gl {
 
-// OpenGL's row of a Profile (base/profile.h): when the context did what was submitted. Does nothing
-// where none records, or where the context has no clock of its own.
+// OpenGL's row of a Profile (base/profile.h): when the context executed submitted commands. Does
+// nothing where no Profile records, or where the context has no clock of its own.
 class Timeline {
   public:
-    // Around what one span is to cover; spans do not nest. `name`: a literal.
+    // begin() and end() enclose the commands of one span; spans do not nest. `name`: a literal.
     void begin(const char* name);
     void end();
-    // Waits for all of it and hands it to the Profile.
+    // Waits for all spans and hands them to the Profile.
     void collect();
 
   private:
@@ -24,7 +24,7 @@ class Timeline {
         const char* name;
         Query begin{Query::Kind::timestamp}, end{Query::Kind::timestamp};
     };
-    std::vector<Span> spans_;  // those after count_ are to be used again
+    std::vector<Span> spans_;  // those from count_ on are reused
     std::size_t count_ = 0;
 };
 

@@ -8,14 +8,14 @@
 
 namespace lamina::gl {
 
-// Where vertex attributes and indices come from. Without attributes it serves shaders that need
-// gl_VertexID only. The buffers must outlive the draws.
+// The sources of vertex attributes and indices. Without attributes it serves shaders that need only
+// gl_VertexID. The buffers must outlive the draws.
 class VertexArray {
   public:
     VertexArray();
 
-    // Attribute `location` is `components` floats, or 32-bit integers, at `byte_offset` of every
-    // `byte_stride` bytes.
+    // Sets attribute `location` to `components` floats, or 32-bit integers, at `byte_offset` of
+    // every `byte_stride` bytes.
     void set_floats(unsigned location, const Buffer& buffer, int components,
                     std::size_t byte_stride, std::size_t byte_offset);
     void set_integers(unsigned location, const Buffer& buffer, int components,

@@ -6,8 +6,8 @@
 
 namespace lamina {
 
-// Pixels as an 8- or 16-bit PNG stores them, sRGB codes not turned into light. Row 0 is the top,
-// channels interleaved.
+// Pixels in the form of an 8- or 16-bit PNG: sRGB codes that are not converted to linear light. Row
+// 0 is the top; channels are interleaved.
 struct CodedImage {
     int width = 0;
     int height = 0;

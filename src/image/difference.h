@@ -9,19 +9,21 @@
 
 namespace lamina {
 
-// e = A - B in units of 1/255, pixel by pixel from the top left, channels interleaved.
+// The difference e = A - B in units of 1/255, pixel by pixel from the top left, channels
+// interleaved.
 struct Difference {
     int width = 0;
     int height = 0;
-    std::vector<std::string> channels;  // R, G, B, A; of PNGs also Y
+    std::vector<std::string> channels;  // R, G, B, A; for PNGs also Y
     std::vector<double> e;
 };
 
-// Throw Error when the sizes differ (both are named), and for PNGs when the channels do.
+// Both throw Error where the sizes differ (the message has both), and for PNGs where the channels
+// differ.
 template <typename RealA, typename RealB>
 Difference difference(const RgbaImage<RealA>& a, const RgbaImage<RealB>& b);
 
-// Stored codes; a 16-bit code counts 1/257 of an 8-bit one.
+// Compares stored codes. A 16-bit code counts 1/257 of an 8-bit code.
 Difference difference(const CodedImage& a, const CodedImage& b);
 
 extern template Difference difference(const Image&, const Image&);

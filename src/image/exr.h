@@ -10,15 +10,15 @@
 
 namespace lamina {
 
-// Channels R, G, B, A, 32-bit float, ZIP, the attributes as strings, no time stamp: equal images
-// make equal files. Throws Error when a component is not finite or the disk is full. The caller
-// commits the file.
+// Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings.
+// There is no time stamp: equal images make equal files. Throws Error where a component is not
+// finite or the disk is full. The caller commits the file.
 void write_exr(AtomicFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes);
 
-// The data window of a (first) flat part, any pixel type. A missing A is 1; a file with Y alone is
-// grey; anything else that lacks R, G or B throws Error, as do damaged files and sizes beyond
-// image_limits.h.
+// Reads the data window of the first part, which must be flat, with any pixel type. A missing A
+// becomes 1, and a file with only Y is grey. Throws Error for anything else that lacks R, G or B,
+// for damaged files and for sizes beyond image_limits.h.
 Image read_exr(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -6,10 +6,10 @@
 
 namespace lamina {
 
-// Walks the headers of an OpenEXR file and throws Error where an attribute, or the table of tiles,
-// promises more bytes than the file has left, or where an attribute is not as long as its type is:
-// OpenEXR 3.1 takes memory for up to 2 GiB on an attribute's word, and reads past attributes by
-// their types. What else may be wrong with a header OpenEXR says itself.
+// Checks the headers of an OpenEXR file before OpenEXR reads them. Throws Error where an attribute,
+// or the table of tiles, promises more bytes than the file has left, or where the length of an
+// attribute does not fit its type. OpenEXR 3.1 would take up to 2 GiB of memory for such an
+// attribute, or read beyond it. OpenEXR reports other defects of a header itself.
 void check_exr_header(const std::filesystem::path& path, std::uint64_t file_bytes);
 
 }  // namespace lamina

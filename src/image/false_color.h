@@ -6,9 +6,9 @@
 
 namespace lamina {
 
-// A signed difference to look at: of each pixel the channel with the largest |e|, blue where e < 0,
-// white at 0, red where e > 0, darkest at |e| >= scale (in 1/255). scale 0: white wherever e = 0.
-// 8-bit sRGB codes.
+// A picture of a signed difference in 8-bit sRGB codes. It shows the channel with the largest |e|
+// of each pixel: blue where e < 0, white at 0, red where e > 0, darkest where |e| >= scale (in
+// 1/255). With scale 0 all pixels with e = 0 are white.
 CodedImage false_color(const Difference& difference, double scale);
 
 }  // namespace lamina

@@ -7,8 +7,9 @@
 
 namespace lamina {
 
-// Throws Error, naming pixel and channel, when a component is NaN, infinite or beyond the range of
-// float32: such pictures are neither written nor compared. `name` is what the message begins with.
+// Throws Error, which names pixel and channel, where a component is NaN, infinite or beyond the
+// range of float32. Such pictures are neither written nor compared. `name`: the beginning of the
+// message.
 template <typename Real>
 void require_finite(const std::string& name, const RgbaImage<Real>& image);
 

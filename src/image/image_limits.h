@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds that are checked before memory is taken for an image.
+// Limits that are checked before memory is taken for an image.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,15 @@ constexpr std::int64_t max_image_side = 32768;
 constexpr std::int64_t max_image_pixels = std::int64_t{1} << 26;  // 1 GiB of float RGBA
 
 // Throws Error unless both sides are in 1..max_image_side and the area is at most max_image_pixels.
-// `name`: the file, or the part of it, that the message begins with.
+// `name`: the file or its component, with which the message begins.
 void check_image_size(const std::string& name, std::int64_t width, std::int64_t height);
 
-// Length in bytes; throws Error when there is no such file, or it is not a regular file.
+// The length of a file in bytes. Throws Error where there is no such file or it is not a regular
+// file.
 std::uint64_t length_of_file(const std::filesystem::path& path);
 
-// Throws Error when a file of `file_bytes` cannot hold `image_bytes` even at the best compression,
-// `ratio` : 1.
+// Throws Error where a file of `file_bytes` cannot hold `image_bytes` even with the best
+// compression, `ratio` : 1.
 void check_file_can_hold(const std::string& name, std::uint64_t image_bytes,
                          std::uint64_t file_bytes, std::uint64_t ratio);
 

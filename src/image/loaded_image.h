@@ -17,12 +17,12 @@ struct LoadedImage {
     std::variant<Image, PreciseImage, CodedImage> pixels;
 };
 
-// By suffix: .exr, .npy, .png (of any case). Throws Error for other suffixes, bad files, and
-// components that are not finite.
+// Loads a picture; the suffix (.exr, .npy or .png, of any case) gives its kind. Throws Error for
+// other suffixes, bad files, and components that are not finite.
 LoadedImage load_image(const std::filesystem::path& path);
 
-// EXR and NPY against each other, PNG against PNG as stored codes. Throws Error, with the names of
-// the files, when the two are not of one kind or one size.
+// Compares EXR and NPY with each other, and PNG with PNG as stored codes. Throws Error, with the
+// names of the files, where they differ in kind or size.
 Difference difference(const LoadedImage& a, const LoadedImage& b);
 
 }  // namespace lamina

@@ -23,7 +23,7 @@ struct ImageError {
     Worst worst;  // the first component with |e| = all.linf
 };
 
-// Throws Error when some e is not finite.
+// Throws Error where some e is not finite.
 ImageError measure(const Difference& difference);
 
 template <typename RealA, typename RealB>

@@ -8,12 +8,13 @@
 
 namespace lamina {
 
-// NumPy's own format (NEP 1), version 1.0: float64, little endian, C order, shape (height, width,
-// 4). Throws Error when a component is not finite or the disk is full. The caller commits the file.
+// Writes NumPy's format (NEP 1), version 1.0: float64, little endian, C order, shape (height,
+// width, 4). Throws Error where a component is not finite or the disk is full. The caller commits
+// the file.
 void write_npy(AtomicFile& file, const PreciseImage& image);
 
-// '<f4' or '<f8', C order, shape (height, width, 4), or (height, width, 3) with A = 1. Throws Error
-// for anything else and when the file's length is not what the header promises.
+// Reads '<f4' or '<f8' in C order with shape (height, width, 4), or (height, width, 3) with A = 1.
+// Throws Error for anything else, and where the file's length does not match the header.
 PreciseImage read_npy(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -12,21 +12,21 @@
 
 namespace lamina {
 
-// For looking at: C + (1-A) * background in linear light, clamped to 0..1, sRGB encoded to the
-// nearest 8-bit code, RGB with an sRGB chunk, no time stamp. Returns how many pixels were clamped
-// by more than 1/510 in some channel (less is the rounding of a low-precision target). Throws Error
-// as write_exr does; the caller commits the file.
+// Writes a picture to look at: C + (1-A) * background in linear light, clamped to 0..1 and encoded
+// to the nearest 8-bit sRGB code, as RGB with an sRGB chunk and no time stamp. Returns how many
+// pixels were clamped by more than 1/510 in some channel; less is the rounding of a low-precision
+// target. Throws Error as write_exr does. The caller commits the file.
 std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background);
 
-// The codes as they are, marked as sRGB.
+// Writes the codes unchanged, marked as sRGB.
 void write_png(AtomicFile& file, const CodedImage& image);
 
-// The bytes of a PNG file, of an RGB picture of 8 bits.
+// The bytes of a PNG file with an RGB picture of 8 bits.
 std::string encode_png(const CodedImage& image);
 
-// Palettes and grey of fewer than 8 bits are expanded to 8 bits, a transparent colour to an alpha
-// channel; codes are otherwise as stored. Throws Error for damaged files and for sizes beyond
-// image_limits.h.
+// Reads a PNG file. Palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
+// transparent colour becomes an alpha channel. Other codes are as stored. Throws Error for damaged
+// files and for sizes beyond image_limits.h.
 CodedImage read_png(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -5,10 +5,10 @@
 
 namespace lamina {
 
-// Where a mesh is looked at from, all that a visibility order depends on.
+// The eye that looks at a mesh. A visibility order depends on nothing else of the view.
 struct Eye {
-    // World; at infinity (orthographic views): the viewing direction, away from the eye, of any
-    // length but 0.
+    // World coordinates. For an eye at infinity (orthographic views) it is the viewing direction
+    // away from the eye, of any length but 0.
     glm::dvec3 position{0};
     bool at_infinity = false;
 };

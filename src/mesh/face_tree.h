@@ -13,8 +13,8 @@
 
 namespace lamina {
 
-// A hierarchy of boxes around faces of a mesh (its open ones, as a rule), to find those that a ray,
-// a pyramid or anything else can meet.
+// A hierarchy of boxes around faces of a mesh, usually its open faces. It finds the faces that a
+// ray, a pyramid or another shape may meet.
 class FaceTree {
   public:
     struct Box {
@@ -41,7 +41,7 @@ class FaceTree {
         visit_nodes([&](std::size_t node) { return meets(nodes_[node].box); }, visit);
     }
 
-    // The same with what the caller knows of each node: meets(number of the node).
+    // The same, but the test gets the number of the node: meets(number of the node).
     template <typename Meets, typename Visit>
     void visit_nodes(const Meets& meets, const Visit& visit) const {
         std::array<std::int32_t, 64> stack;  // the tree is balanced: its height is below 32
@@ -63,8 +63,8 @@ class FaceTree {
 
     std::size_t node_count() const { return nodes_.size(); }
 
-    // What is known of the faces below each node: `nodes`, one each, become the sums by add() of
-    // what add_face(index, node) adds, from `nothing` on.
+    // Sums up what add_face(index, node) adds for the faces below each node. `nodes` has one
+    // element a node; all start from `nothing` and are combined by add().
     template <typename Known, typename AddFace>
     void sum(std::span<Known> nodes, const Known& nothing, const AddFace& add_face) const {
         for (std::size_t i = nodes_.size(); i-- > 0;) {  // children before their parents
@@ -83,8 +83,8 @@ class FaceTree {
   private:
     struct Node {
         Box box;
-        std::int32_t first, end;  // into order_
-        std::int32_t right;       // the left child follows its parent; -1: a leaf
+        std::int32_t first, end;  // range in order_
+        std::int32_t right;  // right child, or -1 for a leaf; the left child follows its parent
     };
     void build(std::span<const Box> boxes, std::int32_t first, std::int32_t end);
 

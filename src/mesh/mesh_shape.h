@@ -9,7 +9,7 @@ namespace lamina {
 
 struct EdgeLengths {
     double shortest = 0, longest = 0;
-    // Infinite where two ends coincide.
+    // Longest edge over shortest edge; infinite where two points coincide.
     double ratio() const {
         return shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
     }
@@ -22,11 +22,11 @@ enum class Convexity {
     exact             // no boundary edge is concave at all
 };
 
-// Does the mesh fill a convex body? Its boundary must be one closed surface without a concave edge,
-// which is then the surface of a convex body (Tietze 1928, Nakajima 1928), and no face may be
-// folded or nonmanifold. The tolerance: coordinates that were computed (a turned box, say) are off
-// by some 1e-16 of the diagonal, and so are the depths of dents between faces of ordinary shape;
-// files with float coordinates are off by 1e-8, and such dents are real.
+// Whether the mesh fills a convex body. This is so where its boundary is one closed surface without
+// a concave edge (Tietze 1928, Nakajima 1928) and no face is folded or nonmanifold. within_rounding
+// allows for computed coordinates (a rotated box, for example). These have errors of some 1e-16 of
+// the diagonal, and so have the depths of dents between faces of ordinary shape. Files with float
+// coordinates have errors of 1e-8, and their dents are real.
 Convexity convexity(const TetMesh& mesh);
 
 inline bool convex(const TetMesh& mesh) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exact signs of geometric determinants (Shewchuk, Adaptive precision floating-point arithmetic and
-// fast robust geometric predicates, 1997): a rounded value where its error bound decides, exact
-// expansions elsewhere. Exact as long as no product of three coordinates overflows or underflows.
+// fast robust geometric predicates, 1997). A rounded value is used where its error bound decides
+// the sign, and exact expansions elsewhere. The sign is exact as long as no product of three
+// coordinates overflows or underflows.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,8 +13,8 @@ namespace lamina {
 int sign_of_determinant(const glm::dvec3& a, const glm::dvec3& a0, const glm::dvec3& b,
                         const glm::dvec3& b0, const glm::dvec3& c, const glm::dvec3& c0);
 
-// The sign of det(b - a, c - a, d - a): 1 where d lies on that side of the plane from which a, b, c
-// are seen counter-clockwise; 0 where the four points are coplanar.
+// The sign of det(b - a, c - a, d - a). 1: d lies on the side of the plane from which a, b, c are
+// seen counter-clockwise. 0: the four points are coplanar.
 inline int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                        const glm::dvec3& d) {
     return sign_of_determinant(b, a, c, a, d, a);

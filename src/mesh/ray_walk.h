@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tets a line passes, and where: from open face to open face through the neighbours, with
-// exact decisions about every face, so that no line leaks between two tets, through an edge or
-// through a point.
+// Finds the tets that a line passes, from open face to open face through the neighbours. Every face
+// is decided exactly, so that no line leaks between two tets, through an edge or through a point.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,13 +15,13 @@
 
 namespace lamina {
 
-// Where a line crosses a face.
+// The crossing of a line with a face.
 struct FaceCrossing {
     std::array<std::int32_t, 3> corners;  // counter-clockwise seen along the line
-    std::array<double, 3> weights;        // of the corners, >= 0, adding up to 1
-    double at = 0;                        // parameter on the line
+    std::array<double, 3> weights;  // barycentric weights of the corners, >= 0; their sum is 1
+    double at = 0;                  // parameter of the line
 
-    // Linear interpolation of one value a point; constant values stay exactly what they are.
+    // Interpolates one value a point linearly. Constant values stay exactly the same.
     double interpolate(std::span<const double> values) const {
         const double first = values[static_cast<std::size_t>(corners[0])];
         return first + (weights[1] * (values[static_cast<std::size_t>(corners[1])] - first) +
@@ -30,20 +29,21 @@ struct FaceCrossing {
     }
 };
 
-// The part of a line inside one tet.
+// The segment of a line inside one tet.
 struct TetSegment {
     std::int32_t tet;
     FaceCrossing in, out;  // in.at <= out.at
 };
 
-// A line, origin + t * direction for all real t, taken as exact; where it meets an edge or a point,
-// it is moved aside by an infinitesimal amount, the same for all tets (simulation of simplicity,
-// Edelsbrunner and Muecke 1990). One object a thread: it keeps its memory from line to line.
+// A line origin + t * direction for all real t, taken as exact. Where it meets an edge or a point,
+// it is displaced by an infinitesimal amount that is the same for all tets (simulation of
+// simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own object, which keeps its
+// memory from line to line.
 class RayWalk {
   public:
     RayWalk(const TetMesh& mesh, const FaceTree& open_faces) : mesh_(mesh), tree_(open_faces) {}
 
-    // Finds where the line enters and leaves the mesh.
+    // Sets the line and finds where it enters and leaves the mesh.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction);
 
     struct Entry {
@@ -51,16 +51,16 @@ class RayWalk {
         double at;
     };
     std::span<const Entry> entries() const { return entries_; }  // ascending
-    // Parts of the mesh overlap along this line: it enters again before it has left.
+    // Whether the mesh overlaps itself along this line: the line enters again before it has left.
     bool overlapping() const { return overlapping_; }
 
-    // Calls visit(TetSegment) from the entry on until the line leaves; stops when visit returns
-    // false.
+    // Calls visit(TetSegment) from the entry on until the line leaves the mesh, or until visit
+    // returns false.
     template <typename Visit>
     void follow(const Entry& entry, const Visit& visit) const {
         Front front = front_of(entry.face);
         TetSegment segment{entry.face.tet, crossing(front), {}};
-        // Each tet is passed at most once: the limit ends walks in what is no proper mesh.
+        // Each tet is passed at most once. The limit ends walks in meshes that are not valid.
         for (std::size_t steps = 0; steps < mesh_.tets().size(); ++steps) {
             const std::int32_t next = step(segment, front);
             if (!visit(segment) || next == TetMesh::no_neighbor) return;
@@ -69,23 +69,25 @@ class RayWalk {
         }
     }
 
-    // All segments of all entries in ascending order of their entry.
+    // Lists all segments of all entries, in ascending order of their entry.
     void list(std::vector<TetSegment>& segments) const;
 
   private:
-    // A point seen along the line: its place in the plane across, and its parameter.
+    // A point seen along the line: its position in the plane across the line, and its parameter.
     struct Seen {
         std::int32_t point;
         double x, y, at;
         double reach;  // bounds the rounding of x and y
     };
-    // On which side of the line the edge from a to b passes, and twice the area of line, a, b.
+    // The side of the line on which the edge from a to b passes, and twice the area of the triangle
+    // of the line, a and b.
     struct Side {
-        double area;  // of the sign below, or 0 where rounding gave the other one
+        double area;  // has the sign below, or is 0 where rounding gave the other sign
         int sign;     // exact, never 0
         Side turned() const { return {-area, -sign}; }
     };
-    // A face that the line comes in through: sides of the edges 01, 12, 20, all positive.
+    // A face through which the line enters a tet. The sides of its edges 01, 12, 20 are all
+    // positive.
     struct Front {
         std::array<Seen, 3> corners;
         std::array<Side, 3> sides;

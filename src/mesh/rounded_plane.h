@@ -11,30 +11,33 @@ namespace lamina {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-// A plane through a given point, off by rounding.
+// A plane through a given point, with a bound on its rounding error.
 struct RoundedPlane {
     RoundedPlane() = default;
-    RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // along these two
+    RoundedPlane(const glm::dvec3& u, const glm::dvec3& v);  // spanned by these two vectors
 
     glm::dvec3 normal{0};
-    double error = 0;  // of its value at a point, for each unit (1-norm) of distance
-    // 1 or -1 where that is the sign of the true plane's value; 0: not known.
+    double error = 0;  // error of its value at a point, per unit (1-norm) of distance
+    // The sign (1 or -1) of the true plane's value, or 0 where rounding leaves it unknown.
     int sign(const glm::dvec3& from_origin) const;
 };
 
-// On which side of a triangle's plane a point is, exactly: 1 where its corners are seen
-// counter-clockwise, -1, or 0. `plane`: through its first corner along the edges from there.
+// The exact side of a triangle's plane on which a point lies: 1 where the corners are seen
+// counter-clockwise from it, -1 on the other side, 0 on the plane. `plane`: the plane through the
+// first corner along the edges from there.
 int side_of(const Triangle& face, const RoundedPlane& plane, const glm::dvec3& point);
 
-// What is on the positive side of a plane or on it, to search boxes for.
+// The half space on the positive side of a plane, with the plane. Boxes are searched for what it
+// may contain.
 class PlaneSide {
   public:
     PlaneSide() = default;
-    // `bounds`: of all boxes.
+    // `bounds`: a box around all boxes.
     PlaneSide(const RoundedPlane& plane, const glm::dvec3& origin, const FaceTree::Box& bounds);
-    // Never false, whatever the rounding, for a box or a triangle with a point there.
+    // Whether a box or a triangle may contain a point of the half space. Rounding never makes this
+    // false where it does contain one.
     bool reaches(const FaceTree::Box& box) const {
-        // Its corner farthest along the normal.
+        // The corner of the box that is farthest along the normal.
         const auto most = [&](int axis) {
             return normal_[axis] * (normal_[axis] > 0 ? box.max[axis] : box.min[axis]);
         };

@@ -11,10 +11,10 @@
 
 namespace lamina {
 
-// What values a scalar of a mesh has.
+// The values of a scalar of a mesh.
 struct ScalarRange {
-    ValueRange range;             // of the finite ones
-    std::int64_t non_finite = 0;  // NaN or infinite
+    ValueRange range;             // range of the finite values
+    std::int64_t non_finite = 0;  // number of NaN or infinite values
 };
 
 inline ScalarRange measure_range(std::span<const double> values) {

@@ -14,19 +14,21 @@
 
 namespace lamina {
 
-// What was found (and repaired) while a mesh was put together.
+// What was found, and partly repaired, while a mesh was assembled.
 struct MeshFindings {
     std::int64_t tets_read = 0;
-    std::int64_t degenerate = 0;  // tets without volume, exactly; those with a repeated corner are
-                                  // dropped, the others kept: they connect their neighbours
-    std::int64_t repeated_corners = 0;   // of these, dropped
-    std::int64_t inverted = 0;           // tets of negative orientation, turned
-    std::int64_t duplicates = 0;         // tets with the corners of an earlier one, dropped
+    // Tets of exactly zero volume. Those with a repeated corner are dropped. The others are kept,
+    // because they connect their neighbours.
+    std::int64_t degenerate = 0;
+    // Number of degenerate tets with a repeated corner, which are dropped.
+    std::int64_t repeated_corners = 0;
+    std::int64_t inverted = 0;    // tets of negative orientation, whose corners are reordered
+    std::int64_t duplicates = 0;  // tets with the same corners as an earlier tet, which are dropped
     std::int64_t boundary_faces = 0;     // faces of one tet
     std::int64_t nonmanifold_faces = 0;  // faces of three or more tets
     std::int64_t folded_faces = 0;       // faces of two tets that lie on the same side of it
     std::int64_t unused_points = 0;
-    CellCounts cells;  // of the file
+    CellCounts cells;  // cells of the file
 
     // Every interior face is shared by exactly two tets.
     bool conforming() const { return nonmanifold_faces == 0; }
@@ -37,22 +39,23 @@ class TetMesh {
   public:
     static constexpr std::int32_t no_neighbor = -1;
 
-    // `name`: of the file, for messages. Throws Error for a mesh without tets, corner indices out
-    // of range, points that are no finite numbers or beyond 1e100 (where a tet uses them). Runs on
-    // all cores, in some 130 bytes a tet beside the mesh itself.
+    // `name`: name of the file, for messages. Throws Error for a mesh without tets, for corner
+    // indices out of range, and for points of tets that are not finite or beyond 1e100. Runs on all
+    // cores and takes some 130 bytes a tet beside the mesh itself.
     TetMesh(MeshData data, const std::string& name);
 
     std::span<const glm::dvec3> points() const { return points_; }
     std::span<const Tet> tets() const { return tets_; }
-    // The tet across face i (opposite corner i), or no_neighbor: for boundary faces, and for folded
-    // and nonmanifold ones, which nothing can cross from one tet into one other.
+    // The tet across face i (opposite corner i), or no_neighbor. Boundary faces have none, and
+    // neither have folded and nonmanifold faces, because a ray cannot cross these from one tet into
+    // exactly one other.
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
     // All faces without a neighbour.
     std::span<const TetFace> open_faces() const { return open_faces_; }
-    // Counter-clockwise from outside the face's tet.
+    // The corners of a face, counter-clockwise as seen from outside its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
 
-    // Those of exactly no volume: they have faces and neighbours, and show nothing.
+    // The tets of exactly zero volume. They have faces and neighbours but show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }
 
     const MeshFindings& findings() const { return findings_; }
@@ -62,12 +65,12 @@ class TetMesh {
     struct Bounds {
         glm::dvec3 min{0}, max{0};
     };
-    const Bounds& bounds() const { return bounds_; }  // of the points that tets use
+    const Bounds& bounds() const { return bounds_; }  // bounds of the points that tets use
 
   private:
     void check_corners(const std::string& name) const;
     void check_points(const std::string& name);
-    void drop(const std::vector<char>& dropped);  // marked tets, with their cell scalars
+    void drop(const std::vector<char>& dropped);  // drops marked tets, with their cell scalars
     void drop_repeated_corners();
     void orient();
     void orient_flat();

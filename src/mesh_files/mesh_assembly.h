@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// Cells as unstructured grids of VTK hold them: cell i has type types[i] and the points
+// Cells in the form of VTK's unstructured grids: cell i has the type types[i] and the points
 // connectivity[ends[i - 1]] ... connectivity[ends[i] - 1].
 struct MeshCells {
     std::vector<std::int64_t> connectivity;
@@ -19,7 +19,7 @@ struct MeshCells {
     std::vector<std::int64_t> types;
 };
 
-// One unstructured grid, or one piece of it, as a file has it.
+// One unstructured grid of a file, or one piece of it.
 struct MeshPiece {
     std::string label;  // "FILE" or "FILE: Piece 2", for messages
     std::vector<glm::dvec3> points;
@@ -30,22 +30,22 @@ struct MeshPiece {
 
 std::vector<glm::dvec3> points_from_values(const std::vector<double>& values);
 
-// The scalar that an array stands for: itself when it has one component, its length when it has
-// three. Arrays with other numbers of components stand for none.
+// Whether an array gives a scalar: with one component the array itself, with three components the
+// length of the vector. Other arrays give none.
 inline bool makes_scalar(std::int64_t components) {
     return components == 1 || components == 3;
 }
 MeshScalar scalar_from_values(std::string name, std::int64_t components,
                               std::vector<double> values);
 
-// Puts pieces together to one mesh: their points one after the other, their cells as tets. Throws
-// Error for cells that are no good.
+// Joins pieces into one mesh: their points one after the other, their cells cut into tets. Throws
+// Error for invalid cells.
 class MeshAssembly {
   public:
     explicit MeshAssembly(std::string file) : file_(std::move(file)) {}
 
     void add(MeshPiece piece);
-    MeshData finish();  // throws Error when there is no point or no tet
+    MeshData finish();  // throws Error where there is no point or no tet
 
   private:
     std::vector<std::int64_t> add_cells(const MeshPiece& piece, std::int32_t first_point);

@@ -16,7 +16,7 @@
 
 namespace lamina {
 
-// Reads words and numbers from a text, whatever the locale.
+// Reads words and numbers from a text, independently of the locale.
 class TextReader {
   public:
     explicit TextReader(std::string_view text)
@@ -24,13 +24,13 @@ class TextReader {
 
     static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-    // Skips blanks, newlines among them.
+    // Skips blanks and newlines; returns whether the text is at its end.
     bool at_end() {
         while (at_ != end_ && is_blank(*at_)) ++at_;
         return at_ == end_;
     }
-    // Whether anything but blanks comes before the next newline. (Not by line(), which looks for
-    // that newline through all of a file that has none.)
+    // Whether anything but blanks comes before the next newline. line() would not do here: in a
+    // file without newlines it searches all of the text.
     bool line_goes_on() const {
         const char* at = at_;
         while (at != end_ && *at != '\n' && is_blank(*at)) ++at;
@@ -47,8 +47,9 @@ class TextReader {
     std::string_view word();  // empty at the end
     std::string_view line();  // from here to the newline, which is skipped
 
-    // The next word as a T (and past it); false, and still before it, where it is none or does not
-    // fit. Numbers too small for a floating-point type become 0; "nan" and "inf" are numbers.
+    // Reads the next word as a T and moves past it. Where the word is no T or does not fit, returns
+    // false and does not move. Numbers too small for a floating-point type become 0; "nan" and
+    // "inf" are numbers.
     template <typename T>
     bool read(T& value) {
         if (at_end()) return false;
@@ -75,12 +76,12 @@ class TextReader {
     const char* end_;
 };
 
-// What stands next, for messages: "'abc'", cut short when it is long, or "the end".
+// The next word for messages: "'abc'", shortened where it is long, or "the end".
 std::string next_word(TextReader reader);
 
 const char* name_of(ValueType type);
 
-// `count` numbers of `type`. Throws Error; `what`: the file and array, for messages.
+// Reads `count` numbers of `type`. Throws Error. `what`: names the file and the array in messages.
 template <typename To>
 std::vector<To> read_text_values(TextReader& reader, ValueType type, std::int64_t count,
                                  const std::string& what) {

@@ -13,7 +13,7 @@ namespace lamina {
 
 enum class ValueType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-// Calls `action` with a zero of the C++ type that `type` stands for.
+// Calls `action` with a zero of the C++ type of `type`.
 template <typename Action>
 auto with_type(ValueType type, const Action& action) {
     switch (type) {
@@ -49,8 +49,8 @@ inline bool is_integer(ValueType type) {
     return type != ValueType::float32 && type != ValueType::float64;
 }
 
-// A stored value as To (double or int64). Integers beyond int64 become its largest, which no count
-// or index reaches.
+// A stored value as To (double or int64). Integers beyond int64 become its largest value, which no
+// count or index reaches.
 template <typename To, typename From>
 To value_as(From value) {
     if constexpr (std::is_same_v<From, std::uint64_t> && std::is_same_v<To, std::int64_t>) {
@@ -61,7 +61,7 @@ To value_as(From value) {
     }
 }
 
-// `count` values of `type` that lie, unaligned, at `bytes`; `swap`: in the other byte order.
+// Reads `count` values of `type` from unaligned `bytes`. `swap`: they have the other byte order.
 template <typename To>
 std::vector<To> values_from_bytes(ValueType type, const char* bytes, std::size_t count, bool swap) {
     return with_type(type, [&](auto zero) {

@@ -13,14 +13,14 @@
 
 namespace lamina {
 
-// The types of arrays in legacy VTK files. Bits and strings are passed over.
+// The types of arrays in legacy VTK files. Bits and strings are skipped.
 struct VtkType {
     enum class Kind { number, bit, string } kind = Kind::number;
     ValueType value = ValueType::float32;
 };
 
-// Words, numbers and arrays of a legacy VTK file. Throws Error; messages name the file and where in
-// it: a line of an ASCII file, a byte of a binary one.
+// Reads words, numbers and arrays of a legacy VTK file. Throws Error. Messages name the file and
+// the position: a line of an ASCII file, a byte of a binary one.
 class VtkTokens {
   public:
     VtkTokens(std::string file, std::string_view text) : file_(std::move(file)), reader_(text) {}
@@ -31,12 +31,13 @@ class VtkTokens {
 
     std::string where() const;             // "FILE: line 12" or "FILE: byte 345"
     std::string keyword();                 // the next word in lower case; empty at the end
-    std::string name();                    // of an array, %20 and the like decoded
+    std::string name();                    // name of an array, with %20 and the like decoded
     std::int64_t count(const char* what);  // a whole number >= 0
-    std::int64_t count_in_line(std::int64_t otherwise);  // the same where the line goes on
+    // The same where the line has more words, else `otherwise`.
+    std::int64_t count_in_line(std::int64_t otherwise);
     VtkType type();
 
-    // `count` numbers; in a binary file they begin on the next line, big endian.
+    // Reads `count` numbers. In a binary file they begin on the next line and are big endian.
     template <typename To>
     std::vector<To> values(ValueType type, std::int64_t count, const std::string& what) {
         const std::string place = file_ + ": " + what;
@@ -46,7 +47,7 @@ class VtkTokens {
                                      std::endian::native == std::endian::little);
     }
     void skip_values(VtkType type, std::int64_t count, const std::string& what);
-    void skip_metadata();  // the lines up to an empty one
+    void skip_metadata();  // skips the lines up to an empty one
 
   private:
     const char* take(std::int64_t count, std::size_t size, const std::string& what);

@@ -13,8 +13,8 @@
 
 namespace lamina {
 
-// A VTK XML file of an unstructured grid: its elements, and the numbers of its DataArrays however
-// they are coded. Throws Error for whatever is not as it should be.
+// A VTK XML file of an unstructured grid: its elements, and the numbers of its DataArrays in any
+// encoding. Throws Error for anything invalid.
 class VtuFile {
   public:
     explicit VtuFile(const std::filesystem::path& path);
@@ -27,8 +27,8 @@ class VtuFile {
                           const std::string& what) const;
     std::int64_t components_of(pugi::xml_node array, const std::string& what) const;
 
-    // The values (tuples times components) of a DataArray as To: double or int64. `what`: the file
-    // and array, for messages.
+    // The values (tuples times components) of a DataArray as To: double or int64. `what`: names the
+    // file and the array in messages.
     template <typename To>
     std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                            const std::string& what) const;
@@ -45,11 +45,11 @@ class VtuFile {
     std::string name_;
     std::string bytes_;          // of the file
     std::string xml_;            // without appended data; xml_nodes point into it
-    std::string_view appended_;  // what follows the underscore
+    std::string_view appended_;  // appended data after the underscore
     bool has_appended_ = false, appended_base64_ = false;
-    mutable std::size_t appended_used_ = 0;  // by all arrays that were read
+    mutable std::size_t appended_used_ = 0;  // bytes used by all arrays that were read
     std::size_t file_bytes_;
-    mutable std::uint64_t values_kept_ = 0;  // of all arrays that were read
+    mutable std::uint64_t values_kept_ = 0;  // number of values of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
     VtuEncoding encoding_;

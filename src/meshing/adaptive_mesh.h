@@ -9,17 +9,17 @@
 
 namespace lamina {
 
-// A Delaunay mesh of the field's box with points where they are needed: from the box's corners on,
-// each round adds a point where a tet is farthest from the field (Garland and Heckbert, Fast
-// polygonal approximation of terrains and height fields, 1995, in three dimensions), until all tets
-// are within the tolerance, or another round would pass max_tets.
+// Makes a Delaunay mesh of the field's box with points where they are needed. It starts from the
+// box's corners. Each round adds a point where a tet is farthest from the field, as Garland and
+// Heckbert do for terrains (Fast polygonal approximation of terrains and height fields, 1995). It
+// ends when all tets are within the tolerance, or when another round would exceed max_tets.
 //
-// Delaunay in index space: there the box is exactly a box, whatever the grid's spacing and
-// rotation, and the distance between samples, which is the scale of the field's details, is the
-// same along all axes. Points lie on a lattice of 1/256 of a sample: tets are then flat exactly or
-// not nearly, and no two points nearly coincide.
+// The mesh is Delaunay in index space. There the box is exactly a box for any spacing and rotation
+// of the grid, and the distance between samples, which is the scale of the field's details, is the
+// same along all axes. Points lie on a lattice of 1/256 of a sample. So tets are either exactly
+// flat or clearly not flat, and no two points nearly coincide.
 //
-// Points in index space. The same result every time. Throws Error.
+// Returns points in index space. The result is the same every time. Throws Error.
 MeshData make_adaptive_mesh(const TrilinearField& field, const InterpolationError& error,
                             const Delaunay& delaunay, const MeshSettings& settings,
                             MeshReport& report);

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// The range of a field over blocks of 2^level cells along each axis, level 1 and up to the level
+// The range of a field over blocks of 2^level cells along each axis, from level 1 up to the level
 // with one block.
 class CellRanges {
   public:

@@ -13,14 +13,14 @@
 
 namespace lamina {
 
-// Positively oriented tets that fill the convex hull of points, and the tet opposite each corner
-// (-1 on the hull).
+// Positively oriented tets that fill the convex hull of points, and the neighbouring tet opposite
+// each corner (-1 on the hull).
 struct DelaunayTets {
     std::vector<Tet> tets;
     std::vector<std::array<std::int32_t, 4>> neighbors;
 };
 
-// Whoever makes Delaunay tetrahedra of points. Throws Error.
+// A function that makes Delaunay tetrahedra of points. Throws Error.
 using Delaunay = std::function<DelaunayTets(std::span<const glm::dvec3>)>;
 
 }  // namespace lamina

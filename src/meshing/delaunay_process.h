@@ -8,16 +8,16 @@
 
 namespace lamina {
 
-// The program lamina-tetrahedralize: beside the running program, else in one of the folders of
-// PATH.
+// The path of the program lamina-tetrahedralize: beside the running program, or else in one of the
+// folders of PATH.
 std::optional<std::filesystem::path> find_tetrahedralizer();
 
-// As above; throws Error that says how to get it.
+// The same; throws Error, which says how to get the program, where it is not found.
 std::filesystem::path require_tetrahedralizer();
 
-// Delaunay tetrahedra by `program` (meshing/tetrahedralize_protocol.h), run as a process of its own
-// with temporary files for its input and output. Throws Error when it cannot be started, fails, or
-// does not answer; Ctrl-C ends it.
+// Makes Delaunay tetrahedra with `program` (meshing/tetrahedralize_protocol.h), which runs as a
+// separate process with temporary files for its input and output. Throws Error where it cannot be
+// started, fails, or does not answer. Ctrl-C ends it.
 DelaunayTets delaunay_by_process(const std::filesystem::path& program,
                                  std::span<const glm::dvec3> points);
 

@@ -13,40 +13,41 @@
 
 namespace lamina {
 
-// How far the linear function on a tet is from the trilinear field.
+// The largest difference between the linear function on a tet and the trilinear field.
 struct TetError {
-    double bound = 0;     // nowhere in the tet more than this
-    double found = 0;     // this much at `place`
+    double bound = 0;     // upper bound in the whole tet
+    double found = 0;     // difference at `place`
     glm::dvec3 place{0};  // in the tet, index space
 };
 
-// What measure() is to find out.
+// What measure() must find out.
 enum class ErrorGoal {
-    decide,  // whether the tolerance holds: bound <= tolerance; or bound is infinite, and `found`
-             // at least 0.98 of the tolerance, a large error though not always the largest
-    bound,   // bound <= tolerance, or 0.98 bound <= found
+    // Whether the tolerance holds. Either bound <= tolerance, or bound is infinite and `found` is
+    // at least 0.98 of the tolerance; then it is a large error but not always the largest.
+    decide,
+    bound,  // the error itself: bound <= tolerance, or 0.98 bound <= found
 };
 
-// Measures |trilinear - linear| on tets by branch and bound, so that the bound is a certificate and
-// not a sample (in double precision: to some 1e-12 of the range). Blocks of cells that the field's
-// range decides are never looked into; in a cell the difference is trilinear, so its extremes over
-// a box are at the box's corners; where a tet cuts the cell and that does not decide, the part of
-// the tet in the cell is cut out, and the difference, a cubic there, is bounded by its Bernstein
-// coefficients. With a transfer function, places where it shows nothing of any value between the
-// two functions do not count. Thread-safe.
+// Measures |trilinear - linear| on tets by branch and bound. So the bound is a certificate and not
+// a sample (in double precision, to some 1e-12 of the range). Blocks of cells whose range decides
+// the question are not subdivided. In a cell the difference is trilinear, so its extremes over a
+// box are at the box's corners. Where a tet cuts the cell and this does not decide, the
+// intersection of tet and cell is cut out. There the difference is a cubic and is bounded by its
+// Bernstein coefficients. With a transfer function, places do not count where it shows nothing for
+// all values between the two functions. Thread-safe.
 class InterpolationError {
   public:
-    // All arguments must outlive this. `transfer_function` may be null.
+    // All arguments must outlive this object. `transfer_function` may be null.
     InterpolationError(const TrilinearField& field, const CellRanges& ranges,
                        const TransferFunction* transfer_function)
         : field_(field), ranges_(ranges), transfer_function_(transfer_function) {}
 
-    // The tet with `corners` (index space, in the field's box; any orientation) and the values of
-    // the linear function there. A tet without volume has no error.
+    // Measures the tet with `corners` (index space, in the field's box, any orientation) and the
+    // values of the linear function there. A tet without volume has no error.
     TetError measure(const std::array<glm::dvec3, 4>& corners, const std::array<double, 4>& values,
                      double tolerance, ErrorGoal goal) const;
 
-    // The largest bound over a whole mesh, points in index space. Parallel, with progress.
+    // The largest bound over a whole mesh with points in index space. Parallel, with progress.
     double largest(std::span<const glm::dvec3> points, std::span<const double> values,
                    std::span<const Tet> tets, double tolerance) const;
 

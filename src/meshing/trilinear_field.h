@@ -14,15 +14,16 @@
 namespace lamina {
 
 // The field of a volume on its box, in index space: trilinear between planes of samples. Along a
-// `node` axis these lie at 0, ..., n - 1; along a `cell` axis at -1/2, 0, ..., n - 1, n - 1/2, the
-// outer ones repeating the border value; along an axis of one sample at -1/2 and 1/2.
+// `node` axis the planes lie at 0, ..., n - 1. Along a `cell` axis they lie at -1/2, 0, ..., n - 1,
+// n - 1/2, and the outer ones repeat the border value. Along an axis of one sample they lie at -1/2
+// and 1/2.
 class TrilinearField {
   public:
     using Cell = std::array<std::int32_t, 3>;  // between plane i and plane i + 1 of each axis
     using Corners = std::array<double, 8>;     // values at a cell's corners: x + 2y + 4z
 
-    // Keeps a copy of the samples, as float (which holds each of the sample types exactly). Throws
-    // Error for volumes with samples that are no finite numbers, or with 2^31 planes along an axis.
+    // Keeps a copy of the samples as float, which holds each of the sample types exactly. Throws
+    // Error for volumes with samples that are not finite, or with 2^31 planes along an axis.
     explicit TrilinearField(const Volume& volume);
 
     std::span<const double> planes(int axis) const { return planes_[axis]; }
@@ -33,8 +34,8 @@ class TrilinearField {
     glm::dvec3 max() const { return {planes_[0].back(), planes_[1].back(), planes_[2].back()}; }
     const ValueRange& range() const { return range_; }
 
-    // The cell that holds `index` (points of the box; outside it: the nearest cell); of two, the
-    // one behind the plane.
+    // The cell that contains `index`; for a point outside the box, the nearest cell. On a plane
+    // between two cells it is the one with the higher index.
     Cell cell_of(const glm::dvec3& index) const;
     Corners corners(const Cell& cell) const;
     double at_plane(const Cell& plane) const;  // the value where three planes meet

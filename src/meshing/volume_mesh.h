@@ -8,14 +8,15 @@
 
 namespace lamina {
 
-// Moves a mesh from a grid's index space into the world; turns its tets where the grid is mirrored.
+// Transforms a mesh from a grid's index space to world space. Where the grid is mirrored, the tets
+// are reoriented.
 void place_in_world(MeshData& mesh, const Grid& grid);
 
-// A mesh of the volume's box with the volume's values at its points (one scalar, "scalar"): the
-// Kuhn split or the adaptive mesh. `transfer_function`: what it shows nothing of may stay coarse;
-// null: everything counts. `report.error` is measured for both kinds. Throws Error: samples that
-// are no finite numbers, a Kuhn split with more than max_tets tets, lamina-tetrahedralize missing
-// or failing.
+// Makes a mesh of the volume's box with the volume's values at its points (one scalar, "scalar"):
+// the Kuhn split or the adaptive mesh. `transfer_function`: regions in which it shows nothing may
+// stay coarse; with null everything counts. `report.error` is measured for both kinds. Throws Error
+// for samples that are not finite, for a Kuhn split with more than max_tets tets, and where
+// lamina-tetrahedralize is missing or fails.
 MeshData make_volume_mesh(const Volume& volume, const MeshSettings& settings,
                           const TransferFunction* transfer_function, MeshReport& report);
 

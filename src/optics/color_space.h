@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour spaces in which ParaView's colour maps are interpolated. Ends are sRGB in [0, 1].
+// The colour spaces in which ParaView interpolates its colour maps. The colours at both ends are
+// sRGB in [0, 1]. step: the whole interval has the colour of its upper end, as in VTK. diverging:
+// interpolation in the polar form Msh of CIELAB (Moreland, "Diverging Color Maps for Scientific
+// Visualization", ISVC 2009).
 #pragma once
 
 #include <glm/vec3.hpp>

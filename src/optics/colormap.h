@@ -32,19 +32,21 @@ struct Colormap {
     std::vector<OpacityPoint> opacities;  // empty where the file has no opacity function
 };
 
-// A ParaView preset: JSON, an object or an array whose first element counts. Known keys: ColorSpace
-// ("RGB" where absent, "HSV" with HSVWrap, "Lab", "Diverging", "Step"), RGBPoints [x, r, g, b, ...]
-// in sRGB, Points [x, opacity, midpoint, sharpness, ...]. Between its points the map is sampled in
-// its own colour space, so finely that straight lines in linear light are within 5e-4. Throws Error
-// that names file and key.
+// Reads a ParaView preset, which is a JSON object or an array whose first element is used. Known
+// keys: ColorSpace ("RGB" where absent, "HSV" with HSVWrap, "Lab", "Diverging", "Step"), RGBPoints
+// [x, r, g, b, ...] in sRGB, Points [x, opacity, midpoint, sharpness, ...]. Between its points the
+// map is sampled in its own colour space, so finely that linear interpolation in linear light is
+// within 5e-4. Throws Error, which names the file and the key.
 Colormap read_paraview_colormap(const std::filesystem::path& file);
 
-// Colours and extinctions over the union of both sets of points; a step of either becomes a step.
+// Combines colours and extinctions over the union of both sets of points. A step of either becomes
+// a step.
 std::vector<TransferKnot> combine(const Colormap& colormap,
                                   const std::vector<ExtinctionPoint>& extinctions);
 
-// With the file's own opacities, converted at their points and at 15 values between two that
-// differ; throws Error where there are none. unit_length > 0, in world units.
+// The same with the file's own opacities. They are converted at their points and at 15 values
+// between two points that differ. Throws Error where the file has none. unit_length > 0, in world
+// units.
 std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length);
 
 }  // namespace lamina

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// Colour and extinction at `value` on the straight line between two knots of different value; every
+// Colour and extinction at `value` on the straight line between two knots of different value. Every
 // term is >= 0, so nothing cancels, and equal ends give exactly their value.
 inline OpticalProperties interpolate(const TransferKnot& a, const TransferKnot& b, double value) {
     const double width = b.value - a.value;
@@ -30,8 +30,8 @@ struct LinearPiece {
     OpticalProperties at_from, at_to;
 };
 
-// Piece j of n + 1 lies between knots j - 1 and j; the first and the last one are the constant
-// parts outside.
+// Colour and extinction in one piece. With n knots there are n + 1 pieces: piece j lies between
+// knots j - 1 and j, and the first and the last are the constant ones outside.
 inline OpticalProperties optics_in_piece(std::span<const TransferKnot> knots, std::size_t piece,
                                          double value) {
     if (piece == 0) return knots.front().optics;
@@ -39,8 +39,8 @@ inline OpticalProperties optics_in_piece(std::span<const TransferKnot> knots, st
     return interpolate(knots[piece - 1], knots[piece], value);
 }
 
-// Calls visit(piece) for the pieces of positive width from `front` to `back`, in that order; for
-// front == back once, with a piece of no width that has at(front) at both ends.
+// Calls visit(piece) for the pieces of positive width from `front` to `back`, in that order. For
+// front == back it is called once, with a piece of no width that has at(front) at both ends.
 template <typename Visit>
 void for_each_linear_piece(std::span<const TransferKnot> knots, double front, double back,
                            const Visit& visit) {
@@ -69,7 +69,7 @@ void for_each_linear_piece(std::span<const TransferKnot> knots, double front, do
     }
 }
 
-// The colour of the first part of [lo, hi] with extinction > 0; black where there is none.
+// The colour at the first place of [lo, hi] with extinction > 0; black where there is none.
 inline glm::dvec3 first_color(const TransferFunction& transfer_function, double lo, double hi) {
     glm::dvec3 color(0);
     bool found = false;

@@ -7,15 +7,14 @@
 
 namespace lamina {
 
-// Extinction per world unit that stands for "opaque" (opacity 1 has no finite extinction): this
-// over unit_length.
+// Opacity 1 has no finite extinction. It is represented by this optical depth over unit_length.
 inline constexpr double opaque_optical_depth = 1e7;
 
 inline double opacity_from_depth(double optical_depth) {
     return -std::expm1(-optical_depth);
 }
 
-// `opacity` in [0, 1] over `unit_length` > 0 world units, as extinction per world unit.
+// The extinction per world unit that gives `opacity` in [0, 1] over `unit_length` > 0 world units.
 inline double extinction_from_opacity(double opacity, double unit_length) {
     return (opacity < 1 ? -std::log1p(-opacity) : opaque_optical_depth) / unit_length;
 }

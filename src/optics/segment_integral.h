@@ -11,18 +11,20 @@ namespace lamina {
 
 struct SegmentIntegral {
     double optical_depth = 0;
-    double alpha = 0;     // 1 - exp(-optical_depth)
-    glm::dvec3 color{0};  // associated: seen from the front, attenuated by the segment itself
+    double alpha = 0;  // 1 - exp(-optical_depth)
+    // Associated colour as seen from the front, attenuated by the segment itself.
+    glm::dvec3 color{0};
 };
 
-// The scalar runs linearly from `front` (towards the eye) to `back` over `length` >= 0 world units.
-// Exact to about 1e-13 relative in every component, for optical depths from 1e-300 to 1e300.
+// Integrates a segment on which the scalar is linear from `front` (nearer to the eye) to `back`,
+// over `length` >= 0 world units. The relative error is about 1e-13 in every component, for optical
+// depths from 1e-300 to 1e300.
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
                                   double back, double length);
 
-// One linear piece with extinction * length = p at its front and q at its back (>= 0, finite): the
-// associated colour is front * c_front + back * c_back; both weights >= 0 and front + back = 1 -
-// exp(-(p + q) / 2).
+// The weights of the colours at both ends of one linear piece with extinction * length = p at its
+// front and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back.
+// Both weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
 struct PieceWeights {
     double front = 0;
     double back = 0;

@@ -12,10 +12,10 @@ namespace lamina {
 // The scalars of the nodes, from lo to hi.
 std::vector<double> table_nodes(const SegmentTableRequest& request);
 
-// Layers [0, layer_count) by the closed form of every segment.
+// Fills layers [0, layer_count) with the closed form of every segment.
 void fill_exact(SegmentTable& table, const TransferFunction& transfer_function, int layer_count);
 
-// Layers from `first_layer` >= 2 on, each from those of shorter segments.
+// Fills layers from `first_layer` >= 2 on, each from those of shorter segments.
 void fill_incremental(SegmentTable& table, int first_layer);
 
 }  // namespace lamina

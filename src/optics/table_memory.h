@@ -13,18 +13,19 @@
 
 namespace lamina {
 
-// The tables that were asked for last, by their content: transfer function and request. A few of
-// them, as far as they take no more than 1 GiB. Safe from any thread. Table has byte_count().
+// A cache of the tables that were requested last, by content: transfer function and request. It
+// keeps at most 8 tables and 1 GiB. Safe from any thread. Table must have byte_count().
 template <typename Request, typename Table>
 class TableMemory {
   public:
-    // The known table, or what `build(transfer_function, request)` returns.
+    // The table from the cache, or what `build(transfer_function, request)` returns.
     template <typename Build>
     std::shared_ptr<const Table> get(const TransferFunction& transfer_function,
                                      const Request& request, const Build& build) {
         std::vector<double> knots = numbers_of(transfer_function);
         if (auto table = find(knots, request)) return table;
-        // Not under the lock: the build runs on all cores, and may meet a task that waits for it.
+        // The table is not built under the lock: the build runs on all cores and may execute a task
+        // that waits for the lock.
         auto table = std::make_shared<const Table>(build(transfer_function, request));
         add({std::move(knots), request, table});
         return table;

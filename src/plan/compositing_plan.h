@@ -10,27 +10,28 @@
 
 namespace lamina {
 
-// Who computes OVER on what a target holds.
+// What computes OVER on the target's pixels.
 enum class Blending {
     native,   // the blending unit
-    fetch,    // the program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
-    barrier,  // the program, which reads the target as a texture, with a barrier between layers
+    fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
+    barrier,  // the fragment program, which reads the target as a texture, with a barrier between
+              // layers
     tiles,    // the native engine, which holds the pixel
 };
 
-// Of what is more than a blending unit can do.
+// The way that a context composites what its blending unit cannot.
 Blending programmable_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
 
-// How fragments are put over one another.
+// How fragments are composited.
 struct CompositingPlan {
-    double unit = 1;  // world lengths times this are in the units of renderers (world_unit.h)
+    double unit = 1;  // world lengths times this are in the plan's units (facts/world_unit.h)
     Target target = Target::float32;
     std::optional<Emulation> emulation;  // for Target::emulated
     Blending blending = Blending::native;
     Order order = Order::back_to_front;
 
-    // Bits of a code where fragments are rounded to codes in the program.
+    // Bits of a code, where the program rounds fragments to codes.
     int code_bits() const {
         return emulation ? emulation->bits : target == Target::fixed16 ? 16 : 8;
     }

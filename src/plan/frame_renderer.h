@@ -12,17 +12,17 @@
 
 namespace lamina {
 
-// What draws frames of one scene as its plan says: slicing or projection, with OpenGL or with the
-// native engine. Whoever makes one prepares data and tables for all frames.
+// Draws frames of one scene as its plan says: by slicing or projection, with OpenGL or with the
+// native engine. Its constructor prepares the data and tables that all frames share.
 class FrameRenderer {
   public:
     virtual ~FrameRenderer() = default;
 
-    // Draws further frames by another plan of the same scene and size. False where that differs in
-    // more than belongs to one view: then nothing changes.
+    // Takes another plan of the same scene and size for further frames. Returns false, and changes
+    // nothing, where that plan differs in more than belongs to one view.
     virtual bool take(const Plan& plan) = 0;
-    // Complete when it returns. Ctrl-C ends it between steps; `progress` advances by step_count()
-    // in all.
+    // Draws a frame, which is complete on return. Ctrl-C ends it between steps; `progress` advances
+    // by step_count() in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
     // The last frame: associated, linear, before the background. The first takes no memory where
@@ -34,11 +34,11 @@ class FrameRenderer {
         return image;
     }
 
-    // What took how long, by the names of the statistics: of preparing, or of the last frame.
+    // Durations of preparing and of the last frame, by the names that statistics print.
     virtual std::map<std::string, double> stages_ms() const = 0;
-    // Of the last frame; 0 where OpenGL's queries count them.
+    // Fragments of the last frame; 0 with OpenGL, where queries count them.
     virtual std::int64_t fragments() const { return 0; }
-    // Host memory taken beside the data itself; 0 where it is OpenGL's.
+    // Host memory that the renderer takes beside the data; 0 with OpenGL, which has its own memory.
     virtual std::int64_t byte_count() const { return 0; }
 };
 

@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Slabs that one fragment can march through. llvmpipe ends all loops of a fragment after 65535
-// rounds together (LP_MAX_TGSI_LOOP_ITERATIONS) and says nothing; others have no such limit.
+// How many slabs one fragment can march through. llvmpipe silently ends all loops of a fragment
+// after 65535 rounds together (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit.
 int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
 }  // namespace lamina

@@ -9,11 +9,11 @@
 
 namespace lamina {
 
-// What was left out because this scene does not need it.
+// Work that is left out because this scene does not need it.
 struct Omission {
     std::string name;    // as in --no-omit=NAME
     std::string reason;  // the fact that decided
-    Work saves{};        // a frame, as predicted
+    Work saves{};        // predicted work that it saves in a frame
 };
 
 // Which omissions the user has switched off.

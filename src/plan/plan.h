@@ -21,20 +21,22 @@
 
 namespace lamina {
 
-// Where the fragments of the slicing renderer get the scalar from.
+// How the slicing renderer's fragments read the scalar.
 enum class VolumeSampling {
     none,      // the transfer function is constant over the volume: no scalar is needed
     fetch,     // eight texel fetches and float arithmetic
-    filtered,  // linear filter of a float texture, where that was measured to be exact
-    hardware,  // linear filter of a texture in the file's own type, with the hardware's weights
+    filtered,  // linear filter of a float texture, where the filter was measured to be exact
+    hardware,  // linear filter of a texture in the file's own type, with the weights of the
+               // hardware
 };
 
-// A part of the volume that one texture holds: samples first .. first + size - 1; neighbours share
-// a layer of samples.
+// A box of the volume's samples that one texture holds: samples first .. first + size - 1.
+// Neighbouring bricks share a layer of samples.
 struct TextureBrick {
     std::array<std::int64_t, 3> first{0, 0, 0};
     std::array<std::int64_t, 3> size{1, 1, 1};
-    // Samples reach as far as the volume's box: what lies one beyond its own repeats its border.
+    // At the volume's border the texture holds one more layer, which repeats the border sample, so
+    // that its samples reach as far as the volume's box.
     bool bordered = false;
 
     friend bool operator==(const TextureBrick&, const TextureBrick&) = default;
@@ -42,40 +44,49 @@ struct TextureBrick {
 
 struct SlicePlan : CompositingPlan {
     int slabs = 1;
-    std::optional<SlabTrial> slab_trial;  // of "samples": "auto"
-    std::string filter_reason;            // of "filter": "auto", where it takes the hardware's
-    double filter_error = 0;    // of "filter": "auto" where samples are given, found, in 1/255
-    std::string target_reason;  // of "target": "auto"
+    std::optional<SlabTrial> slab_trial;  // the trial that was chosen, for "samples": "auto"
+    std::string filter_reason;  // for "filter": "auto", where the hardware's filter is chosen
+    // The error that the hardware's filter was found to add, in 1/255: for "filter": "auto" with a
+    // given number of slabs.
+    double filter_error = 0;
+    std::string target_reason;  // for "target": "auto"
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
-    std::optional<double> error_bound;  // of "tree": "auto", in 1/255, with its reason
+    std::optional<double> error_bound;  // for "tree": "auto", in 1/255; tree_reason explains it
     std::string tree_reason;
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
-    bool float_texture = false;    // samples normalised to their range and stored as R32F
-    bool table_filtered = false;   // tables go through the texture unit's filter instead of fetches
-    bool orthographic = false;     // rays are parallel: one direction, one length per depth
-    bool single_color = false;     // colour is a constant of the program
+    bool float_texture = false;  // samples normalised to their range and stored as R32F
+    // Tables are read through the texture unit's filter, not by single fetches.
+    bool table_filtered = false;
+    // Rays are parallel; all have one direction and one length per depth.
+    bool orthographic = false;
+    bool single_color = false;     // the colour is a constant of the program
     bool precise_rays = true;      // rays and chords in double precision
     bool nan_transparent = false;  // samples may be NaN
-    int batches = 1;               // draws of a frame, each waited for: progress, and Ctrl-C
+    int batches = 1;  // a frame is drawn in so many draws, each waited for, for progress and Ctrl-C
     bool nothing_visible = false;  // no slab is drawn
-    bool linear = false;  // pre-integrated in closed form: colour and extinction are linear
-    TablePlan table;      // else, for Classification::preintegrated
-    IndexBox drawn;  // polygons cover this part of the box (segments are those of the whole box)
-    bool occupied_only = false;     // what comes near no occupied brick is not evaluated
-    bool constant_regions = false;  // marched rays take these in one step
-    // Marched rays end at this optical depth: what lies behind does not show.
+    // Segments are integrated in closed form, because colour and extinction are linear in the
+    // scalar.
+    bool linear = false;
+    TablePlan table;  // otherwise, for Classification::preintegrated
+    // Polygons cover this part of the box. Segments are those of the whole box.
+    IndexBox drawn;
+    bool occupied_only = false;     // segments that come near no occupied brick are not evaluated
+    bool constant_regions = false;  // marched rays cross constant regions in one step
+    // Marched rays end at this optical depth, because what lies behind it cannot be seen.
     double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
 
-    // In 1/255, of slabs, filter and table as far as it was measured.
+    // The error that slabs, filter and table were found to make, in 1/255, as far as it was
+    // measured.
     double found_error() const {
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
-    // Segments by the scalars at both ends and in the middle, not in the middle alone.
+    // Whether segments are integrated from the scalars at both ends and in the middle. Otherwise
+    // they take the scalar in the middle alone.
     bool integrates_runs() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
@@ -86,24 +97,26 @@ struct SlicePlan : CompositingPlan {
 
 // The plan without remarks that change no picture.
 SlicePlan without_remarks(SlicePlan plan);
-// And with what belongs to one view as it is by default: what renderers make for all views is a
-// matter of the rest.
+// The same, and all that belongs to one view has its default value. Renderers prepare for all views
+// from what is left.
 SlicePlan of_all_views(SlicePlan plan);
 
-// What will run: a pure function of scene, facts and capabilities, printable.
+// What will run. It is a pure function of scene, facts, trials and capabilities, and can be
+// printed.
 struct Plan {
     Method method = Method::slice;
     SlicePlan slice;      // for Method::slice
     ProjectPlan project;  // for Method::project
-    Work work;            // of a frame, as predicted
+    Work work;            // predicted work of a frame
     std::vector<Omission> omitted;
 };
 
-// Throws Error when the context cannot do what the scene asks for, naming the limit. `trials`: for
-// what is automatic.
+// Throws Error where the context cannot do what the scene asks for, and names the limit. `trials`:
+// measured errors, for automatic choices.
 Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions, const SampleTrials& trials = {});
-// The same of Method::slice, without what omissions save: for frames.
+// The same for Method::slice, without the work that omissions save; quicker, for the frames of a
+// moving scene.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials = {});
 // For methods that draw a mesh (Scene::draws_mesh).

@@ -5,11 +5,12 @@
 
 namespace lamina {
 
-// What a frame of a plan takes.
+// Predicts the work of a frame.
 Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene, bool tiles);
 Work planned_work(const ProjectPlan& plan, const MeshFacts& facts, const Scene& scene);
 
-// What each omission of a plan saves: the work of the plan without it, less that of the plan.
+// Sets the work that each omission saves: the work of a plan that keeps it, less the work of this
+// plan.
 void add_savings(Plan& plan, const Scene& scene, const Facts& facts,
                  const Capabilities& capabilities, const OmissionSwitch& omissions,
                  const SampleTrials& trials = {});

@@ -15,42 +15,45 @@ namespace lamina {
 
 // How the fragments of a tet are integrated between its front and its back.
 enum class SegmentSource {
-    constant,   // the transfer function is constant over the mesh: no scalar is needed
-    table,      // one look-up in a table with equally spaced scalars
-    parts,      // tets are cut where the scalar is at the transfer function's points: opacity
-                // in closed form, colour by one look-up in a table that knows no transfer
-                // function (optics/front_weights.h)
-    cut_table,  // up to three look-ups in a table whose nodes lie on those points
-    analytic,   // the pieces between those points, each in closed form
-    mean,       // means of what front and back show: Coloring::attenuation
+    constant,  // the transfer function is constant over the mesh: no scalar is needed
+    table,     // one look-up in a table with equally spaced scalars
+    parts,     // tets are cut where the scalar passes the transfer function's points. Opacity has a
+               // closed form; colour is one look-up in a table that does not depend on the transfer
+               // function (optics/front_weights.h)
+    cut_table,  // up to three look-ups in a table whose scalar nodes lie on the transfer function's
+                // points
+    analytic,   // the linear pieces between those points, each in closed form
+    mean,       // the mean of the optics at front and back: Coloring::attenuation
     vertices    // no integration: Coloring::vertex
 };
 
 struct ProjectPlan : CompositingPlan {
-    std::string target_reason;  // of "target": "auto"
+    std::string target_reason;  // for "target": "auto"
     SegmentSource source = SegmentSource::table;
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
     OrderMethod visibility = OrderMethod::exact;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
-    std::uint32_t seed = 1;         // of dithering and stochastic rounding
-    std::vector<int> tree;          // bifurcation factors of fixed-point nodes; empty: none
-    bool scattered = false;         // a leaf's tets are anywhere in the mesh
-    bool orthographic = false;      // rays are parallel: no division per fragment
-    bool single_color = false;      // colour is a constant of the program
-    bool plain = true;              // tets whose faces can be found in float32 are
-    bool draw_transparent = false;  // what shows nothing is drawn, too
+    std::uint32_t seed = 1;     // of dithering and stochastic rounding
+    std::vector<int> tree;      // bifurcation factors of fixed-point nodes; empty: none
+    bool scattered = false;     // the tets of a tree's leaf come from all over the mesh
+    bool orthographic = false;  // rays are parallel; fragments need no division
+    bool single_color = false;  // the colour is a constant of the program
+    // Where float32 can find the faces of a tet, the setup in float32 draws it.
+    bool plain = true;
+    bool draw_transparent = false;  // transparent tets are drawn, too
     bool nothing_visible = false;   // no tet is drawn
-    bool table_filtered = false;    // tables go through the texture unit's filter
-    double near_depth = 0;          // of the near plane, in the plan's units, as in tables
-    ValueRange range;               // of scalars, [0, 1] in shaders; lo < hi
-    SegmentTableRequest table;      // for SegmentSource::table
-    TablePlan aligned;              // for SegmentSource::cut_table
-    double segment_error = 0;       // measured on rays of the view, in 1/255
+    bool table_filtered = false;    // tables are read through the texture unit's filter
+    // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
+    double near_depth = 0;
+    ValueRange range;           // of scalars, [0, 1] in shaders; lo < hi
+    SegmentTableRequest table;  // for SegmentSource::table
+    TablePlan aligned;          // for SegmentSource::cut_table
+    double segment_error = 0;   // measured on rays of the view, in 1/255
     std::string segment_reason;
 
-    // Opacity is rounded to codes in the program, not by the blending unit.
+    // Whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
 
     friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;

@@ -11,8 +11,8 @@
 
 namespace lamina {
 
-// The part of make_plan() for Method::project. Pre-integration tables are built on the way, to
-// measure their error; they are kept (optics/segment_table.h), so that the renderer finds them.
+// Makes the plan for Method::project. It builds pre-integration tables to measure their error. They
+// are kept (optics/segment_table.h), so that the renderer does not build them again.
 ProjectPlan plan_projection(const Scene& scene, const MeshFacts& facts,
                             const Capabilities& capabilities, const OmissionSwitch& omissions,
                             std::vector<Omission>& omitted);

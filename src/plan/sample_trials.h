@@ -7,11 +7,11 @@
 
 namespace lamina {
 
-// Numbers of slabs that were tried where the scene says "auto" (slicing/slab_trials.h tries them).
+// Numbers of slabs that were tried, where the scene has "auto" (slicing/slab_trials.h tries them).
 struct SampleTrials {
-    // For "samples": "auto"; else none.
+    // For "samples": "auto"; otherwise empty.
     std::vector<SlabTrial> exact;
-    // For "filter": "auto": with weights rounded to 8 bits, as texture units have them. Where the
+    // For "filter": "auto", with filter weights rounded to 8 bits as in texture units. Where the
     // number of slabs was given, the error is that of the weights alone.
     std::vector<SlabTrial> hardware;
 };

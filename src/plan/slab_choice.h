@@ -10,25 +10,26 @@
 
 namespace lamina {
 
-// So many slabs a voxel along the view, 1 .. max_slabs.
+// The number of slabs, 1 .. max_slabs, that makes `slabs` slabs per voxel along the view.
 int slabs_per_voxel(const Facts& facts, double slabs);
 
-// What so many slabs may be found to add to the picture's error where their number is automatic, in
-// 1/255: what compositing that is automatic, too, leaves of max_error, and less the fewer of the
-// picture's rays are tried. `max_color` and `slabs` matter where the target is automatic.
+// The largest error, in 1/255, that a trial of an automatic number of slabs may find. Automatic
+// compositing takes its share of max_error first. The goal is stricter where only `rays` of the
+// picture's rays were tried, because the largest error of all rays is then larger than the one
+// found. `max_color` and `slabs` matter where the target is automatic, too.
 double slab_error_goal(const Scene& scene, double max_color, int slabs, double rays);
 
-// Whether the errors of trials fall as those of smooth pictures do: some two orders with the number
-// of slabs. Else fewer slabs may by chance be nearer to the truth than more.
+// Whether the errors fall with about the second power of the number of slabs, as for smooth
+// pictures. Otherwise fewer slabs may by chance have a smaller error than more.
 bool are_of_second_order(std::vector<SlabTrial> trials);
 
-// "samples": "auto": of what was tried the fewest slabs that keep their goal; where none does, of
-// two a voxel and more the fewest whose error is near the least. Where nothing was tried, two a
-// voxel, of an error that is not known (NaN).
+// The choice of "samples": "auto". It is the fewest slabs whose trial keeps its goal. Where none
+// does, it is the fewest slabs, of two a voxel or more, whose error is near the least. Where
+// nothing was tried, it is two slabs a voxel, with an unknown error (NaN).
 SlabTrial chosen_slabs(const Facts& facts, const SampleTrials& trials);
 
-// "filter": "auto": of what was tried with the weights of texture units the fewest slabs that keep
-// their goal, if any do.
+// The choice of "filter": "auto": the fewest slabs whose trial with the weights of texture units
+// keeps its goal, if any does.
 std::optional<SlabTrial> slabs_of_hardware_filter(const SampleTrials& trials);
 
 }  // namespace lamina

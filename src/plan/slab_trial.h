@@ -5,15 +5,16 @@
 
 namespace lamina {
 
-// What slicing into so many slabs was found to cost in accuracy, on rays all over the picture.
+// The error of slicing into so many slabs, found on rays all over the picture.
 struct SlabTrial {
     int slabs = 1;
     double error = 0;         // Linf of colour and opacity, in 1/255
-    std::int64_t rays = 0;    // that were tried
-    double goal = 0;          // what the error may be: slab_error_goal(), in 1/255
-    std::int64_t traced = 0;  // of the rays, held against the reference tracer
-    // The picture may be off by more: the rays are those of a smaller one, or not all of them were
-    // traced, and the tracer found more than pictures of other numbers of slabs show.
+    std::int64_t rays = 0;    // number of rays that were tried
+    double goal = 0;          // largest error that is allowed: slab_error_goal(), in 1/255
+    std::int64_t traced = 0;  // number of these rays that were compared with the reference tracer
+    // The picture's error may be larger. The rays are those of a smaller picture, or not all of
+    // them were traced and the tracer found a larger error than the comparison with other numbers
+    // of slabs.
     bool doubtful = false;
     bool keeps_goal() const { return error <= goal; }
 

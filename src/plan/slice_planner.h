@@ -5,7 +5,8 @@
 
 namespace lamina {
 
-// make_plan() for Method::slice with a target by name; says nothing of what omissions save.
+// Makes the plan for Method::slice with a given target (not "auto"). It does not compute what
+// omissions save.
 Plan plan_slicing(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                   const OmissionSwitch& omissions, const SampleTrials& trials = {});
 

@@ -10,7 +10,7 @@ struct TablePlan {
     int length_layers = 1;
     double max_length = 0;  // in the plan's units
     bool colored = true;
-    double error = 0;  // that it was found to add to the picture's, in 1/255
+    double error = 0;  // found error that it adds to the picture, in 1/255
 
     friend bool operator==(const TablePlan&, const TablePlan&) = default;
 };

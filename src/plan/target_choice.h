@@ -9,25 +9,25 @@
 
 namespace lamina {
 
-// Of max_error, what a target that is chosen may use up: so little that slabs need hardly be more
-// (their error falls with their number squared).
+// An automatic target may round by at most this share of max_error. The share is small, so that the
+// remaining bound hardly needs more slabs (their error falls with the square of their number).
 inline constexpr double target_share = 0.15;
 
 struct TargetChoice {
     Target target = Target::float32;
-    std::string reason;  // empty: as the scene asks
-    double error = 0;    // at most, in 1/255: 0 where no bound is known or needed
+    std::string reason;  // empty where the scene names the target
+    double error = 0;    // bound on its rounding, in 1/255; 0 where no bound is known or needed
 };
 
-// "target": "auto", of slicing: the fewest bytes a pixel with which compositing keeps its share of
-// max_error.
+// The choice of "target": "auto" for slicing: the target with the fewest bytes a pixel whose
+// compositing error is within target_share of max_error.
 TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleTrials& trials);
 TargetChoice choose_target(const Scene& scene, double max_color, int slabs);
-// Of projected tetrahedra.
+// The same for projected tetrahedra.
 TargetChoice choose_project_target(const Scene& scene);
 
-// The scene as if it had asked for the target; where that was chosen for slicing without a tree and
-// is smaller than float32, with a tree, so that the bound of the choice is kept.
+// The scene with the target set. Where a target smaller than float32 was chosen for slicing without
+// a tree, the scene also gets a tree, because the bound of the choice is the bound of a tree.
 Scene with_target(Scene scene, Target target);
 
 }  // namespace lamina

@@ -7,12 +7,13 @@
 
 namespace lamina {
 
-// Errors where the scene's tree, spelled out, cannot be drawn. `single_color`: all that can be seen
-// has one colour.
+// Throws Error where a tree whose factors the scene gives cannot be drawn. `single_color`: whether
+// all that can be seen has one colour.
 void check_slice_tree(const Scene& scene, bool single_color);
 void check_project_tree(const Scene& scene, bool single_color);
 
-// Error where a leaf has more than `most` slabs, the rounds of the context's loops.
+// Throws Error where a leaf has more than `most` slabs, the limit of the context's loops
+// (plan/march_limit.h).
 void check_leaves(const Scene& scene, const TreeShape& shape, int most,
                   const Capabilities& capabilities);
 

@@ -12,31 +12,31 @@ namespace lamina {
 
 // A compositing tree over the slabs of a picture.
 struct TreePlan {
-    std::vector<int> factors;  // from the root to the leaves
+    std::vector<int> factors;  // children of a node, for each level from the root to the leaves
     NodeArithmetic nodes = NodeArithmetic::shader;
     NodeCode code = NodeCode::minimax;
     int alpha_bits = 8;
-    double largest_color = 1;  // that the images of shader nodes stand for as 1
+    double largest_color = 1;  // the colour component that images of shader nodes store as 1
 
     friend bool operator==(const TreePlan&, const TreePlan&) = default;
 };
 
-// What "tree": "auto" decides from.
+// What the choice of "tree": "auto" depends on.
 struct TreeQuestion {
     Target target = Target::float32;
     Emulation emulation;
     int slabs = 1;
-    int visible_slabs = 1;  // that are composited on one ray, at most, and can be seen
+    int visible_slabs = 1;  // most slabs of one ray that are composited and can be seen
     Order order = Order::back_to_front;
-    std::optional<Dither> dither;  // of codes
-    double largest_color = 1;      // component of what is composited
+    std::optional<Dither> dither;  // of opacity codes
+    double largest_color = 1;      // largest colour component of what is composited
     double max_error = 1;          // in 1/255, as the scene has it
-    double slab_error = 0;         // of it, what the slabs were found to take
+    double slab_error = 0;  // the part of max_error that the slabs were found to use, in 1/255
 };
 
 struct TreeChoice {
-    std::optional<TreePlan> tree;  // none: blend slab after slab
-    double error_bound = 0;        // in 1/255, against the same slabs composited exactly
+    std::optional<TreePlan> tree;  // none: slabs are blended one after the other
+    double error_bound = 0;        // in 1/255, relative to the same slabs composited exactly
     std::string reason;
 };
 
@@ -44,8 +44,9 @@ struct TreeChoice {
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 
-// The cheaper of what keeps to what the slabs leave of max_error, else the better. Throws Error
-// where compositing alone misses max_error and another target than float32 was asked for.
+// Chooses between blending and a tree: the cheaper one whose error bound fits into what the slabs
+// leave of max_error, or, where neither fits, the one with the smaller bound. Throws Error where
+// compositing alone exceeds max_error and the scene asks for another target than float32.
 TreeChoice choose_tree(const TreeQuestion& question);
 
 }  // namespace lamina

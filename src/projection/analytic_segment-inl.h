@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of shaders/optics/analytic_segment.glsl: segments on which the scalar runs straight,
-// exactly, interval by interval of the transfer function.
+// Vector form of shaders/optics/analytic_segment.glsl. It integrates segments on which the scalar
+// is linear exactly, interval by interval of the transfer function.
 #if defined(LAMINA_PROJECTION_ANALYTIC_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_ANALYTIC_SEGMENT_INL_H_
 #undef LAMINA_PROJECTION_ANALYTIC_SEGMENT_INL_H_
@@ -16,13 +16,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Associated colour and optical depth.
+// The associated colour and the optical depth of a segment.
 struct AnalyticSum {
     Floats color[3];
     Floats depth;
 };
 
-// `colored`: else only the depth. Scalars in [0, 1].
+// `colored`: otherwise only the optical depth is computed. Scalars lie in [0, 1].
 HWY_INLINE AnalyticSum integrate_analytic(const TileTransfer& transfer, bool colored, Floats front,
                                           Floats back, Floats world_length) {
     constexpr Lookup kind = Lookup::gather;
@@ -35,7 +35,8 @@ HWY_INLINE AnalyticSum integrate_analytic(const TileTransfer& transfer, bool col
     const auto rising_int = hn::Not(hn::Gt(interval, last));
     const auto rising = hn::RebindMask(d, rising_int);
     const auto one_piece = hn::RebindMask(d, hn::Eq(interval, last));
-    const Floats end_share = hn::IfThenElseZero(rising, one);  // where an interval is left
+    // The share of an interval at which the ray leaves it.
+    const Floats end_share = hn::IfThenElseZero(rising, one);
     const Ints to_end = hn::IfThenElseZero(rising_int, one_int);
     const Ints step = hn::Sub(hn::Add(to_end, to_end), one_int);
     const Floats per_scalar = hn::Div(world_length, hn::Abs(hn::Sub(back, front)));
@@ -48,7 +49,8 @@ HWY_INLINE AnalyticSum integrate_analytic(const TileTransfer& transfer, bool col
         const auto counted = hn::RebindMask(d, hn::Gt(left, hn::Set(di, -1)));
         if (hn::AllFalse(d, counted)) return sum;
         const auto whole_int = hn::Gt(left, hn::Zero(di));
-        const auto whole = hn::RebindMask(d, whole_int);  // to the end of this interval
+        // The segment goes on to the end of this interval.
+        const auto whole = hn::RebindMask(d, whole_int);
         const Ints end = hn::Min(hn::Add(interval, to_end), most);
         const Floats next_scalar = hn::IfThenElse(whole, look_up<kind>(transfer.end, end), back);
         const Floats next_share =

@@ -12,34 +12,36 @@
 
 namespace lamina {
 
-// A tet in one view, cut into the convex parts of the picture on which rays enter it by one face,
-// or at the near plane, and leave it by one other. Unlike the fans of Kraus 2004 these are right
-// where a corner lies behind the eye, and no part of them lies far beyond the picture, where window
-// coordinates of float32 are whole pixels.
+// A tet in one view, cut into convex polygons of the picture. On each polygon the rays enter the
+// tet by one face or at the near plane, and leave it by one other face. Unlike the fans of Kraus
+// 2004, these polygons are right where a corner lies behind the eye. None of them reaches far
+// beyond the picture, where float32 resolves window coordinates only to whole pixels.
 class FacePairs {
   public:
-    using Fronts = std::array<bool, 4>;  // of the faces opposite the corners
+    using Fronts = std::array<bool, 4>;  // whether the face opposite each corner is a front face
 
-    // `seen`: the corners from the eye, along right, up and forward.
+    // `seen`: the corners relative to the eye, along right, up and forward.
     FacePairs(const WindowView& window, double near_depth, const Tet& tet,
               const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
 
-    // The rectangle cut with at most three edges of either face, and with the near plane.
+    // A polygon is the picture's rectangle, cut by at most three edges of either face and by the
+    // near plane.
     static constexpr std::size_t most_corners = 12;
     struct Polygon {
         std::size_t count = 0;
         std::array<glm::dvec2, most_corners> corners;  // window coordinates
     };
 
-    // Where a ray meets a face or the near plane: the shares of the tet's corners there, over z
-    // where rays meet in the eye, so that they are linear in the picture.
+    // Shares are the barycentric coordinates, with respect to the tet's corners, of the point where
+    // a ray meets a face or the near plane. In perspective views they are divided by z, so that
+    // they are linear in the picture.
     using Shares = std::array<double, 4>;
     struct Hit {
-        double inverse_z;  // 1 where rays are parallel
+        double inverse_z;  // 1 in orthographic views
         double z;
         Shares shares;
     };
-    static constexpr std::size_t near_plane = 4;  // instead of a face
+    static constexpr std::size_t near_plane = 4;  // stands for the near plane instead of a face
     Hit hit(std::size_t face, const glm::dvec2& place) const;
 
     // Calls visit(polygon, front face or near_plane, back face).
@@ -62,15 +64,17 @@ class FacePairs {
         }
     }
 
-    // Polygons that are visited do not overlap and together are convex; triangulated they have at
-    // most two triangles for each corner inside, and one for each but two on the border. Inside lie
-    // at most 4: a corner of the tet or the crossing of two edges, and where edges meet the near
-    // plane. On the border: 4 corners of the picture, 6 of what is cut by the near plane, and 12
-    // ends of at most 6 lines that cross. There are at most 6 polygons.
+    // The most triangles of the polygons of one tet. The polygons do not overlap, and their union
+    // is convex. Triangulated, they have at most two triangles for each corner inside the union,
+    // and one for each corner on its border except two. At most 4 corners lie inside: a corner of
+    // the tet or the crossing of two edges, and points where edges meet the near plane. On the
+    // border lie at most 4 corners of the picture, 6 of the section with the near plane, and 12
+    // ends of at most 6 lines that cross the union. There are at most 6 polygons.
     static constexpr std::size_t most_triangles = 28;
 
   private:
-    // a.x + b.y + c of a ray's place at depth 1 (parallel rays: of its place).
+    // A linear function a.x + b.y + c of a ray's position at depth 1, or of its position where rays
+    // are parallel.
     using Linear = glm::dvec3;
 
     glm::dvec3 ray_at(const glm::dvec2& place) const;
@@ -84,8 +88,8 @@ class FacePairs {
     bool cut_ = false, any_front_ = false;
     std::array<glm::dvec3, 4> seen_;
     Fronts fronts_;
-    std::array<std::array<Linear, 3>, 4> shares_;  // of each face's corners
-    // Shares of the corners in space: so much per x, y, z, and at the eye.
+    std::array<std::array<Linear, 3>, 4> shares_;  // of the corners of each face
+    // The shares in space: their change per x, y, z, and their values at the eye.
     std::array<glm::dvec3, 4> inside_;
     std::array<double, 4> inside_at_eye_;
     Polygon picture_;

@@ -8,56 +8,56 @@
 #include <cstdint>
 #include <span>
 
-#include "visibility/face_signs.h"
+#include "plan/project_plan.h"
 #include "projection/face_pairs.h"
 #include "projection/tet_geometry.h"
 #include "projection/window_view.h"
-#include "plan/project_plan.h"
 #include "scene/scene_mesh.h"
+#include "visibility/face_signs.h"
 
 namespace lamina {
 
-// A vertex of the paper's triangles (shaders/projection/fan.vert): the points at the front and at
-// the back of the tet that are seen at one place.
+// A vertex of the triangles of Kraus 2004 (shaders/projection/fan.vert). It holds two points of the
+// tet that are seen at one position of the window: one on its front and one on its back.
 struct FanVertex {
     glm::vec2 position;  // window coordinates
-    // Perspective interpolation: 1/z at the front and at the back, and the difference, of which
-    // theirs in float32 would say little (all linear in window coordinates). Linear: 0, 0, and the
-    // thickness.
+    // Perspective interpolation: 1/z at the front, 1/z at the back, and their difference. The
+    // difference of the two float32 numbers would have few digits. All three are linear in window
+    // coordinates. Linear interpolation: 0, 0, and the thickness.
     glm::vec3 inverse;
-    // The scalar (normalised) in x, or colour and extinction; over z for perspective interpolation.
-    // Coloring `vertex`: in `front` the vertex's colour and opacity.
+    // The normalised scalar in x, or colour and extinction; for perspective interpolation divided
+    // by z. With Coloring::vertex `front` holds the vertex's colour and opacity.
     glm::vec4 front, back;
-    // The tet's least and largest scalar (normalised): what is interpolated is rounded, and a tet
-    // of one scalar may lie just at a step.
+    // The tet's least and largest normalised scalar. Interpolated scalars are clamped to these,
+    // because they are rounded, and the scalar of a constant tet may lie exactly at a step.
     glm::vec2 scalars;
     std::uint32_t tet;
 };
 
-// Three or four triangles around a thick vertex for each tet: the projections of the smaller tets
-// of Kraus 2004, Figure 3. Of tets that cross the near plane or, where pictures are exact, reach
-// far beyond the picture, the polygons of FacePairs.
+// Projects each tet as three or four triangles around a thick vertex, the projections of the
+// smaller tets of Kraus 2004, Figure 3. Tets that cross the near plane are projected as the
+// polygons of FacePairs; so are, where pictures are exact, tets that reach far beyond the picture.
 class FanGeometry : public TetGeometry {
   public:
-    // A polygon has two vertices more than triangles; of six polygons.
+    // A polygon has two more vertices than triangles, and there are at most six polygons.
     static constexpr std::size_t most_vertices = FacePairs::most_triangles + 12,
                                  most_indices = 3 * FacePairs::most_triangles;
 
-    // All must outlive it.
+    // All arguments must outlive it.
     FanGeometry(const SceneMesh& mesh, const TransferFunction& transfer_function,
                 const ProjectPlan& plan, const View& view);
     static Size largest_size();
-    // Whole tets, whatever the part.
+    // Always projects the whole tet.
     Written write(const TetPart& part, const Place& place) const override;
 
-    // A corner of a tet, or of a part of one.
+    // A corner of a tet.
     struct Corner {
-        glm::dvec3 seen;    // from the eye: along right, up and forward
+        glm::dvec3 seen;    // relative to the eye: along right, up and forward
         glm::dvec2 window;  // window coordinates
         glm::dvec4 values;  // as in FanVertex, not divided
     };
     using Corners = std::array<Corner, 4>;
-    // All vertices of a tet have these alike.
+    // What all vertices of a tet have in common.
     struct Owner {
         std::int32_t tet;
         glm::vec2 scalars;
@@ -66,10 +66,10 @@ class FanGeometry : public TetGeometry {
 
   private:
     struct Fan {
-        int rim = 0;  // 3 or 4 vertices around the first one
+        int rim = 0;  // number of vertices around the first one: 3 or 4
         std::array<FanVertex, 5> vertices;
     };
-    // What is seen at one place, front or back.
+    // A point on the front or the back of the tet.
     struct Point {
         double inverse_z;  // 1 in orthographic views
         double z;
@@ -97,7 +97,7 @@ class FanGeometry : public TetGeometry {
     const ProjectPlan& plan_;
     WindowView window_;
     FaceSigner signer_;
-    bool divided_;  // values are interpolated over z
+    bool divided_;  // values are divided by z for interpolation
 };
 
 }  // namespace lamina

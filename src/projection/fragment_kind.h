@@ -5,12 +5,13 @@
 
 namespace lamina {
 
-// What a part's fragments need. Programs of later kinds are right for parts of the earlier ones,
-// too, and slower.
+// How the fragments of a cell fragment (TetPart) are computed. A later kind is also right for what
+// an earlier one serves, but slower.
 enum class FragmentKind {
-    thin,    // a part of optical depth up to thin_depth (optics/front_weights.h)
-    plain,   // faces in float32
-    careful  // faces in double: seen nearly edge-on, cut by the near plane, or around the eye
+    thin,   // optical depth at most thin_depth (optics/front_weights.h); depths on faces in float32
+    plain,  // depths on faces in float32
+    careful  // depths on faces in double precision: for faces that are seen nearly edge-on, for
+             // cell fragments that the near plane cuts, and where the eye is inside
 };
 inline constexpr std::size_t fragment_kinds = 3;
 

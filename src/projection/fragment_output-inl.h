@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fragments reach their pixels: vector form of shaders/projection/output.glsl. Fragments
-// without opacity and colour leave their pixels as they are, in all targets.
+// How fragments are written to their pixels: vector form of shaders/projection/output.glsl.
+// Fragments with neither opacity nor colour leave their pixels unchanged in all targets.
 #if defined(LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
 #undef LAMINA_PROJECTION_FRAGMENT_OUTPUT_INL_H_
@@ -25,7 +25,7 @@ inline bool is_random(FragmentOutput output, const TargetBlend& target) {
             target.alpha_rounding == AlphaRounding::stochastic);
 }
 
-// Of the pixels of a tile from `place` on, and of the part that is drawn.
+// For the pixels of a tile from `place` on, and the cell fragment that is drawn.
 template <class D>
 HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> random_of_fragments(D, const TetFragments& fragments,
                                                                 const TileGrid::Tile& area,
@@ -37,8 +37,8 @@ HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> random_of_fragments(D, const TetFrag
                             fragments.seed);
 }
 
-// Kraus 2004, section 4.2, with one random number for all channels: the blending unit rounds
-// associated colours, too.
+// Dithers as in Kraus 2004, section 4.2, but with one random number for all channels, because the
+// blending unit rounds associated colours, too.
 template <class D>
 HWY_INLINE hn::Vec<D> dithered(D d, float largest, hn::Vec<D> value, hn::Vec<D> random) {
     const auto scaled = hn::Mul(clamp01(d, value), hn::Set(d, largest));
@@ -47,7 +47,7 @@ HWY_INLINE hn::Vec<D> dithered(D d, float largest, hn::Vec<D> value, hn::Vec<D> 
     return hn::Div(hn::Add(whole, hn::IfThenElseZero(up, hn::Set(d, 1.0f))), hn::Set(d, largest));
 }
 
-// 24 of the bits, as a number below 1.
+// 24 of the random bits as a number in [0, 1).
 template <class D>
 HWY_INLINE hn::Vec<D> as_share(D d, hn::Vec<hn::RebindToUnsigned<D>> random) {
     const hn::RebindToSigned<D> di;
@@ -97,7 +97,7 @@ HWY_INLINE void put_fragment(D d, const TetFragments& fragments,
     }
 }
 
-// Opacity alone, onto `there`.
+// Puts opacity alone over `there`.
 template <class D>
 HWY_INLINE hn::Vec<D> put_opacity(D d, const TetFragments& fragments, hn::Vec<D> opacity,
                                   hn::Vec<hn::RebindToUnsigned<D>> random, hn::Vec<D> there) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragments of parts of tets over a tile, between the steps that find, colour and draw them.
+// A queue of fragments of cell fragments over a tile, between the steps that find, colour and draw
+// them.
 #if defined(LAMINA_PROJECTION_FRAGMENT_QUEUE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_FRAGMENT_QUEUE_INL_H_
 #undef LAMINA_PROJECTION_FRAGMENT_QUEUE_INL_H_
@@ -23,32 +24,32 @@ using Tag = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
 using Vector = hn::Vec<Tag>;
 using Inside = hn::Mask<Tag>;
 
-// Fragments of some parts, added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels, of which a part covers
-// some half on average; AVX-512 packs the covered ones, those of a part one after the other, so
-// that colours are computed of few others. Each step is done for all of them before the next one:
-// within a step vectors do not wait for one another.
+// Fragments are added as vectors of 4 x 1, 4 x 2 or 4 x 4 pixels. A cell fragment covers about half
+// of the pixels of a vector. AVX-512 packs the covered pixels of one cell fragment, so that few
+// colours are computed in vain. Each step is done for all fragments of the queue before the next
+// step, because vectors within a step do not depend on each other.
 class FragmentQueue {
   public:
     static constexpr std::size_t lanes = hn::MaxLanes(Tag());
 
-    // What is found first.
+    // The result of the first step.
     struct Found {
         InsideSpan<Vector> span;
         Vector aside;  // the scalar's change from the record's center, at z = 1
         Vector slant;  // world length per unit of z
     };
-    // A vector of pixels, and where its fragments are.
+    // A vector of pixels, and the position of its fragments in the queue.
     struct Place {
-        std::uint16_t place;  // TileGrid::place() of the first
+        std::uint16_t place;  // TileGrid::place() of the first pixel
         std::uint16_t part;   // TileChunk's number
         std::uint16_t first;
         std::uint8_t inside[8];
     };
 
-    bool is_full() const { return end_ >= enough; }  // another part may not fit
+    bool is_full() const { return end_ >= enough; }  // another cell fragment may not fit
     void clear() { end_ = place_count_ = 0; }
 
-    // Adds vectors of one part.
+    // Adds the vectors of one cell fragment.
     class Writer {
       public:
         Writer(FragmentQueue& queue, std::size_t part)
@@ -57,7 +58,8 @@ class FragmentQueue {
               end_(queue.end_),
               place_count_(queue.place_count_) {}
 
-        // Kept where one is `inside`: no branch, which nothing could predict.
+        // Keeps the vector where one of its pixels is `inside`. It does so without a branch, which
+        // could not be predicted.
         HWY_INLINE void add(Tag d, std::size_t place, const Found& found, Inside inside) {
             store(d, 0, pack(inside, found.span.enter));
             store(d, 1, pack(inside, found.span.leave));
@@ -79,7 +81,7 @@ class FragmentQueue {
                 for (std::size_t i = 0; i < values; ++i) store(d, i, hn::Zero(d));
                 end_ = (end_ + lanes - 1) / lanes * lanes;
             }
-            // Mostly this is enough, and how many are needed nothing could predict.
+            // A single store is mostly enough. The number that is needed could not be predicted.
             std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
             const std::size_t vectors = (end_ - queue_.end_) / lanes;
             std::fill_n(parts, some_parts, part_);
@@ -99,7 +101,7 @@ class FragmentQueue {
         std::size_t end_, place_count_, count_ = 0;
     };
 
-    // Calls visit(part, i) for vectors of fragments, of which `i` is the first one.
+    // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
     template <class Visit>
     HWY_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
@@ -109,7 +111,7 @@ class FragmentQueue {
     HWY_INLINE Found found(Tag d, std::size_t i) const {
         return {{load(d, 0, i), load(d, 1, i)}, load(d, 2, i), load(d, 3, i)};
     }
-    // Runs take the place of what was found, colours that of runs.
+    // A run overwrites the result of the first step, and a colour overwrites a run.
     HWY_INLINE void set_run(Tag d, std::size_t i, const TetRun<Vector>& run) {
         store(d, 0, i, run.front);
         store(d, 1, i, run.back);
@@ -124,7 +126,7 @@ class FragmentQueue {
         store(d, 2, i, color.blue);
         store(d, 3, i, color.alpha);
     }
-    // 0 of pixels that are not covered.
+    // The colours of a vector of pixels; 0 for pixels that are not covered.
     HWY_INLINE Fragment<Vector> color(Tag d, const Place& pixels) const {
         const Inside inside = hn::LoadMaskBits(d, pixels.inside);
         const auto channel = [&](std::size_t value) HWY_ATTR {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that a plan may ask of fragments, asked at each vector of pixels.
+// Shades fragments with everything that a plan may ask for. The plan is looked at for each vector
+// of pixels.
 #if defined(LAMINA_PROJECTION_GENERAL_SHADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
 #undef LAMINA_PROJECTION_GENERAL_SHADING_INL_H_
@@ -10,11 +11,11 @@
 #include <hwy/highway.h>
 
 #include "base/unreachable.h"
+#include "executors/tile_preintegration-inl.h"
 #include "projection/analytic_segment-inl.h"
 #include "projection/fragment_output-inl.h"
 #include "projection/tet_color-inl.h"
 #include "projection/tet_drawing-inl.h"
-#include "executors/tile_preintegration-inl.h"
 #include "tiles/segment_table-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +27,7 @@ HWY_INLINE Fragment<Vector> table_color(Tag d, const TetFragments& fragments,
     const auto entry =
         integrate_segment(d, *fragments.table, fragments.inverse_first_length,
                           fragments.single_color, run.front, run.back, run.world_length);
-    // A table of opacities may have one at length 0.
+    // A table of opacities may have an opacity above 0 at length 0.
     const auto met = hn::Gt(run.world_length, hn::Zero(d));
     return {hn::IfThenElseZero(met, entry.color[0]), hn::IfThenElseZero(met, entry.color[1]),
             hn::IfThenElseZero(met, entry.color[2]), hn::IfThenElseZero(met, entry.value)};
@@ -63,7 +64,7 @@ HWY_INLINE Fragment<Vector> cut_table_color(Tag d, const TetFragments& fragments
             hn::Mul(sum.color[2], opacity), opacity};
 }
 
-// Of segments whose ends are given by their scalars.
+// The colour of segments whose ends are given by their scalars.
 HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fragments,
                                                    const TetRun<Vector>& run) {
     switch (fragments.source) {
@@ -83,7 +84,7 @@ HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fr
     unreachable_enum();
 }
 
-// Puts fragments of the part or tet `number` over the pixels from `place` on.
+// Puts the fragments of the cell fragment or tet `number` over the pixels from `place` on.
 HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std::uint32_t number,
                                        const Fragment<Vector>& fragment, const TetTile& tile,
                                        std::size_t place) {
@@ -109,7 +110,8 @@ struct GeneralShader {
           perspective(fragments.perspective),
           opacity_only(fragments.opacity_only) {}
 
-    // Codes are those of OpenGL's programs, which know no faint parts, and careful ones as any.
+    // Codes must equal those of OpenGL's programs. These have no special case for optical depths
+    // below faint_depth, and none for depth where depths are found in double precision.
     static PartDepth depth_of(const TetFragments& fragments, const PartArea& area) {
         if (!is_fixed_point(fragments.blend.target)) return area.depth;
         if (area.careful) return PartDepth::any;

@@ -17,6 +17,7 @@
 #include "gl/api.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
+#include "projection/ray_perturbation.h"
 #include "projection/silhouette_geometry.h"
 #include "projection/tie_shift.h"
 
@@ -171,7 +172,7 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     program.set("image_middle", 0.5f * size);
     program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan_.unit).pixel));
     if (!is_fan(plan_)) {
-        program.set("tie_shift", tie_shift(view));
+        program.set("ray_perturbation", ray_perturbation(view));
         const double near =
             view.projection == Projection::perspective ? -1 / plan_.near_depth : plan_.near_depth;
         program.set("near_depth", static_cast<float>(near));

@@ -25,12 +25,12 @@
 
 namespace lamina {
 
-// Whether programs of that kind are needed beside those of later ones.
+// Whether the plan needs a program of that kind beside those of later kinds.
 bool has_program(const ProjectPlan& plan, FragmentKind kind);
-// What projection/tet.frag and its vertex shader are specialised by, but for the tables.
+// The definitions that specialise projection/tet.frag and its vertex shader, except for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
-// Draws a mesh as the plan says, in the current OpenGL context, which must outlive it.
+// Draws a mesh as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlProjectRenderer : public ProjectRenderer {
   public:
     // Builds tables and programs, and order and stream where those of another renderer do not
@@ -53,10 +53,12 @@ class GlProjectRenderer : public ProjectRenderer {
     std::shared_ptr<GlTetStream> stream() const { return stream_; }
     std::int64_t tets_drawn() const override { return tets_drawn_; }
 
-    // Of the last frame:
+    // Times of the last frame:
     double order_ms() const { return order_ms_; }
     double geometry_ms() const { return stream_ ? stream_->write_ms() : 0; }
-    double draw_ms() const { return draw_ms_; }  // with the geometry, which runs beside it
+    double draw_ms() const {
+        return draw_ms_;
+    }  // includes the geometry, which is written at the same time
     double table_ms() const { return tables_ ? tables_->build_ms() : 0; }
     std::int64_t table_bytes() const { return tables_ ? tables_->table_bytes() : 0; }
 

@@ -15,7 +15,8 @@
 
 namespace lamina {
 
-// The transfer function as the fragments of tets read it (shaders/projection/tet_color.glsl).
+// The transfer function in the form that the fragments of tets read
+// (shaders/projection/tet_color.glsl).
 class GlProjectTables {
   public:
     GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan);
@@ -34,8 +35,9 @@ class GlProjectTables {
     glm::vec3 single_color_{0};
     OpticalProperties constant_;
     std::shared_ptr<const SegmentTable> table_;
-    std::optional<gl::Texture> texture_;         // of table_, or of the weights of parts
-    std::optional<GlTransferTables> intervals_;  // analytic and cut_table
+    // Holds table_, or FrontWeightTable for SegmentSource::parts.
+    std::optional<gl::Texture> texture_;
+    std::optional<GlTransferTables> intervals_;  // for SegmentSource::analytic and ::cut_table
     double build_ms_ = 0;
 };
 

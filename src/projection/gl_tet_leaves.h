@@ -4,17 +4,18 @@
 #include <cstdint>
 #include <span>
 
-#include "gl/program.h"
-#include "projection/gl_tet_stream.h"
-#include "plan/compositing_plan.h"
 #include "executors/tree_leaves.h"
+#include "gl/program.h"
+#include "plan/compositing_plan.h"
+#include "projection/gl_tet_stream.h"
 
 namespace lamina {
 
-// The tets of one frame, or their parts, as leaves of a tree: each is a sample.
+// The tets of one frame, or their cell fragments, as the samples of a compositing tree.
 class GlTetLeaves : public TreeLeaves {
   public:
-    // `parts`: back to front. The programs draw opacity alone (OPACITY_ONLY). All must outlive it.
+    // `parts`: back to front. The programs must draw opacity alone (OPACITY_ONLY). All arguments
+    // must outlive it.
     GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream, const TetGeometry& geometry,
                 std::span<const TetPart> parts, const GlTetStream::Programs& programs);
 

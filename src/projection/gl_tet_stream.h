@@ -16,17 +16,17 @@
 
 namespace lamina {
 
-// Streams tets or parts of them through mapped buffers in batches: while the context draws one, all
-// cores write the next. Takes its memory once.
+// Streams tets or cell fragments through mapped buffers in batches. While the context draws one
+// batch, all cores write the next. It takes its memory once.
 class GlTetStream {
   public:
-    // An attribute of a vertex, from location 0 on.
+    // An attribute of a vertex; attributes have the locations 0, 1, ...
     struct Attribute {
         int components;
         std::size_t byte_offset;
         bool integer;
     };
-    // `parts`: at most so many are drawn at a time.
+    // `parts`: the most that one call of draw() gets.
     GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
                 std::size_t parts);
 
@@ -36,17 +36,18 @@ class GlTetStream {
     // Waits between parts, for programs that read the target as a texture.
     void set_barriers(bool barriers);
 
-    using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; some the same
-    // Draws parts in their order with the state that is bound; Ctrl-C ends it between batches.
-    // `batch_done` is called after each. Returns how many tets were drawn: those that cover
-    // the centre of a pixel.
+    using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
+                                                                // the same program
+    // Draws cell fragments in their order with the state that is bound. Ctrl-C ends it between
+    // batches, and `batch_done` is called after each batch. Returns how many tets were drawn, that
+    // is, cover the centre of a pixel.
     std::int64_t draw(const TetGeometry& geometry, std::span<const TetPart> parts,
                       const Programs& programs, const std::function<void()>& batch_done);
 
     std::size_t batch_count(std::size_t parts) const;
     void start_frame() { write_ms_ = 0; }
     void end_frame() { timeline_.collect(); }
-    double write_ms() const { return write_ms_; }  // of the frame's draws
+    double write_ms() const { return write_ms_; }  // sum over the draws of the frame
 
   private:
     struct Batch {
@@ -55,12 +56,14 @@ class GlTetStream {
         gl::Fence drawn;
     };
     static constexpr std::int32_t none = -1;
-    // Parts that one task writes to a region of the buffers of its own.
+    // Cell fragments that one task writes to its own region of the buffers.
     struct Chunk {
         int indices = 0;
-        std::int64_t tets = 0;  // drawn; parts of one that follow each other are one
-        std::int32_t first_tet = none, last_tet = none;  // of these
-        FragmentKind kind = FragmentKind::thin;          // the last that a part of it needs
+        // Tets that are drawn; consecutive cell fragments of one tet count once.
+        std::int64_t tets = 0;
+        std::int32_t first_tet = none, last_tet = none;  // of the drawn tets
+        // The latest kind that one of its cell fragments needs.
+        FragmentKind kind = FragmentKind::thin;
     };
     void write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch);
     void write_chunk(const TetGeometry& geometry, std::span<const TetPart> parts,
@@ -73,10 +76,12 @@ class GlTetStream {
     bool barriers_ = false;
     std::size_t batch_parts_;
     std::array<Batch, 3> batches_;
-    std::size_t next_batch_ = 0;  // not always the first: a draw of few tets need not wait
+    // Goes on from draw to draw, so that a draw of few tets need not wait.
+    std::size_t next_batch_ = 0;
     std::vector<Chunk> chunks_;
-    std::vector<int> part_indices_;  // of each part of the batch, for barriers
-    std::vector<int> counts_;        // of indices, of the chunks of one draw
+    // Number of indices of each cell fragment of the batch, for barriers.
+    std::vector<int> part_indices_;
+    std::vector<int> counts_;  // number of indices of each chunk of one draw
     std::vector<const void*> offsets_;
     gl::Timeline timeline_;
     double write_ms_ = 0;

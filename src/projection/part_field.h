@@ -11,19 +11,19 @@
 
 namespace lamina {
 
-// The scalar in a tet, linear between its corners, and what of the tet is drawn: all, or the part
-// where the scalar lies in one piece of the transfer function.
+// The scalar in a tet, linear between its corners, and the region of the tet that is drawn: all of
+// it, or the cell fragment where the scalar lies in one piece of the transfer function.
 class PartField {
   public:
     using Corners = std::array<glm::dvec3, 4>;
     using Values = std::array<double, 4>;  // at the corners
 
-    // `piece`: ascending; null: all of the tet. The corners must outlive it.
+    // `piece`: ascending; null for the whole tet. The corners must outlive it.
     PartField(const Corners& corners, const Values& values, const LinearPiece* piece);
 
-    double least() const { return least_; }      // of what is drawn
+    double least() const { return least_; }      // least scalar of the drawn region
     double largest() const { return largest_; }  // >= least
-    bool cut_low() const { return cut_low_; }    // the tet goes on below
+    bool cut_low() const { return cut_low_; }    // the tet also has smaller scalars
     bool cut_high() const { return cut_high_; }
     const glm::dvec3& gradient() const { return gradient_; }
     double at(const glm::dvec3& point) const {
@@ -34,7 +34,7 @@ class PartField {
         std::size_t count = 0;
         std::array<glm::dvec3, 8> corners;
     };
-    Outline outline() const;  // the convex hull of these is what is drawn
+    Outline outline() const;  // the drawn region is the convex hull of these points
 
   private:
     const Corners& corners_;

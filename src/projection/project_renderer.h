@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// Draws frames of a mesh. Both are of the last one.
+// Draws frames of a mesh. The following are about the last frame.
 class ProjectRenderer : public FrameRenderer {
   public:
     virtual const OrderReport& order_report() const = 0;

@@ -18,26 +18,27 @@ struct ScreenPolygon {
     std::array<glm::vec2, most_corners> corners;
 };
 
-// What is seen of something convex: window coordinates of its corners.
+// The points whose convex hull is the image of a convex body, in window coordinates.
 struct ScreenOutline {
     std::size_t count = 0;
     std::array<glm::dvec2, ScreenPolygon::most_corners> corners;
     std::span<const glm::dvec2> points() const { return {corners.data(), count}; }
 };
 
-// The pixels of a picture, columns from the left and rows from the bottom, whose centres may lie
-// nearer to `points` than `margin`; last < first where there are none.
+// A rectangle of pixels, columns from the left and rows from the bottom. pixel_bounds() returns the
+// pixels of a picture whose centres may lie nearer to the convex hull of `points` than `margin`.
+// Where there are none, last < first.
 struct PixelBounds {
     int first_column = 0, last_column = -1, first_row = 0, last_row = -1;
     bool empty() const { return last_column < first_column || last_row < first_row; }
 };
 PixelBounds pixel_bounds(std::span<const glm::dvec2> points, double margin, int width, int height);
 
-// A polygon around `points` (at most 8) that covers every pixel centre nearer to their convex hull
-// than half of `margin`, which is 2 steps of the rasteriser's grid. Its corners lie on that grid:
-// rounded by the rasteriser, needles would fold. Of count 0 where no pixel centre of a picture of
-// width x height pixels can be covered. Each pixel centre lies in one triangle of a fan around a
-// corner.
+// Returns a polygon around `points` (at most 8) that covers every pixel centre nearer to their
+// convex hull than half of `margin`. `margin` is 2 steps of the rasteriser's grid. The polygon's
+// corners lie on that grid, because rounding by the rasteriser could turn very thin polygons over.
+// The count is 0 where no pixel centre of a picture of width x height pixels can be covered. Drawn
+// as a triangle fan around a corner, it covers each pixel centre once.
 ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int width, int height);
 
 }  // namespace lamina

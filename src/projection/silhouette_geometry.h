@@ -12,7 +12,8 @@ struct SilhouetteVertex {
     std::uint32_t record;
 };
 
-// One polygon around each tet, whose fragments find front and back on the planes of the faces.
+// Projects each tet as one polygon around it. The fragments find the front and the back from the
+// planes of the faces.
 class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}

@@ -33,7 +33,8 @@ HWY_INLINE Fragment<hn::Vec<D>> constant_color(D d, const TetFragments& fragment
                       opacity_from_depth(d, hn::Mul(hn::Set(d, optics.a), run.world_length)));
 }
 
-// `colored`: else of fragments.single_color. `most_depth`: of the part.
+// `colored`: otherwise the colour is fragments.single_color. `most_depth`: a bound on the optical
+// depth of the cell fragment.
 template <class D>
 HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, bool colored, PartDepth most_depth,
                                            const TetFragments& fragments, const TetRecord& record,
@@ -61,7 +62,8 @@ HWY_INLINE Fragment<hn::Vec<D>> part_color(D d, bool colored, PartDepth most_dep
                    : front_weight(d, fragments.front_weights, FrontWeightTable::nodes, p, q);
     }
     const V weight = hn::Min(most, opacity);
-    // opacity * back + weight * (front - back), in terms of the part's ends: no term is negative.
+    // This is opacity * back + weight * (front - back), written with the colours at the cell
+    // fragment's ends so that no term is negative.
     const V of_high =
         hn::Add(hn::Mul(hn::Sub(opacity, weight), run.back), hn::Mul(weight, run.front));
     const V of_low = hn::Sub(opacity, of_high);

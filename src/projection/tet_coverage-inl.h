@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels of a tile have rays that meet a part, and where.
+// Which pixels of a tile have rays that meet a cell fragment, and where the rays meet it.
 #if defined(LAMINA_PROJECTION_TET_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_COVERAGE_INL_H_
 #undef LAMINA_PROJECTION_TET_COVERAGE_INL_H_
@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The blocks of a tile that an area of the picture touches, a bit each, row by row.
+// The blocks of a tile that an area of the picture touches: one bit a block, row by row.
 inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile) {
     constexpr int a_row = TileGrid::edge / TileGrid::block;
     const auto in_tile = [](int pixel, int first) {
@@ -38,7 +38,7 @@ inline std::uint64_t blocks_of(const PartArea& area, const TileGrid::Tile& tile)
     return rows & (columns * 0x0101010101010101ull);
 }
 
-// Calls visit(column, row) for the first pixels of blocks, in the tile.
+// Calls visit(column, row) with the first pixel of each block in the set.
 template <class Visit>
 HWY_INLINE void for_each_block(std::uint64_t blocks, const Visit& visit) {
     constexpr int a_row = TileGrid::edge / TileGrid::block;
@@ -53,12 +53,12 @@ class TetCoverage {
     TetCoverage(const TetFragments& fragments, const TetTile& tile)
         : fragments_(fragments), tile_(tile), area_(tile.area) {}
 
-    // The blocks of the tile that a part may cover, a bit each, row by row.
+    // The blocks of the tile that a cell fragment may cover: one bit a block, row by row.
     HWY_INLINE std::uint64_t blocks(const PartArea& area) const {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // `cut`: between the part's planes of constant scalar.
+    // `cut`: the cell fragment ends at planes of constant scalar.
     HWY_INLINE void find(bool cut, const TetRecord& record, const PartArea& area,
                          std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
         // Blocks at the picture's right and lower edge may stick out of it.
@@ -85,13 +85,13 @@ class TetCoverage {
         return static_cast<float>(fragments_.image_rows - area_.row) - 0.5f - record.center[1];
     }
 
-    // The tile's blocks within a part's outline, a bit each.
+    // The tile's blocks within the outline of a cell fragment, one bit a block.
     HWY_INLINE std::uint64_t blocks_within(const PartArea& area) const {
         const hn::FixedTag<float, 4> d4;
         const auto a_block = hn::Set(d4, 1.0f / block);
         const auto pixels = [&](std::int32_t from, std::int32_t to)
                                 HWY_ATTR { return hn::Set(d4, static_cast<float>(to - from)); };
-        // In blocks from the tile's first one, and half of one more: what is rounded to the next
+        // Bounds in blocks from the tile's first block, plus one half: rounding then gives the next
         // whole number after the bound.
         const auto per_row = hn::LoadU(d4, area.outline.per_row.data());
         const auto bound =
@@ -110,7 +110,7 @@ class TetCoverage {
         const hn::CappedTag<float, blocks_a_row> d;
         const hn::RebindToUnsigned<decltype(d)> du;
         const hn::Rebind<std::uint8_t, decltype(d)> d8;
-        // Bits of floats from 2^23 on are whole numbers.
+        // The bits of a float of at least 2^23 count whole numbers.
         const auto whole = [&](auto v) HWY_ATTR {
             return hn::BitCast(du, hn::Add(v, hn::Set(d, 0x1p23f)));
         };
@@ -136,7 +136,7 @@ class TetCoverage {
         return within;
     }
 
-    // Of a block. Until its fragments are put there it comes from a cache farther away.
+    // Prefetches the pixels of a block into the cache before its fragments are put there.
     HWY_INLINE void prefetch_pixels(std::size_t first) const {
         if (tile_.pixels == nullptr) return;
         hwy::Prefetch(tile_.pixels->red.data() + first);
@@ -196,7 +196,8 @@ class TetCoverage {
         }
     }
 
-    // Of the pixels of the blocks of a row, and of a column, from the tile's first pixel.
+    // One number for each pixel of the blocks in a row or a column of blocks, counted from the
+    // tile's first pixel.
     struct alignas(64) Pixels : std::array<float, TileGrid::edge * TileGrid::block> {};
     static constexpr Pixels block_columns = [] {
         Pixels columns{};

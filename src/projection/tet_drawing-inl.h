@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of tets over the pixels of a tile. A `Shader` says how fragments are drawn: `cut`,
-// `scalars`, `perspective`, `opacity_only` (constants, or members), color() and put().
+// Draws cell fragments over the pixels of a tile. A `Shader` says how fragments are drawn. It has
+// `cut`, `scalars`, `perspective` and `opacity_only` (constants or members), and the functions
+// color() and put().
 #if defined(LAMINA_PROJECTION_TET_DRAWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #undef LAMINA_PROJECTION_TET_DRAWING_INL_H_

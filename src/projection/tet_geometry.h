@@ -10,13 +10,13 @@
 
 namespace lamina {
 
-// Turns the tets of one view, or parts of them, into triangles for a rasteriser. Safe from many
+// Turns the tets or cell fragments of one view into triangles for a rasteriser. Safe from many
 // threads.
 class TetGeometry {
   public:
     virtual ~TetGeometry() = default;
 
-    // What one part takes at most.
+    // The most memory that one cell fragment needs.
     struct Size {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
@@ -25,7 +25,7 @@ class TetGeometry {
         friend bool operator==(const Size&, const Size&) = default;
     };
 
-    // Where it goes.
+    // Where a cell fragment is written.
     struct Place {
         std::byte* vertices;
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
@@ -33,8 +33,8 @@ class TetGeometry {
         TetRecord* record;           // null without records
         std::uint32_t record_number;
     };
-    // Vertices and indices written; none where no pixel centre is covered. Triangles of one
-    // part do not overlap.
+    // The numbers of vertices and indices that were written; 0 where no pixel centre is covered.
+    // Triangles of one cell fragment do not overlap.
     struct Written {
         std::size_t vertices = 0, indices = 0;
         FragmentKind kind = FragmentKind::thin;

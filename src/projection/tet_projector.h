@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "visibility/face_signs.h"
+#include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
 #include "projection/fragment_kind.h"
 #include "projection/part_field.h"
@@ -18,32 +18,34 @@
 #include "projection/tet_record.h"
 #include "projection/window_view.h"
 #include "scene/camera.h"
-#include "facts/tet_pieces.h"
+#include "visibility/face_signs.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// Projects tets, or parts of them, in one view. Safe from many threads.
+// Projects tets or cell fragments in one view. Safe from many threads.
 class TetProjector {
   public:
-    // `scalar`: one value a point; `range`: of scalars that becomes [0, 1] in whole tets; `pieces`:
-    // that parts are of. `margin`: see pixel_bounds(). All must outlive it.
+    // `scalar`: one value a point. `range`: the scalars that become [0, 1] in whole tets. `pieces`:
+    // the pieces that cell fragments refer to. `margin`: see pixel_bounds(). All arguments must
+    // outlive it.
     TetProjector(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
                  const TetPieces& pieces, const View& view, double near_depth, double margin);
 
-    // What its fragments need; none where it covers the centre of no pixel: the outputs are
-    // undefined. The outline covers the part and may cover more of its tet.
+    // Fills the record and the outline, and returns the kind of its fragments. The outline covers
+    // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
+    // undefined, where the centre of no pixel is covered.
     std::optional<FragmentKind> project(const TetPart& part, TetRecord& record,
                                         ScreenOutline& outline) const;
     double margin() const { return margin_; }
     const View& view() const { return window_.view(); }
 
   private:
-    // A point relative to the eye: along right, up and forward.
+    // A point relative to the eye, along right, up and forward.
     using Seen = glm::dvec3;
 
-    // `depth` (TetRecord) on a plane, as a function of window coordinates from the middle of the
-    // picture.
+    // The `Depth` (tet_record.h) on a plane, as a linear function of window coordinates relative to
+    // the middle of the picture.
     struct DepthPlane {
         double at_middle, per_column, per_row;
         bool front;
@@ -51,22 +53,23 @@ class TetProjector {
     DepthPlane depth_plane(const Tet& tet, std::size_t face, FaceSigns signs,
                            const std::array<Seen, 4>& corners) const;
     DepthPlane level_plane(const PartField& field, double level) const;
-    // The part of a tet in front of the near plane has at most 6 corners.
+    // The corners of the region of a tet beyond the near plane (z >= near_depth), which is what can
+    // be seen of it; at most 6.
     struct VisibleCorners {
         std::size_t count = 0;
         std::array<Seen, 6> seen;
     };
     VisibleCorners clip_near(const std::array<Seen, 4>& corners) const;
-    // Of what is visible of a tet.
+    // The size of that region.
     struct Extent {
         double columns, rows;  // pixels
-        double depth_range;    // at its far end
-        bool cut;              // by the near plane
+        double depth_range;    // thickness of the tet in `Depth` at its far end
+        bool cut;              // whether the near plane cuts the tet
     };
     Extent place_center(const VisibleCorners& visible, TetRecord& record) const;
     ScreenOutline outline_of(const VisibleCorners& visible, const PartField& field,
                              bool cut_by_near) const;
-    // True where float32 is good enough.
+    // Returns whether float32 is good enough for the depths.
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
                     const Extent& extent, TetRecord& record) const;
     double inverted(double value) const;

@@ -6,35 +6,38 @@
 
 namespace lamina {
 
-// One tet of one view, or a part of it, as shaders/projection/silhouette.vert reads it, 12 uvec4.
+// One tet or cell fragment of one view, as shaders/projection/silhouette.vert reads it: 12 uvec4.
 //
-// `Depth` is z in orthographic views and -1/z in perspective ones: it grows with eye-space depth z
+// `Depth` is z in orthographic views and -1/z in perspective ones. It grows with eye-space depth z
 // and is linear in window coordinates on every plane (Kraus 2004, section 2.1). A ray is inside the
-// tet from the largest depth on faces that the eye is in front of to the least on all others.
+// tet from the largest depth on front faces, which the eye is in front of, to the least depth on
+// the other faces.
 struct alignas(16) TetRecord {
-    // A double as the sum of two floats, for the four faces.
+    // For each of the four faces a double as the sum of two floats.
     struct Pairs {
         std::array<float, 4> high, low;
     };
-    // On the plane of each face, the front faces first: depth at `center` less `center_depth`, and
-    // its change per pixel to the right and upwards.
+    // The plane of each face, front faces first: its depth at `center` minus `center_depth`, and
+    // the change of depth per pixel to the right and upwards.
     Pairs depth, depth_per_column, depth_per_row;
-    std::array<float, 2> center;  // a pixel centre near the tet, window coordinates
-    float center_depth;           // somewhere in the tet
-    float center_z;               // the same as z
-    // The scalar at that point, of a range that becomes [0, 1]: the projector's, or the part's. Its
-    // change along the ray there per unit of z, and per pixel at z = 1 (perspective), or per pixel.
+    std::array<float, 2> center;  // a pixel centre near the tet, in window coordinates
+    float center_depth;           // depth of a point in the tet
+    float center_z;               // z of that point
+    // The scalar at that point, normalised so that a range becomes [0, 1]: the projector's range,
+    // or that of the cell fragment. Then its change along the ray per unit of z, and its change per
+    // pixel (in perspective views, per pixel at z = 1).
     float scalar, scalar_per_z, scalar_per_column, scalar_per_row;
-    // Of a whole tet the least and the largest scalar of its corners; of a part `upper_cut` per
-    // column and per row.
+    // Whole tet: the least and the largest scalar of its corners. Cell fragment: the change of
+    // `upper_cut` per column and per row.
     std::array<float, 2> limits;
-    // Front faces, 0 (the eye is inside) to 3; of a part also whether its lower cut (bit 3)
-    // and its upper one (bit 4) are fronts.
+    // The number of front faces, 0 (the eye is inside) to 3. For a cell fragment bit 3 says that
+    // its lower cut is a front, and bit 4 that its upper cut is one.
     std::uint32_t fronts;
-    std::uint32_t number;  // of the tet or part, for dithering
+    std::uint32_t number;  // of the tet or cell fragment, for dithering
 
-    // Of a part: on the planes on which the scalar is its least and its largest what `depth` has on
-    // faces. Where the tet itself goes no farther, a front in front of everything.
+    // For a cell fragment: the planes on which the scalar is its least and its largest, in the form
+    // that `depth` has for faces. Where the tet itself has no smaller (larger) scalars, the plane
+    // is a front in front of everything.
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
     std::array<float, 4> low, high;  // colour and extinction at these scalars
@@ -44,7 +47,8 @@ struct alignas(16) TetRecord {
         return cuts(upper_cut_is_front, {upper_cut, limits[0], limits[1]});
     }
 
-    static constexpr std::uint32_t lower_cut_is_front = 8, upper_cut_is_front = 16;  // of `fronts`
+    // Bits of `fronts`.
+    static constexpr std::uint32_t lower_cut_is_front = 8, upper_cut_is_front = 16;
     static constexpr float in_front_of_all = -1e30f;
 
   private:
@@ -54,12 +58,12 @@ struct alignas(16) TetRecord {
 };
 static_assert(sizeof(TetRecord) == 192);
 
-// Depths on faces in float32 are good enough where their rounding is at most this share of the
-// tet's depth: a face that is seen so nearly edge-on that it exceeds this is met by the rays of
-// hardly a pixel, unless whole walls of a mesh are.
+// Depths on faces in float32 are good enough where their rounding error is at most this share of
+// the tet's thickness in depth. A face exceeds this where it is seen nearly edge-on. Few pixels
+// have rays that meet such a face, unless a mesh has whole walls of them.
 inline constexpr double float_tolerance = 2e-3;
 
-// Deeper than everything, and finite also after a product with any window coordinate.
+// Deeper than everything. The product with any window coordinate is still finite.
 inline constexpr double beyond_all = -double{TetRecord::in_front_of_all};
 
 }  // namespace lamina

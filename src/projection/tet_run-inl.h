@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rays of some pixels are inside a part of a tet: the vector form of
-// shaders/projection/silhouette.glsl, where the reasons are.
+// Where the rays of some pixels are inside a cell fragment. This is the vector form of
+// shaders/projection/silhouette.glsl, which gives the reasons.
 #if defined(LAMINA_PROJECTION_TET_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_RUN_INL_H_
 #undef LAMINA_PROJECTION_TET_RUN_INL_H_
@@ -23,14 +23,15 @@ struct InsideSpan {
     V enter, leave;
 };
 
-// Scalars normalised as the record says; of rays that miss the part, 0, with length 0.
+// The run of a ray through a cell fragment. Scalars are normalised as the record says. A ray that
+// misses the cell fragment has scalars 0 and length 0.
 template <class V>
 struct TetRun {
     V front, back, world_length;
 };
 
-// A linear function of the pixel: its value at a column from the record's center, then its change
-// from row to row. The same roundings as the shader's.
+// A linear function of the pixel: its value at a column, counted from the record's center, and its
+// change from row to row. It is rounded as in the shader.
 template <class D>
 HWY_INLINE hn::Vec<D> at_column(D d, float at_center, float per_column, hn::Vec<D> column) {
     return hn::Add(hn::Set(d, at_center), hn::Mul(hn::Set(d, per_column), column));
@@ -40,8 +41,8 @@ HWY_INLINE hn::Vec<D> at_row(D d, hn::Vec<D> value, float per_row, hn::Vec<D> ro
     return hn::Add(value, hn::Mul(hn::Set(d, per_row), row));
 }
 
-// The entry is the largest of the depths on front faces, which come first, the exit the least of
-// the others.
+// The entry is the largest depth on front faces, which come first; the exit is the least depth on
+// the other faces.
 template <class V>
 HWY_INLINE InsideSpan<V> order_depths(std::uint32_t fronts, V d0, V d1, V d2, V d3) {
     switch (fronts) {
@@ -62,7 +63,7 @@ HWY_INLINE InsideSpan<V> order_depths_from(std::uint32_t fronts, V nearest, V d0
     return {hn::Max(nearest, span.enter), span.leave};
 }
 
-// Faces in float32.
+// Depths on faces in float32.
 template <class D>
 class PlainDepths {
   public:
@@ -92,7 +93,8 @@ class PlainDepths {
     std::uint32_t fronts_;
 };
 
-// The same in double, for faces that are nearly edge-on, the near plane, and the eye inside.
+// The same in double precision, for faces that are seen nearly edge-on, for the near plane, and
+// where the eye is inside.
 template <class D>
 class CarefulDepths {
   public:
@@ -104,9 +106,10 @@ class CarefulDepths {
     HWY_INLINE AtColumns at_columns(D d, V column) const {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
-            // The ray is moved in space; what that moves along the ray itself does not count.
+            // The ray perturbation moves the ray in space. Its component along the ray does not
+            // count.
             return move(dd, place, record_.center[0], fragments_.image_middle.x,
-                        fragments_.tie_shift.x);
+                        fragments_.ray_perturbation.x);
         };
         return each_half(moved, to_doubles(d, column));
     }
@@ -114,7 +117,7 @@ class CarefulDepths {
         const typename Doubles<D>::Tag dd;
         const auto moved = [&](auto place) HWY_ATTR {
             return move(dd, place, record_.center[1], fragments_.image_middle.y,
-                        fragments_.tie_shift.y);
+                        fragments_.ray_perturbation.y);
         };
         const Doubles<D> rows = each_half(moved, to_doubles(d, row));
         const auto depth = [&](std::size_t face) HWY_ATTR {
@@ -141,7 +144,7 @@ class CarefulDepths {
         const auto from_middle =
             hn::Add(place, hn::Set(dd, static_cast<double>(center) - static_cast<double>(middle)));
         const double per_pixel =
-            fragments_.tie_shift.z * static_cast<double>(fragments_.pixel_size);
+            fragments_.ray_perturbation.z * static_cast<double>(fragments_.pixel_size);
         return hn::Sub(hn::Add(place, hn::Set(dd, shift)),
                        hn::Mul(from_middle, hn::Set(dd, per_pixel)));
     }
@@ -150,18 +153,18 @@ class CarefulDepths {
     const TetRecord& record_;
 };
 
-// Which of a part's planes, on which the scalar is its least or its largest, rays may meet within
-// the tet.
+// Which of the two planes of a cell fragment, on which the scalar is its least or its largest, rays
+// may meet within the tet.
 class PartCuts {
   public:
-    // None where not `cut`.
+    // Neither where `cut` is false.
     PartCuts(bool cut, const TetRecord& record)
         : lower_(cut && record.has_lower_cut()),
           upper_(cut && record.has_upper_cut()),
           lower_is_front_((record.fronts & TetRecord::lower_cut_is_front) != 0),
           upper_is_front_((record.fronts & TetRecord::upper_cut_is_front) != 0) {}
 
-    // To the part of a ray's run between them.
+    // Shortens a ray's run to the stretch between the two planes.
     template <class D>
     HWY_INLINE void shorten(D d, const TetRecord& record, hn::Vec<D> column, hn::Vec<D> row,
                             InsideSpan<hn::Vec<D>>& span) const {
@@ -184,7 +187,8 @@ class PartCuts {
 };
 
 // `aside`: the scalar's change from the record's center, at z = 1. `slant`: world length per unit
-// of z. Rays that miss the part have the span 0. `Shader`: see projection/tet_drawing-inl.h.
+// of z. Rays that miss the cell fragment get a span of 0. `Shader`: see
+// projection/tet_drawing-inl.h.
 template <class D, class Shader>
 HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragments& fragments,
                                        const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
@@ -193,11 +197,12 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
     TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
     if (shader.perspective) {
-        // Differences of z from differences of depth, so that far eyes cost no digits.
+        // Differences of z are computed from differences of depth, so that a distant eye costs no
+        // digits.
         const V center = hn::Set(d, record.center_depth);
         const V depth_front = hn::Add(center, span.enter), depth_back = hn::Add(center, span.leave);
         if (fragments.one_division) {
-            // All depths that are seen are less; at the horizon roundings may reach 0.
+            // All depths in front of the eye are negative; near the horizon rounding may give 0.
             const V most = hn::Set(d, -1e-18f);
             const V near = hn::Min(depth_front, most), far = hn::Min(depth_back, most);
             const V product = hn::Div(hn::Set(d, -1.0f), hn::Mul(near, far));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TetProjector's computations on vectors of tets; the reasons are there. Points are seen from the
-// eye: along right, up and forward.
+// TetProjector's computations on vectors of tets; the projector's comments give the reasons. Points
+// are relative to the eye, along right, up and forward.
 #if defined(LAMINA_PROJECTION_TET_SETUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_SETUP_INL_H_
 #undef LAMINA_PROJECTION_TET_SETUP_INL_H_
@@ -132,7 +132,7 @@ class TetVectors {
         store(lanes_.center_z, center_z_);
     }
 
-    // Of the pixel centres that may be covered (pixel_bounds()).
+    // Sets the bounds of the pixel centres that may be covered (pixel_bounds()).
     void set_bounds(VD lo_x, VD hi_x, VD lo_y, VD hi_y) {
         const VD least = set(0.5 + view_.margin), most = set(view_.margin - 0.5),
                  zero = hn::Zero(d_);
@@ -147,14 +147,14 @@ class TetVectors {
         store(lanes_.last_row, last_row);
     }
 
-    // The plane's depth at the center, of its change per pixel.
+    // The plane's depth at the center, from its change per pixel.
     VD at_center(VD at_middle, VD per_column, VD per_row) const {
         return hn::Sub(
             hn::Add(hn::Add(at_middle, hn::Mul(column_, per_column)), hn::Mul(row_, per_row)),
             center_depth_);
     }
 
-    // True where the signs are certain and float32 is good enough.
+    // Returns true where the signs are certain and float32 is good enough.
     MD find_faces() {
         VD reach = hn::Zero(d_), rounding = hn::Zero(d_), fronts = hn::Zero(d_);
         VD size = hn::Zero(d_), steepest = size;
@@ -165,8 +165,8 @@ class TetVectors {
         const VD doubt = set(doubtful_sign);
         const VD least_divisor =
             hn::Mul(doubt, hn::Mul(hn::Mul(reach, reach), view_.perspective ? reach : one()));
-        // The rounding of points at `reach` is that of edges, of which slivers' normals are small
-        // differences of products.
+        // Points at distance `reach` are rounded, and so are their edges. The normals of slivers
+        // are small differences of products of edges.
         const VD least_across = hn::Mul(doubt, hn::Mul(reach, hn::Mul(size, size)));
         MD good = hn::Gt(nearest_, set(view_.near_depth));
         for (std::size_t face = 0; face < 4; ++face) {
@@ -203,7 +203,8 @@ class TetVectors {
         const VD float_rounding = hn::Mul(rounding, set(float_epsilon)),
                  tolerance = hn::Mul(set(float_tolerance), range);
         good = hn::And(good, hn::Le(float_rounding, tolerance));
-        // Runs by rounding alone: where it is not small in depth, or the horizon (depth 0) is near.
+        // Whether rounding alone may make runs: where its error in depth is not small, or where the
+        // horizon (depth 0) is near.
         MD bounded = hn::Gt(hn::Mul(set(100), float_rounding), tolerance);
         if (view_.perspective)
             bounded = hn::Or(bounded, hn::Gt(hn::Mul(set(16), steepest), hn::Abs(center_depth_)));
@@ -211,7 +212,7 @@ class TetVectors {
         return hn::And(good, hn::And(hn::Gt(fronts, hn::Zero(d_)), hn::Lt(fronts, set(4))));
     }
 
-    // Of the scalar; true where it is a number.
+    // Finds the scalar's gradient; returns true where it is a number.
     MD find_gradient() {
         const Point e1 = seen_[1] - seen_[0], e2 = seen_[2] - seen_[0], e3 = seen_[3] - seen_[0];
         const Point n1 = cross(e2, e3), n2 = cross(e3, e1), n3 = cross(e1, e2);
@@ -232,7 +233,7 @@ class TetVectors {
     }
     VD finite(VD v) const { return hn::Min(hn::Max(v, set(-beyond_all)), set(beyond_all)); }
 
-    // The scalar less `origin`, over `width`.
+    // Sets the scalar as (scalar - origin) / width.
     void set_scalars(VD origin, VD width) {
         const VD scale = hn::IfThenElseZero(hn::Gt(width, hn::Zero(d_)), hn::Div(one(), width));
         const VD pixel = set(view_.view.pixel), x = hn::Mul(column_, pixel),

@@ -8,29 +8,29 @@
 #include <cstdint>
 #include <span>
 
+#include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_part.h"
 #include "projection/tet_record.h"
 #include "projection/tile_chunk.h"
 #include "projection/window_view.h"
-#include "facts/tet_pieces.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 
-// What TetProjector computes, for several parts at a time in vectors, where nothing is doubtful:
-// the eye well outside all faces, and the tet behind the near plane. What it leaves goes to the
-// projector.
+// Computes what TetProjector computes, on vectors of several cell fragments. It does so only where
+// nothing is doubtful: where the eye is well outside all faces and the tet lies beyond the near
+// plane. All others are left to the projector.
 class TetSetup {
   public:
-    static constexpr std::size_t most_parts = 8;  // at a time
+    static constexpr std::size_t most_parts = 8;  // in one call
     enum class Outcome : std::uint8_t { invisible, done, doubtful };
     struct Parts {
-        std::array<PartArea, most_parts> areas;  // whole tets', rows from the top
+        std::array<PartArea, most_parts> areas;  // areas of the whole tets, rows from the top
         std::array<Outcome, most_parts> outcomes;
     };
 
-    // As TetProjector's.
+    // The arguments of TetProjector's constructor.
     TetSetup(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
              const TetPieces& pieces, const View& view, double near_depth, double margin)
         : points_(mesh.points()),
@@ -42,12 +42,13 @@ class TetSetup {
           near_depth_(near_depth),
           margin_(margin) {}
 
-    // At most `most_parts`, all cut into pieces or all whole. Records and areas are defined where
-    // the outcome is `done`. `next`: parts that will follow. `records`: as many as parts.
+    // Takes at most `most_parts` cell fragments: either all are whole tets or none is. Records and
+    // areas are defined where the outcome is `done`. `records`: one for each cell fragment. `next`:
+    // cell fragments that will follow, which are prefetched.
     void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, TetRecord* records,
                 Parts& result) const;
 
-    struct Lanes;  // of the vectors; in the implementation
+    struct Lanes;  // memory of the vectors (projection/tet_setup_lanes.h)
 
   private:
     HWY_INLINE void prefetch(std::span<const TetPart> next) const;

@@ -8,8 +8,9 @@
 
 namespace lamina {
 
-// What the vectors of TetSetup read and write, one number a part in each row. Corners are in the
-// order of their numbers, so that the two tets of a face compute the same numbers.
+// Input and output of the vectors of TetSetup; each row has one number a cell fragment. Corners are
+// in ascending order of their point numbers, so that the two tets of a face compute the same
+// numbers.
 struct TetSetup::Lanes {
     struct alignas(64) Row : std::array<double, most_parts> {};
     struct Cut {
@@ -17,7 +18,7 @@ struct TetSetup::Lanes {
     };
 
     std::array<Row, 4> x, y, z, value;                   // in
-    Row piece_from, piece_to;                            // scalars at the ends of the part's piece
+    Row piece_from, piece_to;                            // scalars at the ends of its piece
     std::array<Row, 4> at_from, at_to;                   // colour and extinction there
     Row good, visible, bounded;                          // out: 1 or 0
     Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
@@ -38,8 +39,8 @@ struct SetupView {
     ValueRange range;
 };
 
-// The sign of a determinant is doubtful where it is at most this share of the product of its
-// vectors' largest numbers: 450 half ulps, for some 20 roundings.
+// The sign of a determinant is doubtful where its value is at most this share of the product of its
+// vectors' largest components: 450 half ulps, for some 20 roundings.
 inline constexpr double doubtful_sign = 1e-13;
 
 inline constexpr double float_epsilon = std::numeric_limits<float>::epsilon();

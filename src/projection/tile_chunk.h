@@ -15,43 +15,45 @@
 
 namespace lamina {
 
-// How much optical depth a run through a part has at most: what the closed forms of its colour
-// cost.
-enum class PartDepth : std::uint8_t { any, thin, faint };  // optics/front_weights.h
+// A bound on the optical depth of any run through a cell fragment, on which the cost of its colour
+// depends. thin: at most thin_depth; faint: at most faint_depth (optics/front_weights.h).
+enum class PartDepth : std::uint8_t { any, thin, faint };
 
-// Where a part may cover pixels: columns from the left, rows from the top of the picture.
+// The pixels that a cell fragment may cover: columns from the left, rows from the top of the
+// picture.
 struct alignas(64) PartArea : PixelArea {
-    bool careful;     // its depths are found in double (FragmentKind::careful)
-    PartDepth depth;  // of any run through it
-    // Outside a tet its planes meet at any depth, and rounding alone may make runs there that are
-    // seen: then no pixel outside these columns and rows counts, and no run ends beyond `farthest`,
-    // a depth less the record's center.
+    bool careful;     // depths on its faces are found in double precision (FragmentKind::careful)
+    PartDepth depth;  // bound for any run through it
+    // Outside a tet the planes of its faces meet at any depth, and there rounding alone may make
+    // runs that can be seen. Where this is true, pixels outside these columns and rows do not
+    // count, and no run ends beyond `farthest`, a depth relative to the record's center.
     bool bounded = true;
     float farthest = std::numeric_limits<float>::infinity();
     PartOutline outline = {};
 };
 
-// Some parts that follow each other in visibility order, projected, and which of them each tile of
-// the picture is to draw. Of a size that does not depend on the view.
+// Some projected cell fragments that follow each other in visibility order, and the set of them
+// that each tile of the picture draws. Its size does not depend on the view.
 class TileChunk {
   public:
     static constexpr std::size_t most_parts = 512;
-    using Parts = std::array<std::uint64_t, most_parts / 64>;  // a set of parts, by their bits
+    // A set of cell fragments, one bit each.
+    using Parts = std::array<std::uint64_t, most_parts / 64>;
 
-    // `triangles`: of these, each a part, instead of tets.
+    // `triangles`: the chunk holds triangles instead of cell fragments.
     TileChunk(int tiles, bool triangles)
         : records_(triangles ? 0 : most_parts),
           triangles_(triangles ? most_parts : 0),
           parts_of_tile_(static_cast<std::size_t>(tiles)) {}
 
     void clear() {
-        if (count_ == 0) return;  // no tile has parts of it
+        if (count_ == 0) return;  // no tile has any of it
         count_ = 0;
         tets_ = 0;
         first_tet_ = last_tet_ = -1;
         std::fill(parts_of_tile_.begin(), parts_of_tile_.end(), Parts{});
     }
-    // Where the next part goes; it stays there once add() is called.
+    // The record that the next cell fragment is written to. It is kept once add() is called.
     TetRecord& next() { return records_[count_]; }
     TriangleRecord& next_triangle() { return triangles_[count_]; }
     void add(const PartArea& area, std::int32_t tet) {
@@ -65,7 +67,7 @@ class TileChunk {
     }
 
     std::size_t count() const { return count_; }
-    std::int64_t tets() const { return tets_; }  // that these are parts of
+    std::int64_t tets() const { return tets_; }  // number of tets that these belong to
     std::int32_t first_tet() const { return first_tet_; }
     std::int32_t last_tet() const { return last_tet_; }
     bool has_triangles() const { return !triangles_.empty(); }

@@ -7,65 +7,67 @@
 
 #include <cstdint>
 
-#include "optics/segment_table.h"
-#include "projection/tile_chunk.h"
-#include "plan/project_plan.h"
 #include "executors/tile_transfer.h"
+#include "optics/segment_table.h"
+#include "plan/project_plan.h"
+#include "projection/tile_chunk.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_image.h"
 
 namespace lamina {
 
-// How a fragment reaches the target (shaders/projection/output.glsl).
+// How a fragment is written to the target (shaders/projection/output.glsl).
 enum class FragmentOutput {
     native,      // as a blending unit does it
-    dithered,    // rounded to codes by chance first: ProjectDither::alpha
-    stochastic,  // the result rounded by chance: ProjectDither::after_blend
+    dithered,    // rounded to codes at random first: ProjectDither::alpha
+    stochastic,  // the result is rounded at random: ProjectDither::after_blend
     emulated     // as render.emulate says
 };
 
-// What the fragments of a frame know beside their records: shaders/projection/*.glsl's uniforms.
+// What all fragments of a frame read beside their records: the uniforms of
+// shaders/projection/*.glsl.
 struct TetFragments {
     SegmentSource source;
     bool perspective, colored;
-    bool divided;  // of triangles: what they interpolate is over z
+    bool divided;  // for triangles: interpolated values are divided by z
     FragmentOutput output;
     std::uint32_t seed;
     TargetBlend blend;
     bool opacity_only = false;  // for a node of a tree (shaders/projection/tet.frag)
-    float depth_scale = 1;      // of it: all parts over those of the leaf
+    float depth_scale = 1;      // for that node: number of all cell fragments over that of the leaf
     glm::vec2 image_middle;     // window coordinates
     int image_rows;
     float pixel_size;
     float near_depth;
-    // For both ends of a run: squares of all depths are floats. Not for codes, which are those of
-    // OpenGL's programs.
+    // Whether one division serves both ends of a run. That needs depths whose squares are finite
+    // floats. It is not used for codes, because these must equal those of OpenGL's programs.
     bool one_division;
-    glm::dvec3 tie_shift;
+    glm::dvec3 ray_perturbation;
     glm::vec4 constant_optics;               // SegmentSource::constant
-    glm::vec3 single_color;                  // where not colored
+    glm::vec3 single_color;                  // where colored is false
     const float* front_weights = nullptr;    // SegmentSource::parts, where colored
     const SegmentTable* table = nullptr;     // SegmentSource::table
-    float inverse_first_length = 0;          // of it
+    float inverse_first_length = 0;          // of `table`
     const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
 };
 
-// One tile of a frame. `slants`: of its pixels, at TileGrid::place(), world length per unit of z;
-// null: 1.
+// One tile of a frame. `slants`: world length per unit of z for each pixel, at TileGrid::place();
+// null where it is 1 for all.
 struct TetTile {
     TileGrid::Tile area;
     const float* slants;
     TilePixels* pixels;
-    TilePlane* opacity;  // where opacity_only: instead of the pixels
+    TilePlane* opacity;  // used instead of `pixels` where opacity_only
 };
 
-// Puts the parts of one chunk that the tile is to draw over its pixels; returns the number of
+// Puts those cell fragments of a chunk that the tile draws over its pixels. Returns the number of
 // fragments.
 std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile);
 
-// The same for everything that a plan may ask for; draw_tets() knows what is asked for most.
+// The same for everything that a plan may ask for. draw_tets() is specialised for the most frequent
+// plans and calls this for others.
 std::int64_t draw_general_tets(const TetFragments& fragments, const TileChunk& chunk,
                                const TileChunk::Parts& parts, const TetTile& tile);
 

@@ -175,7 +175,7 @@ void TileProjectRenderer::set_view(const View& view) {
     fragments_.pixel_size = static_cast<float>(seeing_in_units(view, plan_.unit).pixel);
     fragments_.near_depth =
         static_cast<float>(fragments_.perspective ? -1 / plan_.near_depth : plan_.near_depth);
-    fragments_.tie_shift = tie_shift(view);
+    fragments_.ray_perturbation = ray_perturbation(view);
     fragments_.one_division = !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 &&
                               plan_.unit * farthest_corner(mesh_.mesh, view.eye) < 1e18;
     if (!fragments_.perspective || plan_.thickness == Thickness::dz || slant_pixel_ == view.pixel)

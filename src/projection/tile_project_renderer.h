@@ -25,7 +25,7 @@
 
 namespace lamina {
 
-// Draws a mesh as the plan says with the native engine: parts are projected in batches, in
+// Draws a mesh as the plan says with the native engine. Cell fragments are projected in batches, in
 // visibility order, while the tiles of the picture draw the batch before. The picture does not
 // depend on the number of threads.
 class TileProjectRenderer : public ProjectRenderer {
@@ -50,16 +50,16 @@ class TileProjectRenderer : public ProjectRenderer {
     std::shared_ptr<VisibilityOrder> order() const override { return order_; }
     std::int64_t tets_drawn() const override {
         return tets_drawn_;
-    }  // of the last frame, like these:
+    }  // of the last frame, like the following
     std::int64_t fragments() const override;
     double order_ms() const { return order_ms_; }
     double draw_ms() const { return draw_ms_; }
     double table_ms() const { return tables_ ? tables_->build_ms() : 0; }
-    // Of host memory that it took, but for order and tables.
+    // Host memory that the renderer takes, without order and tables.
     std::int64_t byte_count() const override;
 
   private:
-    // Of one view.
+    // What projects cell fragments in one view.
     struct Projectors {
         TetSetup setup;
         TetProjector careful;
@@ -99,10 +99,10 @@ class TileProjectRenderer : public ProjectRenderer {
     std::optional<TileTetTree> tree_;  // where the plan has one
     TetFragments fragments_{};
     TileImage image_;
-    std::vector<TilePixels::Plane> slants_;      // of tiles; empty where all are 1
-    double slant_pixel_ = 0;                     // View::pixel that they are of
+    std::vector<TilePixels::Plane> slants_;      // for each tile; empty where all are 1
+    double slant_pixel_ = 0;                     // View::pixel that the slants were computed for
     std::array<Chunks, 2> batches_;              // one is projected while the other is drawn
-    std::vector<std::int64_t> fragment_counts_;  // of tiles
+    std::vector<std::int64_t> fragment_counts_;  // for each tile
     std::int64_t tets_drawn_ = 0;
     std::int32_t last_tet_ = -1;
     double order_ms_ = 0, draw_ms_ = 0;

@@ -12,12 +12,12 @@
 
 namespace lamina {
 
-// The transfer function as the fragments of tets read it (projection/tet_color-inl.h).
+// The transfer function in the form that the fragments of tets read (projection/tet_color-inl.h).
 class TileProjectTables {
   public:
     TileProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan);
 
-    // `fragments` must not outlive it.
+    // Sets pointers to the tables. `fragments` must not outlive them.
     void set(TetFragments& fragments) const;
     double build_ms() const { return build_ms_; }
     std::int64_t byte_count() const;
@@ -28,7 +28,7 @@ class TileProjectTables {
     glm::vec4 constant_optics_{0};
     const float* front_weights_ = nullptr;
     std::shared_ptr<const SegmentTable> table_;
-    std::optional<TileTransfer> transfer_;  // cut_table and analytic
+    std::optional<TileTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
     double build_ms_ = 0;
 };
 

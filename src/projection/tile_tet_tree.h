@@ -13,24 +13,24 @@
 
 namespace lamina {
 
-// A tree of fixed-point nodes whose samples come for all tiles at a time: a plane for each tile and
-// level. Takes its memory once.
+// A tree of fixed-point nodes whose samples are composited onto all tiles together. It keeps one
+// plane for each tile and level, and takes its memory once.
 class TileTetTree {
   public:
-    // The opacity of one node, and which tiles have any.
+    // The opacity of one node, and which tiles have opacity above 0.
     struct Node {
         std::vector<TilePlane> opacity;
         std::vector<std::uint8_t> touched;
     };
-    // Composites samples onto a node that is 0: as TileLeaves::draw, for all tiles.
+    // Composites samples onto a node that is 0, as TileLeaves::draw does, but for all tiles.
     using DrawLeaf = std::function<void(const SampleSpan&, double depth_scale, Node&)>;
 
-    // `plan`: of the nodes. Leaves may be drawn in another way.
+    // `plan`: how the nodes composite. Leaves may be drawn in another way.
     TileTetTree(const CompositingPlan& plan, const TreeShape& shape,
                 const std::array<float, 3>& single_color, const TileGrid& grid);
 
     int step_count() const { return static_cast<int>(shape_.leaf_count()); }
-    // Replaces the picture by that of the leaves. Ctrl-C ends it between them.
+    // Replaces the picture by that of the leaves. Ctrl-C ends it between leaves.
     void draw(const DrawLeaf& draw_leaf, TileImage& image, Progress* progress);
     std::int64_t byte_count() const;
 
@@ -42,8 +42,9 @@ class TileTetTree {
     TreeShape shape_;
     TileFixedTree tree_;
     TileGrid grid_;
-    std::vector<Node> nodes_;     // by level
-    std::uint32_t swizzled_ = 0;  // nodes of this frame: seeds of stochastic rounding
+    std::vector<Node> nodes_;  // by level
+    // Number of nodes in this frame so far, which seeds stochastic rounding.
+    std::uint32_t swizzled_ = 0;
 };
 
 }  // namespace lamina

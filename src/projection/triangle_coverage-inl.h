@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixel centres a triangle covers, and what is interpolated there: as rasterisers do it.
+// Which pixel centres a triangle covers, and the interpolated values there, as a rasteriser
+// computes them.
 #if defined(LAMINA_PROJECTION_TRIANGLE_COVERAGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TRIANGLE_COVERAGE_INL_H_
 #undef LAMINA_PROJECTION_TRIANGLE_COVERAGE_INL_H_
@@ -16,14 +17,14 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of pixels: how much of each corner they have, 0 where they are not covered.
+// The barycentric weight of each corner at some pixels; 0 where they are not covered.
 template <class V>
 struct CornerWeights {
     V corner[3];
     bool any = false;
 };
 
-// Of a half of the pixels, in double.
+// For half of the pixels, in double precision.
 template <class DD>
 HWY_INLINE void corner_weights(DD dd, const TriangleRecord& triangle, hn::Vec<DD> column,
                                hn::Vec<DD> row, hn::Vec<DD> (&weights)[3]) {
@@ -42,7 +43,7 @@ HWY_INLINE void corner_weights(DD dd, const TriangleRecord& triangle, hn::Vec<DD
         weights[i] = hn::IfThenElseZero(inside, linear(triangle.shares[i]));
 }
 
-// Window coordinates of pixel centres.
+// `column`, `row`: window coordinates of pixel centres.
 template <class D>
 HWY_INLINE CornerWeights<hn::Vec<D>> corner_weights_at(D d, const TriangleRecord& triangle,
                                                        hn::Vec<D> column, hn::Vec<D> row) {

@@ -13,15 +13,15 @@
 
 namespace lamina {
 
-// The view with axes as long as `unit`, so that what is seen of points of the world is in units
-// (facts/world_unit.h).
+// The view with axes of length `unit`. It takes points of the world and gives eye-space coordinates
+// in the renderer's units (facts/world_unit.h).
 inline View seeing_in_units(View view, double unit) {
     for (glm::dvec3* const axis : {&view.right, &view.up, &view.forward}) *axis *= unit;
     if (view.projection == Projection::orthographic) view.pixel *= unit;
     return view;
 }
 
-// Where points lie in the eye's space and in the window: pixels to the right and upwards from the
+// Converts points to eye space and to window coordinates: pixels to the right and upwards from the
 // picture's lower left corner.
 class WindowView {
   public:
@@ -34,7 +34,7 @@ class WindowView {
     const glm::dvec2& middle() const { return middle_; }
     bool perspective() const { return perspective_; }
 
-    // From the eye: along right, up and forward.
+    // Eye-space coordinates: along right, up and forward from the eye.
     glm::dvec3 see(const glm::dvec3& point) const {
         const glm::dvec3 p = point - view_.eye;
         return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
@@ -50,14 +50,15 @@ class WindowView {
     bool perspective_;
 };
 
-// Whether sorting the corners of a face by their numbers turns its order round: for one of the two
-// tets that share it.
+// Whether sorting the corners of a face by their numbers reverses its orientation. This is true for
+// one of the two tets that share the face.
 inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
     const auto [a, b, c] = corners_of_face(tet, face);
     return (a > b) != ((b > c) != (a > c));
 }
 
-// Whether the eye is in front of a face; where it is seen edge-on, it is for one of its two tets.
+// Whether the eye is in front of a face. Where the face is seen edge-on, the eye counts as in front
+// for one of its two tets.
 inline bool is_front(const Tet& tet, std::size_t face, FaceSigns signs) {
     const bool nearer = (signs & nearer_bit(face)) != 0, farther = (signs & farther_bit(face)) != 0;
     return nearer || (!farther && turned_by_sorting(tet, face));

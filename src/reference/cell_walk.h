@@ -16,9 +16,10 @@ namespace lamina {
 using CellIndex = std::array<std::int64_t, 3>;
 
 // The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between
-// samples i and i+1; on `cell` axes cells -1 and size-1 are the half voxels outside the samples.
-// Every crossing is computed from its own plane, so errors do not pile up; the first and last cell
-// of an axis are as long as the box, so the lengths of all cells add up to the chord.
+// samples i and i+1. On `cell` axes the cells -1 and size-1 are the half voxels outside the
+// samples. Every crossing is computed from its own plane, so errors do not accumulate. The first
+// and the last cell of an axis reach to the end of the box, so the lengths of all cells add up to
+// the chord.
 class CellWalk {
   public:
     CellWalk(const Grid& grid, const Chord& chord) : chord_(chord) {
@@ -27,7 +28,7 @@ class CellWalk {
             const auto first = static_cast<std::int64_t>(std::floor(lowest[axis]));
             const auto last = static_cast<std::int64_t>(std::ceil(highest[axis])) - 1;
             const double p = chord.entry[axis], d = chord.direction[axis];
-            // On a plane between two cells the ray belongs to the cell it goes into.
+            // On a plane between two cells the ray belongs to the cell that it enters.
             const double cell = d < 0 ? std::ceil(p) - 1 : std::floor(p);
             cell_[axis] = std::clamp(static_cast<std::int64_t>(cell), first, last);
             final_[axis] = d < 0 ? first : last;
@@ -36,7 +37,7 @@ class CellWalk {
     }
 
     // Calls visit(cell, from, to) for every cell that the chord crosses, with its parameters from <
-    // to; ends early when visit returns false.
+    // to. It ends early where visit returns false.
     template <typename Visit>
     void run(const Visit& visit) {
         double from = 0;

@@ -8,22 +8,22 @@
 
 namespace lamina {
 
-// The part of a viewing ray (z >= 0) that is inside a grid's box: entry + s * direction, 0 <= s <=
-// length_z, in index space. Starting at the entry, however far away the eye is, keeps its distance
-// out of all later rounding.
+// The segment of a viewing ray (z >= 0) inside a grid's box: entry + s * direction, 0 <= s <=
+// length_z, in index space. Because it starts at the entry, the distance of a far eye does not
+// enter later rounding.
 struct Chord {
     glm::dvec3 entry{0};  // index space, inside the closed box
-    glm::dvec3 direction{
-        0};  // index space, per unit of z; exactly 0 along axes that the ray is perpendicular to
-    double length_z = 0;     // 0: the ray misses the box, or only touches it in a point
+    // In index space, per unit of z. It is exactly 0 along axes to which the ray is perpendicular.
+    glm::dvec3 direction{0};
+    double length_z = 0;     // 0 where the ray misses the box or only touches it in a point
     double world_per_z = 0;  // world length per unit of z
 
     double world_length() const { return length_z * world_per_z; }
 };
 
-// The ray's own numbers and the grid's are taken as exact; from them, length_z is good to 1e-15
-// relative, also for chords that are slivers at an edge of the box, seen from far away. The box is
-// closed: a ray in a face is inside.
+// Clips a ray to the box. The numbers of ray and grid are taken as exact. length_z has a relative
+// error of 1e-15, also for very short chords at an edge of the box that is seen from far away. The
+// box is closed: a ray in a face is inside.
 Chord clip_to_box(const Grid& grid, const View::Ray& ray);
 
 // World length of the ray of pixel (column, row) (fractions allowed) inside the box.

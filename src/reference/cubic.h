@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// The polynomial c[0] + c[1] t + c[2] t^2 + c[3] t^3 on 0 <= t <= 1: what a trilinear field is
-// along a straight line.
+// The polynomial c[0] + c[1] t + c[2] t^2 + c[3] t^3 on 0 <= t <= 1. A trilinear field along a
+// straight line is such a cubic.
 struct Cubic {
     std::array<double, 4> c{};
 
@@ -15,20 +15,21 @@ struct Cubic {
     bool constant() const { return c[1] == 0 && c[2] == 0 && c[3] == 0; }
 };
 
-// The ends of the parts of [0, 1] on which the cubic is monotone: t[0] = 0 < ... < t[count] = 1.
+// The ends of the intervals of [0, 1] on which the cubic is monotone: t[0] = 0 < ... < t[count] =
+// 1.
 struct MonotoneParts {
     std::array<double, 4> t{0, 1, 1, 1};
     int count = 1;
 };
 MonotoneParts monotone_parts(const Cubic& cubic);
 
-// The t in [from, to] where the cubic is `value`. The cubic is monotone there and `value` lies
-// between its values at the ends. To full precision, for all slopes.
+// The t in [from, to] where the cubic equals `value`. The cubic must be monotone there, and `value`
+// must lie between its values at the ends. The result has full precision for all slopes.
 double solve_monotone(const Cubic& cubic, double value, double from, double to);
 
-// The cubic's part from `from` to `to` (lengths > 0) as a cubic on [0, 1] that is exactly `start`
-// and, to one rounding, `end` there: its values at the ends, where they are known better than they
-// can be computed.
+// The cubic restricted to `from` .. `to`, as a cubic on [0, 1]. `start` and `end` are its values at
+// the ends, which the caller knows better than they can be computed here. The result is exactly
+// `start` at 0 and, up to one rounding, `end` at 1.
 Cubic part_of(const Cubic& cubic, double from, double to, double start, double end);
 
 }  // namespace lamina

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge of every picture of a tetrahedral mesh: the viewing rays from tet to tet, in double
-// precision. The field is linear inside a tet, so every piece of the transfer function is
-// integrated in closed form (docs/numerics.md, section 5).
+// The reference for every picture of a tetrahedral mesh. It follows the viewing rays from tet to
+// tet in double precision. The field is linear inside a tet, so every piece of the transfer
+// function is integrated in closed form (docs/numerics.md, section 5).
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,19 @@ namespace lamina {
 
 struct MeshTraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
-    // Largest over all pixels and channels, of full scale: a bound of rounding, in segments and in
-    // the places where the ray crosses faces; nothing else is approximate.
+    // The largest error over all pixels and channels, as a share of full scale. It is a bound on
+    // the rounding in segments and in the places where the ray crosses faces. Nothing else is
+    // approximate.
     double error_estimate = 0;
-    std::int64_t segments = 0;  // parts of rays inside one tet that were integrated
-    // Rays on which parts of the mesh overlap: there its tets are composited one after the other,
-    // in the order in which the ray enters them.
+    std::int64_t segments = 0;  // number of ray segments inside one tet that were integrated
+    // Number of rays on which the mesh overlaps itself. There its tets are composited one after the
+    // other, in the order in which the ray enters them.
     std::int64_t overlapping_rays = 0;
 };
 
-// `scalar`: one value a point; tets with a corner whose value is NaN or infinite are transparent.
-// `open_faces`: of the mesh. Runs on all cores; the result does not depend on their number.
+// `scalar`: one value a point. Tets with a corner whose value is NaN or infinite are transparent.
+// `open_faces`: tree of the mesh's open faces. Runs on all cores; the result does not depend on
+// their number.
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
                            const TransferFunction& transfer_function, const View& view);

@@ -9,25 +9,27 @@
 #include "mesh/eye.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
-#include "visibility/visibility_order.h"
 #include "scene/camera.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 
-// Pixels that an order gets wrong: two tets are met by the viewing ray through the pixel's centre
-// one after the other, and are not drawn so.
+// Counts the pixels that an order gets wrong: the viewing ray through the pixel's centre meets two
+// tets one after the other, and the order has them the other way round.
 struct OrderPixels {
-    std::int64_t covered = 0;         // pixels whose ray meets a tet
-    std::int64_t wrong = 0;           // of these
-    std::int64_t outside_cycles = 0;  // of these: a wrong pair is not within one reported cycle
-    std::int64_t overlapping = 0;     // of these: parts of the mesh overlap on the ray
+    std::int64_t covered = 0;  // pixels whose ray meets a tet
+    std::int64_t wrong = 0;    // of these
+    // Of the wrong ones: a wrong pair is not within one reported cycle.
+    std::int64_t outside_cycles = 0;
+    std::int64_t overlapping = 0;  // of the wrong ones: the mesh overlaps itself on the ray
 };
 
-// Judges what each of the orders last sorted, which must have been for eye_of(view), by the exact
-// list of the tets on each ray. A part of a ray counts where it is longer than 1e-12 of the ray's
-// way from the eye to the end of the mesh: places on a ray are good to some 1e-15 of that, and what
-// is shorter cannot be seen. `open_faces`: of the mesh. Calls `row_done` after each row, from any
-// thread. Parallel; the result does not depend on the number of threads.
+// Checks the last result of each order, which must have been sorted for eye_of(view), against the
+// exact list of the tets on each ray. A segment of a ray counts where it is longer than 1e-12 of
+// the distance from the eye to the end of the mesh. Positions on a ray have errors of some 1e-15 of
+// that distance, and shorter segments cannot be seen. `open_faces`: tree of the mesh's open faces.
+// Calls `row_done` after each row, from any thread. Parallel; the result does not depend on the
+// number of threads.
 std::vector<OrderPixels> judge_pixels(const TetMesh& mesh, const FaceTree& open_faces,
                                       const View& view,
                                       std::span<const VisibilityOrder* const> orders,

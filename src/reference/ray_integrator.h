@@ -10,25 +10,26 @@
 
 namespace lamina {
 
-// Emission and absorption along one ray, collected front to back in double precision
-// (docs/numerics.md, section 1). Optical depth is exact but for rounding; colour is integrated to a
+// Emission and absorption along one ray, accumulated front to back in double precision
+// (docs/numerics.md, section 1). Optical depth is exact up to rounding. Colour is integrated to a
 // tolerance, with an estimate of its error.
 class RayIntegrator {
   public:
-    // `tolerance`: of full scale, for every channel of the whole ray. `ray_length` > 0: world
-    // length of all segments.
+    // `tolerance`: largest error of every channel of the whole ray, as a share of full scale.
+    // `ray_length` > 0: world length of all segments.
     RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length);
 
-    // The next segment, `length` > 0 world units long: the scalar runs as `scalar` from its front
-    // to its back and stays (but for rounding) inside [lo, hi].
+    // Adds the next segment, of `length` > 0 world units. `scalar` is the scalar from its front to
+    // its back, which stays inside [lo, hi] up to rounding.
     void add(const Cubic& scalar, double lo, double hi, double length);
 
-    // True once what follows cannot matter: segments need no longer be added.
+    // Whether all that follows is hidden, so that no more segments need to be added.
     bool opaque() const { return depth_.value() >= depth_limit_; }
 
     glm::dvec3 color() const;  // associated
     double alpha() const;
-    double error_estimate() const;  // of the worst channel: quadrature and early termination
+    // Error of the worst channel, from quadrature and early termination.
+    double error_estimate() const;
     std::int64_t pieces() const { return pieces_; }
 
   private:
@@ -42,7 +43,7 @@ class RayIntegrator {
     double depth_limit_;
     double error_per_opacity_;
     double error_per_length_;
-    CompensatedSum depth_;  // thousands of pieces must not lose digits
+    CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
     std::int64_t pieces_ = 0;

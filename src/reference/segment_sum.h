@@ -10,24 +10,24 @@
 
 namespace lamina {
 
-// Segments of one ray with a linear scalar each, composited front to back in double precision.
+// Composites segments of one ray, each with a linear scalar, front to back in double precision.
 class SegmentSum {
   public:
-    // `place_error`: bound of the error of every end of a segment, in world units. Both transfer
-    // functions are the same one, and must outlive the sum.
+    // `place_error`: bound on the error of every end of a segment, in world units.
+    // `transfer_function` and `intervals` are the same function, and must outlive the sum.
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
                double place_error);
 
-    // The next segment: the scalar runs linearly from `front` to `back` over `length` world units;
-    // both may be off by `slack`.
+    // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
+    // Both scalars may have errors up to `slack`.
     void add(double front, double back, double length, double slack);
 
-    // True once what follows is lost in rounding.
+    // Whether all that follows is lost in rounding.
     bool opaque() const { return depth_.value() >= depth_limit_; }
 
     const glm::dvec3& color() const { return color_; }  // associated
     double alpha() const;
-    double error_estimate() const;  // of the worst channel
+    double error_estimate() const;  // error of the worst channel
     std::int64_t segments() const { return segments_; }
 
   private:
@@ -38,7 +38,7 @@ class SegmentSum {
     double place_error_;
     double brightest_;
     double depth_limit_;
-    CompensatedSum depth_;  // thousands of pieces must not lose digits
+    CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
     std::int64_t segments_ = 0;

@@ -9,9 +9,9 @@
 
 namespace lamina {
 
-// The part of a transfer function between two neighbouring knots, where colour and extinction are
-// linear in the position x = (value - lo) / width, 0 <= x <= 1; both are constant (changes = 0)
-// outside the outermost knots.
+// A transfer function between two neighbouring knots, where colour and extinction are linear in the
+// position x = (value - lo) / width, 0 <= x <= 1. Outside the outermost knots both are constant
+// (changes = 0).
 struct TransferInterval {
     double lo = 0;
     double hi = 1;
@@ -22,7 +22,8 @@ struct TransferInterval {
     double color_span = 0;  // largest |color_change|
     bool transparent = true;
 
-    // From the nearer knot, so that little is lost where a steep interval ends at extinction 0.
+    // Computed from the nearer knot, so that few digits are lost where a steep interval ends at
+    // extinction 0.
     double extinction(double value) const {
         const double from_lo = (value - lo) / width, from_hi = (hi - value) / width;
         const double result = from_lo < from_hi ? at_lo.extinction + extinction_change * from_lo
@@ -32,21 +33,21 @@ struct TransferInterval {
     }
 };
 
-// A transfer function as its intervals: which one a value is in is decided once per piece of a ray,
-// by the values on the piece, so that both sides of a step are seen as they are.
+// A transfer function as a list of intervals. The interval of a value is decided once for each
+// piece of a ray, from the values on the piece, so that each side of a step has its own properties.
 class TransferIntervals {
   public:
     explicit TransferIntervals(const TransferFunction& transfer_function);
 
-    // Interval i lies between knots i-1 and i. `above`: for values at and above `value`; `below`:
-    // at and below.
+    // Interval i lies between knots i-1 and i. above() is the interval for values at and above
+    // `value`, below() the one for values at and below it.
     std::size_t above(double value) const;
     std::size_t below(double value) const;
     const TransferInterval& operator[](std::size_t interval) const { return intervals_[interval]; }
     std::size_t knot_count() const { return knots_.size(); }
     double knot(std::size_t index) const { return knots_[index]; }
 
-    // Does any interval that touches [lo, hi] have extinction?
+    // Whether any interval that touches [lo, hi] has extinction.
     bool visible(double lo, double hi) const;
     double brightest() const { return brightest_; }  // largest colour component of all
 

@@ -14,14 +14,15 @@
 
 namespace lamina {
 
-// The eight samples around a cell; corner x + 2y + 4z.
+// The eight samples at the corners of a cell, at index x + 2y + 4z.
 struct CellCorners {
     std::array<double, 8> v;
 
     struct Range {
         double lo, hi;
     };
-    Range range() const {  // pairwise, without branches: most cells end here
+    Range range() const {  // computed pairwise and without branches, because most cells need no
+                           // more than this
         const auto lesser = [](double a, double b) { return b < a ? b : a; };
         const auto greater = [](double a, double b) { return a < b ? b : a; };
         return {lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
@@ -30,9 +31,9 @@ struct CellCorners {
                         greater(greater(v[4], v[5]), greater(v[6], v[7])))};
     }
 
-    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1).
-    // Formed from differences of corners: a constant cell is exactly constant, a linear one exactly
-    // linear.
+    // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1). It
+    // is computed from differences of corners, so that a constant cell is exactly constant and a
+    // linear one exactly linear.
     Cubic along(const glm::dvec3& from, const glm::dvec3& step) const {
         const double x = v[1] - v[0], y = v[2] - v[0], z = v[4] - v[0];
         const double xy = (v[3] - v[2]) - x, xz = (v[5] - v[4]) - x, yz = (v[6] - v[4]) - y;
@@ -51,8 +52,8 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume whose samples are of type Sample; outside the samples the border
-// value repeats.
+// Access to the cells of a volume with samples of type Sample. Outside the samples the border value
+// repeats.
 template <typename Sample>
 class CellSamples {
   public:
@@ -75,7 +76,7 @@ class CellSamples {
     // transparent).
     static bool finite(const CellCorners& corners) {
         if constexpr (!std::is_floating_point_v<Sample>) return true;
-        double sum = 0;  // of eight finite floats it cannot overflow in double
+        double sum = 0;  // the sum of eight finite floats cannot overflow in double
         for (const double value : corners.v) sum += value;
         return std::isfinite(sum);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge of every picture of a volume: the viewing rays through the exact trilinear field, in
-// double precision.
+// The reference for every picture of a volume: the viewing rays through the exact trilinear field,
+// in double precision.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,28 @@
 namespace lamina {
 
 struct TraceOptions {
-    double tolerance = 1e-5;  // of full scale (1.0), for every channel; 1e-12 .. 1
+    // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1.
+    double tolerance = 1e-5;
 
-    static constexpr double smallest_tolerance = 1e-12;  // below it rounding decides
+    static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
 };
 
 struct TraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
-    double error_estimate =
-        0;  // largest over all pixels and channels, of full scale; without rounding (some 1e-14)
-    std::int64_t segments = 0;  // pieces of rays with extinction that were integrated, each inside
-                                // one cell and one interval of the transfer function
+    // The largest error over all pixels and channels, as a share of full scale, without rounding
+    // (some 1e-14).
+    double error_estimate = 0;
+    // Number of pieces of rays with extinction that were integrated, each inside one cell and one
+    // interval of the transfer function.
+    std::int64_t segments = 0;
 };
 
-// Cells with a NaN or infinite corner are transparent. Runs on all cores; the result does not
-// depend on their number. Throws Error for a tolerance out of range.
+// Traces a volume. Cells with a NaN or infinite corner are transparent. Runs on all cores; the
+// result does not depend on their number. Throws Error for a tolerance out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options);
 
-// The same for single pixels of the view, (column, row) each.
+// The same for some pixels of the view, given as (column, row).
 struct TracedPixels {
     std::vector<glm::dvec4> rgba;  // as in TraceResult::image, in the order of the pixels
     double error_estimate = 0;     // as in TraceResult

@@ -12,14 +12,15 @@ namespace lamina {
 // None where the word is none.
 std::optional<ContextChoice> find_context_choice(const std::string& word);
 
-// Throws UsageError where the word is none.
+// The same; throws UsageError where the word is unknown.
 ContextChoice context_choice(const std::string& word);
 
-// Of a verb that needs OpenGL.
+// The choice of a verb that needs OpenGL: throws UsageError for words that name no OpenGL context.
 gl::ContextKind opengl_kind(const std::string& word);
 
-// The native engine's instructions, where the environment has LAMINA_INSTRUCTIONS, for checks;
-// throws UsageError where the machine does not have them.
+// Restricts the native engine to the instruction set that the environment variable
+// LAMINA_INSTRUCTIONS names, if it is set. This is for checks. Throws UsageError where the machine
+// does not have these instructions.
 void restrict_instructions_as_asked();
 
 }  // namespace lamina

@@ -10,12 +10,14 @@
 
 namespace lamina {
 
-// What draws: OpenGL, or the native engine, for which no library of OpenGL's is loaded.
+// What draws pictures: an OpenGL context, or the native engine, for which no OpenGL library is
+// loaded.
 class DrawContext {
   public:
-    // Errors of OpenGL are Errors, but for ContextChoice::automatic.
+    // Throws Error where OpenGL fails, except for ContextChoice::automatic, which then takes the
+    // native engine.
     explicit DrawContext(ContextChoice choice);
-    // OpenGL, whatever it takes.
+    // Always makes an OpenGL context; throws Error where it fails.
     explicit DrawContext(gl::ContextKind kind);
 
     const Capabilities& capabilities() const { return capabilities_; }

@@ -9,30 +9,31 @@
 
 namespace lamina {
 
-// Slicing and projection each have one for a session: it measures, plans and makes renderers in
-// their own way. From call to call scenes differ in what the session was told to change alone.
+// How a session measures, plans and makes renderers: slicing and projection implement this, each in
+// its own way. Between calls the scene changes only in what the session was told to change.
 class Drawing {
   public:
     virtual ~Drawing() = default;
 
     virtual const char* activity() const = 0;  // for progress: "slicing"
 
-    // Measures what the data and the transfer function say. The view must be measured after it.
+    // Measures the facts that depend on the data and the transfer function. measure_view() must
+    // follow.
     virtual void measure_data(const Scene& scene) = 0;
-    // What the view says. `planned`: the plan of a view before, null for the first; what it has
-    // settled for all views is not measured again.
+    // Measures the facts that depend on the view. `planned`: the plan of an earlier view, or null
+    // for the first view. What that plan has settled for all views is not measured again.
     virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
 
-    // Draws pictures for what is automatic, where it takes some to choose.
+    // Draws trial pictures where an automatic choice needs them.
     virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/) {}
-    // `for_people`: with what omissions save.
+    // `for_people`: the plan also says how much work each omission saves.
     virtual Plan plan(const Scene& scene, const Capabilities& capabilities,
                       const OmissionSwitch& omissions, bool for_people) const = 0;
-    // The scene with what the plan has chosen instead of "auto".
+    // The scene with every "auto" replaced by what the plan has chosen.
     virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // `before`: the renderer that it takes the place of, or null; what both hold is kept.
+    // `before`: the renderer that the new one replaces, or null. Data that both need is kept.
     virtual std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                          const Capabilities& capabilities,
                                                          FrameRenderer* before) const = 0;

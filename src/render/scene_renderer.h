@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one way to draw: a scene and its data, from the first picture to the last.
+// A session draws one scene and its data, from the first picture to the last. All pictures except
+// those of the reference tracers are drawn by a session.
 #pragma once
 
 #include <map>
@@ -17,8 +18,8 @@
 
 namespace lamina {
 
-// Draws a scene of method slice or project again and again while it changes. It does again what a
-// change makes necessary, when a picture or a plan is next asked for:
+// Draws a scene of method slice or project again and again while the scene changes. When a picture
+// or a plan is next asked for, the session does again only what the changes make necessary:
 //
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
 //                       needs no other: no bricks, tables, uploads or programs
@@ -47,23 +48,23 @@ class SceneRenderer {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
-    // Another scene of the same data and method.
+    // Replaces the scene by another one with the same data and method.
     void set_scene(Scene scene);
     void choose_again();
 
-    // As asked for, with "auto"; and with what was chosen instead (scene_files/scene_json.h saves
-    // it).
+    // The scene as it was asked for, with "auto"; and the scene with what was chosen instead, which
+    // save_scene() (scene_files/scene_json.h) can write.
     const Scene& scene() const { return asked_; }
     const Scene& resolved_scene();
-    // Throws Error where the data cannot be drawn so, or the context cannot do it.
+    // Throws Error where the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan();
     std::string explanation();
     const Capabilities& capabilities() const { return capabilities_; }
 
-    // Makes what a frame needs; draw() does it where it was not done.
+    // Makes what a frame needs. draw() calls it if necessary.
     void set_up();
-    // A frame, complete when it returns. Throws Interrupted once a stop is requested; the next
-    // frame is then drawn from the start.
+    // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
+    // next frame is then drawn from the start.
     void draw(std::stop_token stop = {});
     // The last frame: associated, linear, before the background. The second one takes no memory
     // where `picture` has its size.
@@ -74,12 +75,12 @@ class SceneRenderer {
         return picture();
     }
 
-    // With the statistics of the last frame; set up where it is not.
+    // The renderer, with the statistics of the last frame. It is set up if necessary.
     const FrameRenderer& renderer();
-    // What took how long, last: "facts", "trials", "plan", "set_up".
+    // The last duration of each stage in milliseconds: "facts", "trials", "plan", "set_up".
     const std::map<std::string, double>& stages_ms() const { return stages_ms_; }
 
-    // How often something was done, for tests.
+    // How often each stage was done, for tests.
     struct Counts {
         int data = 0, views = 0, trials = 0, plans = 0, renderers = 0;
         friend bool operator==(const Counts&, const Counts&) = default;
@@ -99,7 +100,7 @@ class SceneRenderer {
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
     std::optional<Plan> plan_;
     std::unique_ptr<FrameRenderer> renderer_;
-    bool renderer_fits_ = false;  // the transfer function and the size
+    bool renderer_fits_ = false;  // it has the scene's transfer function and size
     std::map<std::string, double> stages_ms_;
     Counts counts_;
 };

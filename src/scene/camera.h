@@ -8,10 +8,10 @@
 
 namespace lamina {
 
-// The viewing rays of an image: pixel (i, j), row 0 at the top, has its centre at image-plane
-// coordinates x(i), y(j). Along a ray the parameter is eye-space depth z (distance from the eye's
-// plane), so the direction's forward component is 1 and a ray's point is origin + z * direction. No
-// near plane: z starts at 0.
+// The viewing rays of an image. The centre of pixel (i, j), row 0 at the top, has the image-plane
+// coordinates x(i), y(j). The parameter along a ray is eye-space depth z, the distance from the
+// eye's plane. So the forward component of the direction is 1, and a point of the ray is origin + z
+// * direction. There is no near plane: z starts at 0.
 struct View {
     View(const Camera& camera, int width_pixels,
          int height_pixels);  // throws Error when the camera is singular
@@ -30,13 +30,13 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
-// For visibility orders.
+// The eye of a view, for visibility orders.
 inline Eye eye_of(const View& view) {
     if (view.projection == Projection::orthographic) return {view.forward, true};
     return {view.eye, false};
 }
 
-// Timed frames of a moving camera (--frames, studies: docs/study.md) are this far apart.
+// The turn of the camera between timed frames (--frames; studies: docs/study.md).
 inline constexpr double degrees_per_frame = 0.1;
 
 }  // namespace lamina

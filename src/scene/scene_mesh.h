@@ -9,15 +9,15 @@
 
 namespace lamina {
 
-// The mesh that a scene draws, with the one scalar that it draws of it.
+// The mesh that a scene draws, and the one scalar of it that is drawn.
 struct SceneMesh {
     TetMesh mesh;
-    MeshScalar scalar;                 // one value a point
-    bool averaged = false;             // the file has it at cells
-    std::optional<MeshReport> report;  // of a mesh made from the scene's volume
+    MeshScalar scalar;      // one value a point
+    bool averaged = false;  // the file has the scalar at cells; it was averaged to points
+    std::optional<MeshReport> report;  // only for a mesh made from the scene's volume
 };
 
-// For messages: its file, or where the scene says how to make it.
+// The mesh's name for messages: its file, or the key of the scene that says how to make it.
 std::string name_of_mesh(const Scene& scene);
 
 // Reads the mesh that the scene names, or makes it from its volume. Throws Error, also when the

@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-// The keys "volume", "mesh", "scalar" and "nan": what is drawn. Throws KeyError.
+// Reads the keys "volume", "mesh", "scalar" and "nan", which say what is drawn. Throws KeyError.
 void read_data(JsonReader& reader, Scene& scene);
 
 }  // namespace lamina

@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-// A segment of `lamina integrate`.
+// A segment that `lamina integrate` integrates.
 struct IntegrationCase {
     TransferFunction transfer_function;
     double front = 0, back = 0;           // scalars, up to 1e300
@@ -18,7 +18,7 @@ struct IntegrationCase {
     std::filesystem::path colormap_file;  // of the transfer function; empty: none
 };
 
-// {"transfer_function", "sf", "sb", "length"}; closes the reader. `warnings` as of
+// Reads {"transfer_function", "sf", "sb", "length"} and closes the reader. `warnings`: as in
 // read_transfer_function().
 IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings);
 

@@ -24,27 +24,28 @@ class KeyError : public Error {
     std::string key;
 };
 
-// One that nobody asked for.
+// A key that no reader asked for.
 class UnknownKeyError : public KeyError {
   public:
     using KeyError::KeyError;
 };
 
-// Reads one JSON object key by key and remembers which keys it was asked for; close() then rejects
-// all others, with the nearest known key as a suggestion. Every error names the file, the path of
-// the key, what was found and expected.
+// Reads one JSON object key by key and remembers which keys it was asked for. close() then rejects
+// all other keys and suggests the nearest known key. Every error names the file and the path of the
+// key, and says what was found and expected.
 class JsonReader {
   public:
     // `file`: for messages and relative paths. `known`: collects the path of every key that is
-    // asked for (the test that keeps the schema in step with the reader), or null. All must outlive
-    // the reader.
+    // asked for, or null; a test uses it to keep the schema in step with the reader. All arguments
+    // must outlive the reader.
     JsonReader(const nlohmann::json& object, const std::filesystem::path& file,
                std::string path = "", std::set<std::string>* known = nullptr);
 
     bool has(const std::string& key);
     JsonReader object(const std::string& key);  // an empty object when absent
     std::vector<JsonReader> objects(const std::string& key);
-    const nlohmann::json& value(const std::string& key);  // must be there
+    // Throws KeyError where the key is missing.
+    const nlohmann::json& value(const std::string& key);
 
     double number(const std::string& key);
     double number_or(const std::string& key, double otherwise);
@@ -53,11 +54,11 @@ class JsonReader {
     std::string text(const std::string& key);
     glm::dvec3 vector(const std::string& key);
     glm::dvec3 vector_or(const std::string& key, const glm::dvec3& otherwise);
-    // A path of the file system: ${LAMINA_DATA} expanded, relative ones taken from the file's own
+    // A path of the file system. ${LAMINA_DATA} is expanded, and relative paths start at the file's
     // folder.
     std::filesystem::path path_of(const std::string& key);
 
-    // One of the listed words; the first where the key is absent.
+    // The value of one of the listed words, or of the first word where the key is absent.
     template <typename Choice>
     Choice choice(const std::string& key,
                   const std::vector<std::pair<const char*, Choice>>& choices) {

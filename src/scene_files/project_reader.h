@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-// "render.project" of a scene.
+// Reads "render.project" of a scene file (docs/scene.md).
 ProjectSettings read_project(JsonReader reader);
 
 }  // namespace lamina

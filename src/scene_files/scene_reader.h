@@ -12,19 +12,19 @@
 
 namespace lamina {
 
-// The scene in `document`; `file` is for messages and relative paths. Throws KeyError
+// Reads the scene in `document`. `file` is for messages and relative paths. Throws KeyError
 // (scene_files/json_reader.h). `known`: collects the path of every key that the reader asks for, or
 // null.
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
                  std::set<std::string>* known = nullptr);
 
-// Sets `key` ("render.slice.samples", list elements by number) to `value`: JSON where it parses as
-// JSON, else a string. Throws UsageError when the path leads through something that is no object or
-// list.
+// Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
+// parses as JSON and a string otherwise. Throws UsageError where the path leads through a value
+// that is neither an object nor a list.
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value);
 
-// Takes `key` out of the object that it is in; a document without it stays as it is. Throws
-// UsageError where the key has an empty part.
+// Removes `key` from the object that contains it. A document without the key stays as it is. Throws
+// UsageError where the key has an empty component.
 void remove_key(nlohmann::json& document, const std::string& key);
 
 }  // namespace lamina

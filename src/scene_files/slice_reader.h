@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-// "render.slice" and "render.emulate" of a scene file (docs/scene.md).
+// Read "render.slice" and "render.emulate" of a scene file (docs/scene.md).
 SliceSettings read_slice(JsonReader reader);
 Emulation read_emulation(JsonReader reader);
 

@@ -59,7 +59,7 @@ void warn_of_opaque_ramp(const std::vector<TransferKnot>& points, const std::vec
 void stretch(Colormap& colormap, JsonReader& reader) {
     if (!reader.has("colormap_range")) return;
     const nlohmann::json& range = reader.value("colormap_range");
-    // Beyond, differences are no longer finite (optics/transfer_function.h).
+    // Beyond, differences are no longer finite (lamina/transfer_function.h).
     constexpr double most = 1e300;
     if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number() ||
         !(range[0].get<double>() < range[1].get<double>()) || range[0].get<double>() < -most ||

@@ -9,9 +9,8 @@
 
 namespace lamina {
 
-// The object "transfer_function" of scene files and of `lamina integrate` (docs/scene.md);
-// closes the reader. `warnings` collects what the user should know and that is no error, or is
-// null.
+// Reads the object "transfer_function" of scene files and of `lamina integrate` (docs/scene.md),
+// and closes the reader. `warnings`: collects remarks for the user that are no errors, or null.
 TransferFunction read_transfer_function(JsonReader reader,
                                         std::vector<std::string>* warnings = nullptr);
 

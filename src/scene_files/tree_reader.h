@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// "tree" of "render.slice" or "render.project" (docs/scene.md), if it is there.
+// Reads "tree" of "render.slice" or "render.project" (docs/scene.md), if it is there.
 std::optional<TreeSettings> read_tree(JsonReader& method);
 
 }  // namespace lamina

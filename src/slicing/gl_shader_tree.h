@@ -15,18 +15,18 @@
 
 namespace lamina {
 
-// Whose output a program of the tree writes.
+// Which node's output a program of the tree writes: an inner node's or the root's.
 enum class NodePlace { inner, root };
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
 gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 
-// A compositing tree whose nodes are computed in a program, in float, with colour
-// (docs/numerics.md, section 4): leaves march their slabs, inner nodes read their children from
+// A compositing tree whose nodes are computed in programs, in float and with colour
+// (docs/numerics.md, section 4). Leaves march their slabs; inner nodes read their children from
 // layers of array textures. The picture is made in bands of rows, one whole tree after the other,
-// so that the images of a level need only a band's size.
+// so that the images of a level need only the size of a band.
 class GlShaderTree {
   public:
-    // `source` and `plan` must outlive it. Throws Error where a level's images do not fit.
+    // `source` and `plan` must outlive the tree. Throws Error where a level's images do not fit.
     GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
                  const Capabilities& capabilities, int width, int height);
 
@@ -39,12 +39,12 @@ class GlShaderTree {
     void draw(gl::Framebuffer& target, Progress* progress);
 
   private:
-    // The children of one node of a level, nearest first.
+    // The images of the children of one node of a level, nearest first.
     struct LevelImages {
         gl::Texture color;
         std::optional<gl::Texture> alpha;
     };
-    // A rectangle of rows of the target, OpenGL's row 0 at the bottom.
+    // Some rows of the target; row 0 is at the bottom, as in OpenGL.
     struct Band {
         int first_row, rows;
     };
@@ -64,7 +64,7 @@ class GlShaderTree {
     void evaluate(int level, const SampleSpan& node, int layer);
     void draw_leaf(const SampleSpan& leaf, int level, int layer);
     void march(gl::Program& program, std::size_t leaf);
-    // Binds where a node of a level writes, and clears it; the root's picture is cleared once.
+    // Binds the output of a node of a level and clears it. The root's picture is cleared only once.
     void bind_output(int level, int layer);
     gl::Program& program_for(int level, std::optional<gl::Program>& inner,
                              std::optional<gl::Program>& root) const;
@@ -75,18 +75,18 @@ class GlShaderTree {
     int width_, height_, band_rows_ = 0, leaf_count_ = 0;
     gl::Defines defines_;  // of the leaves' program
     std::optional<gl::Program> leaf_, root_leaf_, node_, root_node_, encode_, root_encode_;
-    std::vector<LevelImages> images_;     // of the children of inner nodes, by level
-    std::optional<gl::Framebuffer> sum_;  // of a leaf over several bricks
+    std::vector<LevelImages> images_;     // images of the children of inner nodes, by level
+    std::optional<gl::Framebuffer> sum_;  // result of a leaf that spans several bricks
     gl::LayerFramebuffer layer_;
     gl::VertexArray vertex_array_, no_attributes_;
     gl::Buffer vertices_;
-    // Of the view; kept from frame to frame.
+    // The following belong to the view and are kept from frame to frame.
     std::optional<View> view_;
     Slabs slabs_;
     std::vector<SlabVertex> triangles_;
     std::vector<std::size_t> bricks_;   // nearest first
-    std::vector<LeafDraw> leaf_draws_;  // of all leaves, nearest first, brick by brick
-    // Of the frame.
+    std::vector<LeafDraw> leaf_draws_;  // draws of all leaves, nearest first, brick by brick
+    // The following belong to the frame.
     gl::Framebuffer* target_ = nullptr;
     Progress* progress_ = nullptr;
     Band band_{0, 0};

@@ -16,14 +16,16 @@
 
 namespace lamina {
 
-// What slicing/segment.glsl is specialised by; the plan and the sizes of its tables decide.
+// The definitions that specialise slicing/segment.glsl. They depend on the plan and on the sizes of
+// its tables.
 gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes);
 
-// What the fragments of a slab read (slicing/segment.glsl): the volume, the transfer function, and
-// where the viewing rays run.
+// The data that the fragments of a slab read (slicing/segment.glsl): the volume, the transfer
+// function, and the viewing rays.
 class GlSlabSource {
   public:
-    static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;  // of textures
+    // First texture unit that is free.
+    static constexpr int first_free_unit = GlTransferTables::first_free_unit + 1;
 
     // Uploads the volume where `ready` does not serve, and builds the tables. The transfer function
     // is in the plan's units, as views are; facts are the world's.
@@ -35,13 +37,14 @@ class GlSlabSource {
     void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
-    // The programs' uniforms: those that stay; those of a view; those of one of the plan's bricks.
+    // Set the uniforms of a program: bind() those that never change, set_view() those of a view,
+    // and set_brick() those of one of the plan's bricks.
     void bind(gl::Program& program) const;
     void set_view(gl::Program& program, const View& view, const Slabs& slabs) const;
     void set_brick(gl::Program& program, const View& view, const Slabs& slabs,
                    std::size_t brick) const;
 
-    // What a brick shows in this plan, in index space.
+    // The box of a brick that is drawn in this plan, in index space.
     IndexBox drawn_box(std::size_t brick) const;
     const Grid& grid() const { return facts_.grid; }
     const glm::vec3& single_color() const { return single_color_; }
@@ -55,7 +58,7 @@ class GlSlabSource {
 
     Facts facts_;
     SlicePlan plan_;
-    ValueRange range_;  // of scalars, as [0, 1] in shaders
+    ValueRange range_;  // scalars that become [0, 1] in shaders
     glm::vec3 single_color_{0};
     OpticalProperties constant_;              // where no scalar is fetched
     std::optional<GlTransferTables> tables_;  // elsewhere

@@ -17,7 +17,7 @@
 
 namespace lamina {
 
-// Draws a volume as the plan says, in the current OpenGL context, which must outlive it.
+// Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
 class GlSliceRenderer : public FrameRenderer {
   public:
     // Uploads the volume, builds the tables and compiles the programs that the context has not got;
@@ -51,8 +51,8 @@ class GlSliceRenderer : public FrameRenderer {
     SlicePlan plan_;
     Grid grid_;
     gl::Framebuffer target_;
-    // None where nothing is visible; else slabs, blended straight or as leaves of a tree of
-    // fixed-point nodes, or a tree that marches them.
+    // All are empty where nothing is visible. Otherwise there are slabs, which are blended directly
+    // or are the leaves of a tree of fixed-point nodes, or there is a tree that marches the slabs.
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;

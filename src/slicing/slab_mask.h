@@ -15,17 +15,18 @@
 
 namespace lamina {
 
-// Of a block's slabs, the nearest first: bit i of slab i.
+// A set of slabs of a block. Bit i stands for slab i; slab 0 is the nearest.
 using BlockMask = std::uint32_t;
 static_assert(tile_block_slabs == 32);
 
-// Bits first .. end - 1.
+// The set of slabs first .. end - 1.
 inline BlockMask block_mask(int first, int end) {
     if (first >= end) return 0;
     return ~BlockMask{0} >> (tile_block_slabs - (end - first)) << first;
 }
 
-// Calls body(first, end) for each run of bits, the first first or the last.
+// Calls body(first, end) for each run of bits; the first function begins with the lowest run, the
+// second with the highest.
 template <class Body>
 HWY_INLINE void for_each_run(BlockMask mask, const Body& body) {
     while (mask != 0) {
@@ -46,7 +47,7 @@ HWY_INLINE void for_each_run_backwards(BlockMask mask, const Body& body) {
     }
 }
 
-// Some of up to max_slabs slabs, in blocks.
+// A set of slabs, of up to max_slabs, stored in blocks.
 class SlabMask {
   public:
     void clear(int slabs) {
@@ -66,7 +67,8 @@ class SlabMask {
     BlockMask block(int number) const { return blocks_[static_cast<std::size_t>(number)]; }
 
   private:
-    std::array<BlockMask, max_slabs / tile_block_slabs> blocks_;  // as far as they were cleared
+    // Defined as far as they were cleared.
+    std::array<BlockMask, max_slabs / tile_block_slabs> blocks_;
 };
 
 }  // namespace lamina

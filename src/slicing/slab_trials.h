@@ -8,18 +8,21 @@
 
 namespace lamina {
 
-// Where the scene is sliced into an automatic number of slabs: what numbers of slabs cost in
-// accuracy. Pictures of them are drawn with the native engine, in float32, and held against the
-// reference tracer until the fewest that keep slab_error_goal() are known to some 10 %, or more of
-// them do not help, or 16 a voxel do not keep it; then two a voxel are tried, too. Where errors are
-// not of second order, some fewer slabs are tried after that.
+// Measures the error of different numbers of slabs, where the scene has an automatic number of
+// slabs. Trial pictures are drawn with the native engine, in float32, and compared with the
+// reference tracer. The search ends when the fewest slabs that keep slab_error_goal() are known to
+// some 10 %, when more slabs do not help, or when 16 slabs a voxel do not keep the goal. In the
+// last two cases two slabs a voxel are tried, too. Where errors are not of second order, some
+// smaller numbers are tried after that.
 //
-// Pictures of at most 81,920 pixels are traced on each of them. Larger ones are searched in 2^13
-// pixels first, and from what was found on in a picture of at most 2^20: there trials are compared
-// with pictures of more slabs, and with the tracer on 12288 pixels.
+// Pictures of at most 81,920 pixels are traced in every pixel. Larger pictures are first searched
+// with 2^13 pixels. From the number of slabs found there the search goes on with a picture of at
+// most 2^20 pixels, in which trials are compared with pictures of more slabs, and with the tracer
+// on 12288 pixels.
 //
-// For "filter": "auto" in a context whose texture units' weights are worth it, the same with such
-// weights, from the slabs on that exact scalars need; or with as many slabs as the scene asks for.
+// For "filter": "auto", in a context whose texture units have weights worth using, the same is done
+// with such weights. The search then starts from the number of slabs that exact scalars need. Where
+// the scene gives the number of slabs, only that number is tried.
 SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
                          const Facts& facts, const Capabilities& capabilities);
 

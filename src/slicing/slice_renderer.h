@@ -9,10 +9,10 @@
 
 namespace lamina {
 
-// Draws a volume as the plan says with what the capabilities are of: the native engine, or the
-// current OpenGL context, which must outlive it, as must the volume.
-// `before`: one of the same volume and capabilities, whose copy of the volume is taken over where
-// it serves, or null.
+// Makes a renderer that draws a volume as the plan says. The capabilities decide whether it is the
+// native engine or OpenGL in the current context. The context and the volume must outlive the
+// renderer. `before`: a renderer of the same volume and capabilities, or null. Its copy of the
+// volume is taken over where it serves.
 std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,

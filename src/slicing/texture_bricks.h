@@ -12,12 +12,12 @@
 
 namespace lamina {
 
-// The brick's part of the volume's box: its samples, and at the volume's own border what lies
-// beyond them.
+// The box of index space that a brick draws: that of its samples and, at the volume's border, what
+// lies beyond them.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
 
-// Of a row of a brick along x: places begin .. end - 1 hold the volume's own samples, from number
-// `first` on; those beyond repeat the nearest of these.
+// A row of a brick along x. Places begin .. end - 1 hold the volume's own samples, from number
+// `first` on. Other places repeat the nearest of these.
 struct BrickRow {
     std::size_t first;
     std::int64_t begin, end;
@@ -30,8 +30,8 @@ struct BrickRow {
 };
 BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z);
 
-// Sets the numbers of the bricks of plan.bricks, so that along every ray they come in the plan's
-// order. Takes memory only where `numbers` does not yet hold so many.
+// Sorts the indices of `bricks` so that along every ray the bricks come in the plan's order. It
+// takes memory only where `numbers` is not yet large enough.
 void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
                           const View& view, Order order, std::vector<std::size_t>& numbers);
 

@@ -14,18 +14,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Slab i of a block is slab first_slab + i; those `wanted` are computed run by run, slabs from ..
-// end - 1 at a time. A vector a slab.
+// The values of a block, one vector for each slab. Slab i of a block is slab first_slab + i of the
+// view. The slabs that are `wanted` are computed run by run; a run is from .. end - 1.
 struct SlabBlock {
     static constexpr std::size_t size = tile_block_slabs * most_lanes;
-    alignas(64) float edge_scalars[size + most_lanes];  // of pre-integration
-    alignas(64) float scalars[size];                    // in the middle
-    alignas(64) float lengths[size];                    // world units
-    alignas(64) float depths[size];                     // optical
-    alignas(64) float colors[3][size];                  // not where the plan has a single one
-    alignas(64) float edges[size + most_lanes];         // from the block's front on
+    // At the boundaries of slabs, for pre-integration.
+    alignas(64) float edge_scalars[size + most_lanes];
+    alignas(64) float scalars[size];             // in the middles of slabs
+    alignas(64) float lengths[size];             // world units
+    alignas(64) float depths[size];              // optical depths
+    alignas(64) float colors[3][size];           // not used where the plan has a single colour
+    alignas(64) float edges[size + most_lanes];  // depths of boundaries from the block's front on
     alignas(64) float middles[size];
-    // Of codes, which are computed in double precision: optical depths.
+    // Optical depths of codes, which are computed in double precision.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
     BlockMask wanted;

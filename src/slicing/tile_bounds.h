@@ -8,15 +8,15 @@
 
 namespace lamina {
 
-// Where the rays of a square of pixels run: between two straight lines on each axis.
+// Bounds on the rays of a square of pixels: on each axis they run between two straight lines.
 class TileBounds {
   public:
     TileBounds() = default;
-    // `column`, `row`: of the first of edge x edge pixels.
+    // `column`, `row`: the first of edge x edge pixels.
     TileBounds(const TileRays& rays, const TileBrickView& brick, int column, int row, int edge);
 
-    // Calls found(first, end) for runs of slabs among first .. end - 1, nearest first: in no other
-    // does a ray come near an occupied one of the bricks.
+    // Calls found(first, end) for runs of slabs among first .. end - 1, nearest first. In slabs
+    // outside these runs no ray comes near an occupied brick.
     template <class Found>
     void for_each_shown(const OccupiedBricks& bricks, const TileRays& rays, int first, int end,
                         const Found& found) const {
@@ -27,7 +27,7 @@ class TileBounds {
         }
     }
 
-    // Of the ray in the middle, in the volume.
+    // The point of the middle ray at a depth, in the volume's index space.
     glm::dvec3 middle_at(double depth) const { return middle_ + depth * middle_change_; }
 
   private:
@@ -39,9 +39,11 @@ class TileBounds {
                          int end) const;
     bool shows(const OccupiedBricks& bricks, const TileRays& rays, int first, int end) const;
 
-    // Index space of the volume, by depth from the nearest slab's front on.
+    // The middle ray in the volume's index space, as a linear function of depth from the nearest
+    // slab's front on.
     glm::dvec3 middle_{0}, middle_change_{0};
-    glm::dvec3 reach_{0}, reach_change_{0};  // from the middle, with what points may be wrong by
+    // Largest distance from the middle ray, including the error of points.
+    glm::dvec3 reach_{0}, reach_change_{0};
 };
 
 }  // namespace lamina

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments in double precision, for codes of n bits: the same numbers as the shaders', so that the
-// codes are the same.
+// Segments in double precision, for codes of n bits. They are computed like the shaders', so that
+// the codes are the same.
 #if defined(LAMINA_SLICING_TILE_PRECISE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_PRECISE_INL_H_
 #undef LAMINA_SLICING_TILE_PRECISE_INL_H_
@@ -28,7 +28,7 @@ HWY_INLINE void store_doubles(const TwoDoubles& v, double* to) {
     hn::Store(v.high, d, to + hn::Lanes(d));
 }
 
-// Depth of the boundary in front of a slab, inside the box.
+// The depth of the boundary in front of a slab, clamped to the box.
 HWY_INLINE TwoDoubles boundary(const TileRays& frame, const PacketRays& rays, int slab) {
     const auto depth = hn::Set(DoubleTag(), slab * frame.slab_thickness);
     const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
@@ -47,7 +47,8 @@ HWY_INLINE Points precise_point(const PacketRays& rays, const TwoDoubles& depth)
     return {point[0], point[1], point[2]};
 }
 
-// World lengths, into precise_depths and rounded; the number of segments that have one.
+// Writes world lengths to precise_depths, and rounded ones to lengths. Returns the number of
+// segments that have a length.
 HWY_INLINE std::int64_t set_precise_lengths(const TileRays& frame, const PacketRays& rays,
                                             SlabBlock& block) {
     const FloatTag d;
@@ -123,7 +124,7 @@ HWY_INLINE void classify_precisely(const TileTransfer& transfer, bool colored, b
     }
 }
 
-// As set_run, with precise depths.
+// Does what set_run does, with optical depths in double precision.
 inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView& brick,
                                     const PacketRays& rays, bool colored, SlabBlock& block) {
     const FloatTag d;
@@ -157,7 +158,7 @@ inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView&
     return segments;
 }
 
-// As set_segments, with precise depths.
+// Does what set_segments does, with optical depths in double precision.
 inline std::int64_t set_precise_segments(const TileSlabs& slabs, const TileBrickView& brick,
                                          const PacketRays& rays, bool colored, SlabBlock& block) {
     std::int64_t segments = 0;

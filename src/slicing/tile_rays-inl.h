@@ -25,7 +25,7 @@ HWY_INLINE TwoDoubles all(double value) {
     return {hn::Set(DoubleTag(), value), hn::Set(DoubleTag(), value)};
 }
 
-// Depths between which a ray is in a box; enter > leave where it never is.
+// The depths between which a ray is in a box; enter > leave where it misses the box.
 struct DepthSpan {
     TwoDoubles enter, leave;
 };
@@ -33,10 +33,10 @@ struct DepthSpan {
 struct PacketRays {
     TwoDoubles origin[3], direction[3];
     TwoDoubles length_per_depth;  // world units
-    DepthSpan box, drawn;         // of the brick, in pixels of the image
+    DepthSpan box, drawn;         // boxes of the brick, for pixels of the image
     TwoDoubles enter, leave;      // enter = leave where the ray misses the box or the slabs
     Floats direction_float[3], length_float;
-    int first_slab, end_slab;  // that may show something; none: first >= end
+    int first_slab, end_slab;  // slabs that may show something; first >= end where there are none
 };
 
 HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSpan& span) {
@@ -58,7 +58,8 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSp
     }
 }
 
-// Smallest enter and largest leave of the lanes where the ray hits; false where none does.
+// The smallest enter and the largest leave of the lanes whose rays hit. Returns false where no ray
+// does.
 HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     const DoubleTag d;
     const auto far = hn::Set(d, 1e300);
@@ -75,7 +76,7 @@ HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     return last > first;
 }
 
-// Of the pixels that follow (column, row) in a tile's order, through one brick.
+// The rays of the pixels from (column, row) on, in the order of a tile, through one brick.
 HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& brick, int column,
                                   int row) {
     alignas(64) static constexpr double columns[most_lanes] = {0, 1, 2, 3, 0, 1, 2, 3,
@@ -125,7 +126,7 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     return rays;
 }
 
-// Clips to slabs first .. end - 1. Slabs that lie wholly beyond the box that is drawn are not
+// Clips the rays to slabs first .. end - 1. Slabs that lie wholly outside the drawn box are not
 // needed.
 HWY_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& rays) {
     const DoubleTag d;
@@ -148,14 +149,14 @@ HWY_INLINE void set_span(const TileRays& frame, int first, int end, PacketRays& 
     rays.end_slab = std::min(end, static_cast<int>(farthest / frame.slab_thickness) + 2);
 }
 
-// Pixels that go through the volume side by side, so that what they fetch stays in the cache: a
-// square of 2 x 2 blocks.
+// A group of pixels that go through the volume together, so that what they fetch stays in the
+// cache: a square of 2 x 2 blocks.
 constexpr std::size_t group_blocks = 4;
 constexpr std::size_t block_packets = most_lanes / hn::MaxLanes(FloatTag());
 constexpr std::size_t group_packets = group_blocks * block_packets;
 constexpr std::size_t tile_groups = TileGrid::pixels / (group_blocks * most_lanes);
 
-// Where a tile keeps the first pixel of one of a group's packets.
+// The place in a tile of the first pixel of a packet of a group.
 constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
     constexpr std::size_t edge = 2 * TileGrid::block, per_row = TileGrid::edge / edge;
     const std::size_t pixel = packet * hn::MaxLanes(FloatTag());
@@ -167,14 +168,15 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
            pixel % most_lanes;
 }
 
-// The rays of a group through one brick. Packets outside the image want no slabs.
+// The rays of a group through one brick. Packets outside the image have no slabs.
 struct GroupRays {
     PacketRays packets[group_packets];
     TileBounds bounds;
-    // Of slabs from `origin` on: those that may show something, and those in which not all is
-    // constant. Asked for block by block they would be fewer, and take longer than they save.
+    // Sets of slabs, counted from `origin`: those that may show something, and those in which
+    // something is not constant. Finding these sets block by block would make them smaller, but
+    // would take longer than it saves.
     SlabMask shown, varied;
-    int origin, first_slab, end_slab;  // of all packets
+    int origin, first_slab, end_slab;  // slabs of all packets together
 
     HWY_INLINE void set_pixels(const TileRays& frame, const TileBrickView& brick,
                                const TileGrid::Tile& area, std::size_t group) {
@@ -187,7 +189,7 @@ struct GroupRays {
         }
     }
 
-    // Of slabs first .. end - 1.
+    // Finds the sets for slabs first .. end - 1.
     HWY_INLINE void set_slabs(const TileSlabs& slabs, int first, int end) {
         origin = first;
         first_slab = end;
@@ -208,7 +210,8 @@ struct GroupRays {
                               [&](int first, int end) { mask.set(first - origin, end - origin); });
     }
 
-    // The slabs of block `number` from `origin` on that a packet wants and that may show something.
+    // The slabs of block `number`, counted from `origin`, that a packet crosses and that may show
+    // something.
     BlockMask wanted(const TileSlabs& slabs, std::size_t packet, int number) const {
         const int begin = origin + number * tile_block_slabs;
         const PacketRays& rays = packets[packet];
@@ -218,12 +221,13 @@ struct GroupRays {
         return all & shown.block(number);
     }
 
-    // Of these, the ones that a packet takes in one step with those beside them.
+    // Those of the `wanted` slabs that are constant, which a packet crosses in one step together
+    // with their neighbours.
     BlockMask constant(const TileSlabs& slabs, int number, BlockMask wanted) const {
         return slabs.constant == nullptr ? 0 : wanted & ~varied.block(number);
     }
 
-    // What a slab that is constant has.
+    // The optical properties of a constant slab.
     const OpticalProperties& constant_optics(const TileSlabs& slabs, int slab) const {
         const double middle = (slab + 0.5) * slabs.rays.slab_thickness;
         const ConstantBricks& constant = *slabs.constant;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block's slabs, pre-integrated: vector form of how shaders/slicing/segment.glsl uses the table.
+// Pre-integration of a block's slabs: vector form of how shaders/slicing/segment.glsl uses the
+// table.
 #if defined(LAMINA_SLICING_TILE_RUNS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_RUNS_INL_H_
 #undef LAMINA_SLICING_TILE_RUNS_INL_H_
@@ -15,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// The scalars of a segment, normalised; 0 with length 0 where one is no number.
+// The normalised scalars of a segment. Where one of them is NaN, scalars and length are 0.
 struct RunScalars {
     Floats front, middle, back, length;
 };
@@ -32,7 +33,8 @@ HWY_INLINE RunScalars run_scalars(const SlabBlock& block, int i, bool nan_transp
     return run;
 }
 
-// Makes it straight: moved so that its mean is that of the parabola through the three scalars.
+// Makes the scalar linear along the segment: both ends are moved so that its mean is the mean of
+// the parabola through the three scalars.
 HWY_INLINE void straighten(RunScalars& run) {
     const FloatTag d;
     const Floats mean = hn::Mul(hn::Set(d, 0.5f), hn::Add(run.front, run.back));
@@ -41,7 +43,8 @@ HWY_INLINE void straighten(RunScalars& run) {
     run.back = clamp01(d, hn::Add(run.back, bend));
 }
 
-// Where the transfer function is one piece: in closed form, as shaders/slicing/segment.glsl.
+// Integrates in closed form where the transfer function is one linear piece, as
+// shaders/slicing/segment.glsl does.
 HWY_INLINE RunSum integrate_linear(const TileTransfer& transfer, bool colored,
                                    const RunScalars& run) {
     constexpr Lookup one = Lookup::one;
@@ -72,8 +75,9 @@ HWY_INLINE void store_run(const RunSum& run, bool colored, int slab, SlabBlock& 
         hn::Store(run.color[channel], d, block.colors[channel] + at(slab));
 }
 
-// By the table, in stages of a few slabs, so that many entries are looked up at a time. What shows
-// nothing between the least and the largest of its three samples shows nothing.
+// Integrates by the table, in stages of a few slabs, so that many entries are looked up at a time.
+// A segment shows nothing where the transfer function shows nothing between the least and the
+// largest of its three scalars.
 template <Lookup kind>
 HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, bool nan_transparent,
                                    SlabBlock& block) {
@@ -124,7 +128,7 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
     }
 }
 
-// The whole block.
+// Integrates the whole block.
 template <Lookup kind>
 HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
                                SlabBlock& block) {

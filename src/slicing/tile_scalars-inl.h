@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scalar at points of a brick, as shaders/volume/scalar.glsl: trilinear in float.
+// The scalar at points of a brick: trilinear interpolation in float, as in
+// shaders/volume/scalar.glsl.
 #if defined(LAMINA_SLICING_TILE_SCALARS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_SCALARS_INL_H_
 #undef LAMINA_SLICING_TILE_SCALARS_INL_H_
@@ -19,8 +20,8 @@ struct Points {
     Floats x, y, z;
 };
 
-// The corners of a cell: at its lower and its upper x, each at (y, z), (y + 1, z), (y, z + 1),
-// (y + 1, z + 1).
+// The samples at the corners of a cell, at its lower and its upper x. In each array the order is
+// (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
 struct Corners {
     Floats lower[4], upper[4];
 };
@@ -45,7 +46,7 @@ HWY_INLINE Corners unpack_quads(Words near, Words far) {
     return corners;
 }
 
-// Of the other layouts.
+// Fetches the corners for all layouts except quads.
 template <TileLayout layout>
 HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     Corners corners;
@@ -59,8 +60,8 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
             corners.upper[i] = hn::GatherIndex(FloatTag(), from + next, index);
         }
     } else {
-        // 32 bits hold a sample and the next along x. What begins too near the memory's end is
-        // read a little before, and shifted.
+        // A word of 32 bits holds a sample and the next one along x. Words that would reach beyond
+        // the memory's end are read a little earlier and shifted.
         constexpr int size = layout == TileLayout::bytes ? 1 : 2;
         const auto* const words = static_cast<const std::uint32_t*>(brick.samples);
         for (int i = 0; i < 4; ++i) {
@@ -84,7 +85,7 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     return corners;
 }
 
-// A weight of 8 bits, as texture units have (docs/numerics.md, section 2).
+// An interpolation weight rounded to 8 bits, as in texture units (docs/numerics.md, section 2).
 HWY_INLINE Floats hardware_weight(Floats share) {
     const FloatTag d;
     return hn::Mul(hn::Round(hn::Mul(share, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256));
@@ -96,13 +97,13 @@ HWY_INLINE Floats interpolate(const Corners& corners, Floats x, Floats y, Floats
     return mix(mix(along_x[0], along_x[1], y), mix(along_x[2], along_x[3], y), z);
 }
 
-// How a loop over points treats them. inside: they are known to lie between the first and the last
-// sample. exact: codes become what textures give before they are interpolated, so that the scalars
-// are those of the shaders bit for bit.
+// How a loop treats its points. inside: they are known to lie between the first and the last
+// sample. anywhere: they are clamped. exact: samples become what textures return before they are
+// interpolated, so that the scalars equal those of the shaders bit for bit.
 enum class PointKind { inside, anywhere, exact };
 
 struct Cell {
-    Ints index;  // of its lowest corner
+    Ints index;  // index of its lowest corner
     Floats share[3];
 };
 
@@ -145,7 +146,7 @@ HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Float
     return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
 }
 
-// Word by word: faster than gathers of the instruction set.
+// Fetches word by word, which is faster than gathers of the instruction set.
 inline HWY_NOINLINE void fetch_words(const std::uint32_t* near, const std::uint32_t* far,
                                      const std::int32_t* indices, std::size_t count,
                                      std::uint32_t* near_words, std::uint32_t* far_words) {
@@ -156,8 +157,9 @@ inline HWY_NOINLINE void fetch_words(const std::uint32_t* near, const std::uint3
     }
 }
 
-// Quads in three stages of half a block: where, words, scalars. Words of one pixel in each row and
-// column are on their way from farther caches meanwhile; its neighbours' are mostly beside it.
+// Samples quads in three stages of half a block: find indices, fetch words, interpolate. During the
+// first stage the words of one pixel in each row and column are prefetched; the words of its
+// neighbours mostly lie beside them.
 template <PointKind kind, class PointAt>
 HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, int end,
                              const PointAt& point_at, float* scalars) {
@@ -202,7 +204,7 @@ HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, i
     }
 }
 
-// Scalars at point_at(i), i = first .. end - 1, a vector each.
+// Computes the scalars at point_at(i) for i = first .. end - 1, a vector each.
 template <PointKind kind, class PointAt>
 HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
                               const PointAt& point_at, float* scalars) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The segments of a block of slabs along the rays of a vector of pixels: colour and optical depth,
-// as shaders/slicing/segment.glsl, in stages over the whole block, so that many slabs are under way
-// at a time.
+// as in shaders/slicing/segment.glsl. Each stage is done for the whole block, so that many slabs
+// are computed at a time.
 #if defined(LAMINA_SLICING_TILE_SEGMENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_SEGMENTS_INL_H_
 #undef LAMINA_SLICING_TILE_SEGMENTS_INL_H_
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Rays relative to the front of a block.
+// Rays with depths relative to the front of a block.
 struct BlockRays {
     Floats base[3];
     Floats enter, leave;
@@ -46,7 +46,7 @@ HWY_INLINE Points point_at(const BlockRays& block, const PacketRays& rays, Float
             mul_add(depth, rays.direction_float[2], block.base[2])};
 }
 
-// Whether all lanes are inside the box throughout the block's slabs, and between samples.
+// Whether all rays are, throughout the block's slabs, inside the box and between samples.
 HWY_INLINE bool is_inside(const TileRays& frame, const TileBrick& brick, const SlabBlock& block,
                           const BlockRays& rays, const PacketRays& packet) {
     const FloatTag d;
@@ -65,7 +65,7 @@ HWY_INLINE bool is_inside(const TileRays& frame, const TileBrick& brick, const S
     return hn::AllTrue(d, inside);
 }
 
-// Lengths, and for rays that leave the box or the slabs depths; the number of segments.
+// Sets lengths and, where rays leave the box or the slabs, depths. Returns the number of segments.
 HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays,
                                     Floats length_per_depth, bool inside, SlabBlock& block) {
     const FloatTag d;
@@ -96,7 +96,7 @@ HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays
     return segments;
 }
 
-// Scalars in the middles, and where the plan asks for runs at the edges.
+// Sets the scalars in the middles of slabs and, where the plan pre-integrates, at their boundaries.
 HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
                             const PacketRays& packet, const BlockRays& rays, bool inside,
                             SlabBlock& block) {
@@ -161,7 +161,8 @@ HWY_INLINE void set_constant(const TileSlabs& slabs, SlabBlock& block) {
     }
 }
 
-// Depths and colours of slabs from .. end - 1; returns how many segments have a length.
+// Sets optical depths and colours of slabs from .. end - 1. Returns how many segments have a
+// length.
 inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
                             const PacketRays& packet, bool colored, SlabBlock& block) {
     const SlicePlan& plan = *slabs.plan;
@@ -186,7 +187,8 @@ inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
     return segments;
 }
 
-// A run of slabs in a constant region becomes its first one, as deep as all.
+// Handles a run of slabs in a constant region: its first slab gets the optical depth of all, and
+// the others are no longer wanted.
 HWY_INLINE void set_constant_run(const TileSlabs& slabs, const OpticalProperties& optics,
                                  const PacketRays& packet, bool colored, int first, int end,
                                  SlabBlock& block) {
@@ -206,7 +208,7 @@ HWY_INLINE void set_constant_run(const TileSlabs& slabs, const OpticalProperties
     }
 }
 
-// Fills the depths and colours of the slabs that are wanted; returns how many segments have a
+// Sets optical depths and colours of the slabs that are wanted. Returns how many segments have a
 // length.
 inline std::int64_t set_segments(const TileSlabs& slabs, const TileBrickView& brick,
                                  const PacketRays& packet, bool colored, SlabBlock& block) {

@@ -8,12 +8,12 @@
 
 namespace lamina {
 
-// What the slabs' samples are made of: the volume, the transfer function and its tables, and the
+// The data that slabs are computed from: the volume, the transfer function and its tables, and the
 // rays of a view.
 class TileSlabSource {
   public:
-    // `plan` must outlive it. The transfer function is in its units, as views are; facts are the
-    // world's. `largest_copy`: see TileVolume. `ready`: volume() of another
+    // `plan` must outlive the source. The transfer function is in the plan's units, and so are
+    // views; facts are in world units. `largest_copy`: see TileVolume. `ready`: volume() of another
     // source, which is taken over where it serves.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                    const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
@@ -21,7 +21,7 @@ class TileSlabSource {
     TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
     TileSlabSource& operator=(const TileSlabSource&) = delete;
 
-    // After a change of the plan in what belongs to a view.
+    // Must be called after the plan changed in what belongs to a view.
     void take_plan() { slabs_.occupied = plan_.occupied_only ? &occupied_ : nullptr; }
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
@@ -43,7 +43,7 @@ class TileSlabSource {
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
     TileSlabs slabs_;
-    std::vector<std::size_t> order_;  // of the bricks
+    std::vector<std::size_t> order_;  // order of the bricks
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

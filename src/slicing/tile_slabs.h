@@ -7,50 +7,53 @@
 #include <cstdint>
 #include <vector>
 
+#include "executors/tile_transfer.h"
 #include "facts/facts.h"
 #include "plan/plan.h"
 #include "slicing/slab_polygons.h"
-#include "executors/tile_transfer.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {
 
-// Slabs are computed in blocks of so many, each with float coordinates relative to its front.
+// Slabs are computed in blocks of this many. The coordinates of a block are floats relative to its
+// front.
 inline constexpr int tile_block_slabs = 32;
 
-// Where viewing rays run: the uniforms of shaders/slicing/ray.glsl. Index space of a brick, depth
-// from the nearest slab's front on.
+// The viewing rays: the uniforms of shaders/slicing/ray.glsl. Points are in the index space of a
+// brick, and depth counts from the nearest slab's front.
 struct TileRays {
-    glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right, downwards
+    glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right and downwards
     glm::dvec3 direction_middle{0}, direction_column{0}, direction_row{0};
     double middle_column = 0, middle_row = 0;  // of the image, in pixels
     double pixel_size = 0;                     // at depth 1; 0 where rays are parallel
     double slab_thickness = 0;
-    int tested_slabs = 1;  // so many at a time are asked whether they show something
-    // Boundaries of a block's slabs and the middles between them, from the block's front on.
+    int tested_slabs = 1;  // number of slabs that are tested together for showing something
+    // Depths of the boundaries of a block's slabs and of the middles between them, from the block's
+    // front on.
     std::array<float, tile_block_slabs + 1> edges{};
     std::array<float, tile_block_slabs> middles{};
 };
 
 struct TileBrickView {
     TileBrick brick;
-    glm::dvec3 origin_middle{0};  // of the ray through the image's middle
+    glm::dvec3 origin_middle{0};  // origin of the ray through the image's middle
     IndexBox box, drawn;          // in the brick's index space
-    glm::dvec3 first{0};          // sample of the volume
-    double margin = 0;            // points may be wrong by so many voxels, in float
+    glm::dvec3 first{0};          // the volume's sample at the brick's origin
+    double margin = 0;            // largest error of a point in float, in voxels
 };
 
-// Everything that fragments of slabs depend on.
+// All that the segments of slabs depend on.
 struct TileSlabs {
     const SlicePlan* plan = nullptr;
     const TileTransfer* transfer = nullptr;    // null where no scalar is fetched
     const OccupiedBricks* occupied = nullptr;  // null where all slabs are evaluated
-    const ConstantBricks* constant = nullptr;  // null where none of them is taken in one step
+    const ConstantBricks* constant = nullptr;  // null where constant bricks are not used
     TileRays rays;
-    std::vector<TileBrickView> bricks;  // that show something, in the plan's order
+    std::vector<TileBrickView> bricks;  // bricks that show something, in the plan's order
     std::array<float, 3> single_color{};
     double constant_extinction = 0;
-    std::vector<std::uint32_t> alpha_ranks, color_ranks;  // of dithering, by slab modulo period
+    // Ranks of dithering, by slab modulo period.
+    std::vector<std::uint32_t> alpha_ranks, color_ranks;
 };
 
 }  // namespace lamina

@@ -15,20 +15,22 @@
 
 namespace lamina {
 
-// Draws a volume as the plan says, with the native engine: GlSliceRenderer's twin.
+// Draws a volume as the plan says, with the native engine. GlSliceRenderer does the same with
+// OpenGL.
 class TileSliceRenderer : public FrameRenderer {
   public:
     // Prepares the volume and the tables. Copies of the volume that only save time take at most
-    // `largest_copy` bytes. `ready`: volume() of another renderer, taken over where it serves.
+    // `largest_copy` bytes. `ready`: volume() of another renderer, which is taken over where it
+    // serves.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                       const Facts& facts, const SlicePlan& plan, int width, int height,
                       std::int64_t largest_copy = TileVolume::largest_copy,
                       std::shared_ptr<const TileVolume> ready = nullptr);
-    TileSliceRenderer(const TileSliceRenderer&) = delete;  // its parts refer to its plan
+    TileSliceRenderer(const TileSliceRenderer&) = delete;  // its members refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;
 
     bool take(const Plan& plan) override;
-    // Steps are tiles. Takes no memory after the first frame.
+    // Draws a frame; its steps are tiles. It takes no memory after the first frame.
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override { return source_ ? target_.grid().count() : 0; }
     using FrameRenderer::read;
@@ -43,7 +45,7 @@ class TileSliceRenderer : public FrameRenderer {
     double geometry_ms() const { return geometry_ms_; }  // of the last frame
     double draw_ms() const { return draw_ms_; }
     std::int64_t samples() const { return samples_; }  // segments of rays in the last frame
-    std::int64_t byte_count() const override;          // of host memory, beside the volume's
+    std::int64_t byte_count() const override;  // host memory that it takes, without the volume
 
   private:
     std::int64_t draw_tile(int number);
@@ -52,7 +54,7 @@ class TileSliceRenderer : public FrameRenderer {
     Grid grid_;
     TileImage target_;
     TargetBlend blend_;
-    std::optional<TileSlabSource> source_;  // none where nothing is visible
+    std::optional<TileSlabSource> source_;  // empty where nothing is visible
     std::optional<TreeShape> shape_;
     std::optional<TileFixedTree> fixed_tree_;
     std::atomic<std::int64_t> samples_{0};

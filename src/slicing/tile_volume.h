@@ -11,43 +11,43 @@
 
 namespace lamina {
 
-// How a brick's samples lie in memory.
+// How the samples of a brick are stored.
 enum class TileLayout {
-    quads,   // uint8: at each sample its neighbours (x, y), (x+1, y), (x, y+1), (x+1, y+1) in the
-             // four bytes of a word, lowest first: one gather fetches them
-    bytes,   // uint8, as in the volume
-    words,   // int16, uint16, as in the volume
+    quads,  // uint8; at each sample a word holds (x, y), (x+1, y), (x, y+1), (x+1, y+1) in its four
+            // bytes, lowest first, so that one gather fetches them
+    bytes,  // uint8 as in the volume
+    words,  // int16 or uint16 as in the volume
     floats,  // normalised to the volume's range; NaN where not finite
 };
 
-// A brick as vectors address it: with 32-bit indices, x fastest.
+// A brick in the form that vectors address: with 32-bit indices, x fastest.
 struct TileBrick {
     TileLayout layout = TileLayout::quads;
     const void* samples = nullptr;
-    std::int32_t row = 0, slice = 0;  // elements to the next y, z; 0 on an axis with one sample
-    std::int32_t last_word = 0;       // bytes, words: where the last whole 32 bits begin, in bytes
-    std::uint32_t flip = 0;           // bits to turn over: int16 becomes uint16 from 0 on
-    std::array<float, 3> last_sample{};  // size less one
-    // Normalised scalar = interpolated code * scale + offset, as textures see it: of codes times
-    // `unit`, * unit_scale + offset.
+    std::int32_t row = 0, slice = 0;  // elements to the next y and z; 0 on an axis with one sample
+    std::int32_t last_word = 0;  // for bytes and words: offset of the last whole 32 bits, in bytes
+    std::uint32_t flip = 0;      // bits to invert, which turn int16 into uint16 from 0 on
+    std::array<float, 3> last_sample{};  // size minus one
+    // Normalised scalar = interpolated code * scale + offset. Textures interpolate code * unit
+    // instead; then it is interpolated value * unit_scale + offset.
     float scale = 1, offset = 0, unit = 1, unit_scale = 1;
 };
 
-// The bricks of a plan. They may refer to the volume's own samples, which are kept.
+// The bricks of a plan. They may refer to the volume's own samples, which are kept alive.
 class TileVolume {
   public:
-    // Copies of more than this in all are not made where they only save time.
+    // Copies that only save time are not made where they take more bytes than this in all.
     static constexpr std::int64_t largest_copy = std::int64_t{1} << 31;
 
-    // `range`: becomes [0, 1], lo < hi.
+    // `range`: the scalars that become [0, 1]; lo < hi.
     TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
                std::int64_t most_bytes);
 
-    // Whether it is what the constructor would make.
+    // Whether it equals what the constructor would make from these arguments.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
-    std::int64_t byte_count() const;  // beyond the volume's own
+    std::int64_t byte_count() const;  // memory beside the volume's own
 
   private:
     void copy_brick(const TextureBrick& part, TileBrick& brick);

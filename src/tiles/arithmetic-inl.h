@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions of vectors of floats. Like everything of this room they round every product
-// and every sum, so that all instruction sets compute the same numbers.
+// Elementary functions of vectors of floats. As everywhere in this room, every product and every
+// sum is rounded by itself, so that all instruction sets compute the same numbers.
 #if defined(LAMINA_TILES_ARITHMETIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_ARITHMETIC_INL_H_
 #undef LAMINA_TILES_ARITHMETIC_INL_H_
@@ -47,25 +47,27 @@ HWY_INLINE hn::Vec<D> power_of_two(D d, hn::Vec<hn::RebindToSigned<D>> n) {
     return hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(n, hn::Set(di, 127))));
 }
 
-// exp(x), relative to 2e-7 where |x| < 87; 1e-38 below, 2e38 above.
+// exp(x) with a relative error of 2e-7 where |x| < 87; 1e-38 below and 2e38 above.
 template <class D>
 HWY_INLINE hn::Vec<D> exp_of(D d, hn::Vec<D> x) {
     const auto inside = hn::Min(hn::Max(x, hn::Set(d, -87.3f)), hn::Set(d, 88.3f));
     const auto n = hn::NearestInt(hn::Mul(inside, hn::Set(d, 1.44269504f)));
     const auto whole = hn::ConvertTo(d, n);
-    // log(2) in two parts, the first with few digits (Cody, Waite 1980).
+    // log(2) is split into two numbers, the first with few digits (Cody, Waite 1980).
     auto f = hn::Sub(inside, hn::Mul(whole, hn::Set(d, 0.693359375f)));
     f = hn::Sub(f, hn::Mul(whole, hn::Set(d, -2.12194440e-4f)));
-    // Of degree 6, its last five terms through (exp(f) - 1 - f) / f^2 at Chebyshev's nodes: to
-    // 1e-8.
+    // A polynomial of degree 6. Its last five terms interpolate (exp(f) - 1 - f) / f^2 at
+    // Chebyshev's nodes, to 1e-8.
     constexpr float series[] = {1.0f,          1.0f,           0.5f,          0.166665768f,
                                 0.0416665544f, 8.36320297e-3f, 1.39262135e-3f};
-    const auto half = hn::ShiftRight<1>(n);  // in two steps: 2^n itself may not be a normal number
+    // Applied in two steps, because 2^n itself may not be a normal number.
+    const auto half = hn::ShiftRight<1>(n);
     return hn::Mul(hn::Mul(polynomial(d, f, series), power_of_two(d, half)),
                    power_of_two(d, hn::Sub(n, half)));
 }
 
-// log(x) of x >= 1e-37, relative to 2e-7 but where x is near 1: absolute to 6e-8 there.
+// log(x) for x >= 1e-37, with a relative error of 2e-7, except near 1, where the absolute error is
+// 6e-8.
 template <class D>
 HWY_INLINE hn::Vec<D> log_of(D d, hn::Vec<D> x) {
     const hn::RebindToSigned<D> di;

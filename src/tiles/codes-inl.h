@@ -32,13 +32,13 @@ HWY_INLINE hn::Vec<D> code_nearest(D d, hn::Vec<D> scaled) {
     return hn::Floor(hn::Add(scaled, hn::Set(d, 0.5)));
 }
 
-// `code`, or the next one where `up`.
+// `code`, or the next code where `up`.
 template <class D>
 HWY_INLINE hn::Vec<D> step_up(D d, hn::Vec<D> code, hn::Mask<D> up) {
     return hn::Add(code, hn::IfThenElseZero(up, hn::Set(d, 1.0)));
 }
 
-// `random`: 32 random bits, as a number; for stochastic rounding only.
+// `random`: 32 random bits as a number, for stochastic rounding only.
 template <class D>
 HWY_INLINE hn::Vec<D> round_alpha(D d, AlphaRounding rounding,
                                   const ScaledValues<hn::Vec<D>>& scaled, hn::Vec<D> random) {

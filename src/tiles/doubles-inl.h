@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where floats are not enough: the numbers of a vector of floats as two vectors of doubles.
+// The numbers of a vector of floats as two vectors of doubles, where floats are not precise enough.
 #if defined(LAMINA_TILES_DOUBLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_DOUBLES_INL_H_
 #undef LAMINA_TILES_DOUBLES_INL_H_
@@ -27,14 +27,15 @@ HWY_INLINE Doubles<D> to_doubles(D, hn::Vec<D> v) {
     return {hn::PromoteTo(dd, hn::LowerHalf(half, v)), hn::PromoteTo(dd, hn::UpperHalf(half, v))};
 }
 
-// To the nearest float.
+// Rounds to the nearest float.
 template <class D>
 HWY_INLINE hn::Vec<D> to_floats(D d, const Doubles<D>& v) {
     const hn::Half<D> half;
     return hn::Combine(d, hn::DemoteTo(half, v.high), hn::DemoteTo(half, v.low));
 }
 
-// Unsigned whole numbers, exactly: by way of signed ones, from which there is an instruction.
+// Converts unsigned whole numbers exactly. It goes through signed ones, for which there is an
+// instruction.
 template <class D>
 HWY_INLINE Doubles<D> to_doubles_of_bits(D, hn::Vec<hn::RebindToUnsigned<D>> bits) {
     const typename Doubles<D>::Tag dd;
@@ -47,7 +48,7 @@ HWY_INLINE Doubles<D> to_doubles_of_bits(D, hn::Vec<hn::RebindToUnsigned<D>> bit
             hn::Add(hn::PromoteTo(dd, hn::UpperHalf(half, shifted)), back)};
 }
 
-// `f` of each half of one, two or three.
+// Applies `f` to each half of one, two or three numbers.
 template <class D, class F>
 HWY_INLINE Doubles<D> each_half(F f, const Doubles<D>& a) {
     return {f(a.low), f(a.high)};

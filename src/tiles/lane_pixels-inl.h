@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 static_assert(TileGrid::block == 4);
 
-// From the first pixel to each, as whole numbers.
+// The distance from the first pixel to each pixel, as whole numbers.
 template <class DU>
 HWY_INLINE hn::Vec<DU> lane_columns(DU d) {
     return hn::And(hn::Iota(d, 0), hn::Set(d, 3u));
@@ -30,7 +30,7 @@ HWY_INLINE hn::Vec<DU> lane_rows(DU d) {
     return hn::ShiftRight<2>(hn::Iota(d, 0));
 }
 
-// Of vectors whose first pixel is (column, row) of the picture, rows from the top.
+// The pixels of a vector whose first pixel is (column, row) of the picture, rows from the top.
 template <class DU>
 HWY_INLINE hn::Vec<DU> random_of_pixels(DU d, int column, int row, std::uint32_t sample,
                                         std::uint32_t seed) {

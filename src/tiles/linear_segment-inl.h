@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector form of shaders/optics/linear_segment.glsl: a segment on which colour and extinction are
-// linear. Opacity in closed form, colour by the weight of its front (optics/front_weights.h).
+// linear. Opacity has a closed form; colour needs the weight of the segment's front
+// (optics/front_weights.h).
 #if defined(LAMINA_TILES_LINEAR_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
 #undef LAMINA_TILES_LINEAR_SEGMENT_INL_H_
@@ -18,8 +19,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of optical depths up to faint_depth: opacity to 1.1e-7 of itself, the weight as
-// faint_front_weight().
+// For optical depths up to faint_depth. Opacity has a relative error of 1.1e-7, and the weight is
+// that of faint_front_weight().
 template <class D>
 HWY_INLINE hn::Vec<D> faint_opacity(D d, hn::Vec<D> depth) {
     return hn::Mul(depth,
@@ -39,7 +40,7 @@ HWY_INLINE hn::Vec<D> faint_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     return hn::Add(hn::Mul(p, of_p), hn::Mul(q, of_q));
 }
 
-// Of optical depths up to thin_depth.
+// For optical depths up to thin_depth.
 template <class D>
 HWY_INLINE hn::Vec<D> thin_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     const auto c0 =
@@ -51,7 +52,7 @@ HWY_INLINE hn::Vec<D> thin_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     return mul_add(p, mul_add(p, mul_add(p, mul_add(p, c4, c3), c2), c1), c0);
 }
 
-// `table`: FrontWeightTable's, nodes x nodes floats, the row of q after the row before.
+// `table`: the texels of FrontWeightTable, nodes x nodes floats, one row for each q.
 template <class D>
 HWY_INLINE hn::Vec<D> front_weight(D d, const float* table, int nodes, hn::Vec<D> p, hn::Vec<D> q) {
     const hn::RebindToSigned<D> di;
@@ -59,8 +60,8 @@ HWY_INLINE hn::Vec<D> front_weight(D d, const float* table, int nodes, hn::Vec<D
     const auto finite = hn::Set(d, 1e30f);
     p = hn::Min(p, finite);
     q = hn::Min(q, finite);
-    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) without a difference: faint segments keep their
-    // digits.
+    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), computed without a difference so that segments of
+    // small optical depth keep their digits.
     const auto root = hn::Sqrt(hn::Add(one, q));
     const auto x = hn::Mul(last, hn::Div(p, hn::Add(one, p)));
     const auto y = hn::Mul(last, hn::Div(hn::Div(q, root), hn::Add(one, root)));

@@ -24,13 +24,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr float inverse_e = static_cast<float>(1 / std::numbers::e);
 
-// log(1 / share) / e: of NodeCode::minimax.
+// log(1 / share) / e, for NodeCode::minimax.
 HWY_INLINE float log_part_of(float share) {
     return static_cast<float>(-std::log(static_cast<double>(share)) / std::numbers::e);
 }
 
-// -log(1 - value), 0 <= value < 1; below 1/4 by 2 artanh(value / (2 - value)), whose first omitted
-// term is 2e-8 of the result, because 1 - value loses what small values say.
+// -log(1 - value), 0 <= value < 1. Below 1/4 it is 2 artanh(value / (2 - value)), because 1 - value
+// loses digits of small values. The first omitted term is 2e-8 of the result.
 template <class D>
 HWY_INLINE hn::Vec<D> depth_from_opacity(D d, hn::Vec<D> value) {
     const auto z = hn::Div(value, hn::Sub(hn::Set(d, 2.0f), value));

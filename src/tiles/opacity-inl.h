@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Opacity of an optical depth >= 0, to 3e-7 of the result at every depth, infinity included; why
-// like this: see the shader.
+// The opacity of an optical depth >= 0, with a relative error of 3e-7 at every depth, infinity
+// included. The shader gives the reasons.
 template <class D>
 requires(sizeof(hn::TFromD<D>) == 4) HWY_INLINE hn::Vec<D> opacity_from_depth(D d,
                                                                               hn::Vec<D> depth) {
@@ -32,7 +32,7 @@ requires(sizeof(hn::TFromD<D>) == 4) HWY_INLINE hn::Vec<D> opacity_from_depth(D 
                    hn::Mul(power, hn::Mul(f, polynomial(d, f, slope))));
 }
 
-// In double precision, to 1e-13.
+// The same in double precision, to 1e-13.
 template <class D>
 requires(sizeof(hn::TFromD<D>) == 8) HWY_INLINE hn::Vec<D> opacity_from_depth(D d,
                                                                               hn::Vec<D> depth) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of compositing/over.h, bit for bit. Codes are whole numbers, in doubles for every
-// number of bits; in floats where max_float_over_bits and max_float_under_bits say so.
+// Vector form of compositing/over.h, bit for bit. Codes are whole numbers. They are doubles for
+// every number of bits, and may be floats up to max_float_over_bits and max_float_under_bits.
 #if defined(LAMINA_TILES_OVER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_OVER_INL_H_
 #undef LAMINA_TILES_OVER_INL_H_
@@ -16,10 +16,10 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What is rounded, up to M^2 + M / 2, is exact in 24 bits of a float for M < 2^12; its quotient by
-// M, below 2^12 and so rounded by less than 2^-12, cannot reach the whole number above, which is
-// at least 1 / M away. Fused UNDER has M^3 + M^2 / 2 and 1 / M^2: M < 2^8. Doubles hold the 49 bits
-// of M < 2^16, and round quotients by less than 2^-37.
+// The rounded sum, up to M^2 + M / 2, is exact in the 24 bits of a float for M < 2^12. Its quotient
+// by M is below 2^12 and so rounded by less than 2^-12. It cannot reach the next whole number,
+// which is at least 1 / M away. For fused UNDER the numbers are M^3 + M^2 / 2 and 1 / M^2, so M <
+// 2^8. Doubles hold the 49 bits of M < 2^16 and round quotients by less than 2^-37.
 inline constexpr int max_float_over_bits = 12;
 inline constexpr int max_float_under_bits = 8;
 

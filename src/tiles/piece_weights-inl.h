@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of shaders/optics/piece_weights.glsl, where the reasons are.
+// Vector form of shaders/optics/piece_weights.glsl, which gives the reasons.
 #if defined(LAMINA_TILES_PIECE_WEIGHTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_PIECE_WEIGHTS_INL_H_
 #undef LAMINA_TILES_PIECE_WEIGHTS_INL_H_
@@ -18,8 +18,9 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The weight of the front's colour on a piece with extinction * length = p at its front and q at
-// its back: nine-point Gauss-Legendre on its part of optical depth below 12.
+// The weight of the front's colour on a linear piece with extinction * length = p at its front and
+// q at its back. It is computed by nine-point Gauss-Legendre quadrature on the stretch of optical
+// depth below 12.
 template <class D>
 HWY_INLINE hn::Vec<D> piece_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     using V = hn::Vec<D>;
@@ -31,7 +32,7 @@ HWY_INLINE hn::Vec<D> piece_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
                                  0.130305348201468f,  0.0903240803474287f, 0.0406371941807872f};
     const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f), most_depth = hn::Set(d, 12.0f);
     const V depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
-    // Where the depth in front is most_depth, in units of depth.
+    // The place where the optical depth in front of it is most_depth, in units of depth.
     const V slope = hn::Div(p, depth), share = hn::Div(most_depth, depth);
     const V twice = hn::Add(share, share);
     const V square =

@@ -20,8 +20,8 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Coordinate of a length, given over that of layer 1: whole numbers are layers; not clamped to the
-// last one.
+// The layer coordinate of a length that is given in units of layer 1's length. Whole numbers are
+// layers. It is not clamped to the last layer.
 template <class D>
 HWY_INLINE hn::Vec<D> length_layer(D d, const SegmentTable& table, hn::Vec<D> v) {
     const hn::RebindToSigned<D> di;
@@ -37,22 +37,23 @@ HWY_INLINE hn::Vec<D> length_layer(D d, const SegmentTable& table, hn::Vec<D> v)
     return hn::Max(octaves, hn::Min(v, one));
 }
 
-// What a table says of some segments, before its scale; `color`: of coloured tables.
+// The table's entries for some segments, before they are multiplied by its scale. `color` is used
+// for coloured tables.
 template <class V>
 struct SegmentEntry {
     V color[3];
     V value;  // mean extinction or opacity
 };
 
-// Where in the table segments lie: their front and back nodes below and the layer below, as a
-// number of a texel, and how far beyond.
+// The positions of segments in the table: the number of the texel at the lower front node, back
+// node and layer, and the distances beyond them.
 template <class D>
 struct SegmentPlace {
     hn::Vec<hn::RebindToSigned<D>> texel;
     hn::Vec<D> front, back, layer;
 };
 
-// Scalars normalised so that the table covers [0, 1].
+// Scalars must be normalised so that the table covers [0, 1].
 template <class D>
 HWY_INLINE SegmentPlace<D> segment_place(D d, const SegmentTable& table, float inverse_first_length,
                                          hn::Vec<D> front, hn::Vec<D> back,
@@ -78,7 +79,7 @@ HWY_INLINE SegmentPlace<D> segment_place(D d, const SegmentTable& table, float i
             hn::Sub(x, hn::ConvertTo(d, column)), hn::Sub(y, hn::ConvertTo(d, row)), beyond};
 }
 
-// One number a texel.
+// For tables with one number a texel.
 template <class D>
 HWY_INLINE hn::Vec<D> plain_entry(D d, const SegmentTable& table, const SegmentPlace<D>& place) {
     const std::ptrdiff_t nodes = table.request.scalar_nodes;
@@ -93,7 +94,7 @@ HWY_INLINE hn::Vec<D> plain_entry(D d, const SegmentTable& table, const SegmentP
     return mix(below, layer_from(table.texels.data() + nodes * nodes), place.layer);
 }
 
-// Four numbers a texel: lane by lane, because they lie side by side.
+// For tables with four numbers a texel. It goes lane by lane, because these lie side by side.
 template <class D>
 HWY_INLINE SegmentEntry<hn::Vec<D>> colored_entry(D d, const SegmentTable& table,
                                                   const SegmentPlace<D>& place) {
@@ -128,8 +129,8 @@ HWY_INLINE SegmentEntry<hn::Vec<D>> colored_entry(D d, const SegmentTable& table
     return entry;
 }
 
-// Associated colour and opacity of segments on which the scalar runs straight from `front` to
-// `back`. `single_color`: of tables without colour.
+// Associated colour and opacity of segments on which the scalar is linear from `front` to `back`.
+// `single_color`: the colour for tables without colour.
 template <class D>
 HWY_INLINE SegmentEntry<hn::Vec<D>> integrate_segment(D d, const SegmentTable& table,
                                                       float inverse_first_length,
@@ -151,7 +152,7 @@ HWY_INLINE SegmentEntry<hn::Vec<D>> integrate_segment(D d, const SegmentTable& t
     const V opacity =
         opacities ? hn::Mul(entry.value, scale)
                   : opacity_from_depth(d, hn::Mul(entry.value, hn::Mul(scale, world_length)));
-    // Of a depth that is 0, emission is, too. The scale cancels.
+    // Where the optical depth is 0, so is the emission. The scale cancels.
     const V weight = opacities ? scale : hn::Div(opacity, hn::Max(entry.value, hn::Set(d, 1e-37f)));
     for (int channel = 0; channel < 3; ++channel) {
         entry.color[channel] = colored ? hn::Mul(entry.color[channel], weight)

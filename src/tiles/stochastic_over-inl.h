@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// `random`: 32 random bits, as a number.
+// `random`: 32 random bits as a number.
 template <class D>
 HWY_INLINE hn::Vec<D> over_stochastic(D d, hn::Vec<D> source, hn::Vec<D> alpha, hn::Vec<D> below,
                                       hn::Vec<D> random, double largest) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a target does with fragments: vectors of a tile's planes (tiles/tile_image.h) in, vectors of
-// them out. `d` is the descriptor of floats.
+// How a target composites fragments. Functions take and return vectors of a tile's planes
+// (tiles/tile_image.h). `d` is the descriptor of floats.
 #if defined(LAMINA_TILES_TARGET_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_TARGET_PIXELS_INL_H_
 #undef LAMINA_TILES_TARGET_PIXELS_INL_H_
@@ -27,14 +27,14 @@ struct Pixels {
     V red, green, blue, alpha;
 };
 
-// Associated colour and opacity.
+// The associated colour and the opacity of a vector of fragments or pixels.
 template <class V>
 struct Fragment {
     V red, green, blue, alpha;
 };
 
-// To half precision, towards zero, as llvmpipe stores floats: with its last place, which below
-// 2^-14 is 2^-24.
+// Rounds towards zero to half precision, as llvmpipe stores floats. Below 2^-14 the last place is
+// 2^-24.
 template <class D>
 HWY_INLINE hn::Vec<D> truncate_to_half(D d, hn::Vec<D> v) {
     const hn::RebindToUnsigned<D> du;
@@ -61,13 +61,14 @@ HWY_INLINE hn::Vec<D> multiply_codes(D d, int bits, hn::Vec<D> a, hn::Vec<D> b) 
     return hn::ConvertTo(d, hn::BitCast(di, code));
 }
 
-// A colour or opacity as the code nearest to it.
+// The code nearest to a colour or opacity.
 template <class D>
 HWY_INLINE hn::Vec<D> native_code(D d, float largest, hn::Vec<D> value) {
     return hn::Round(hn::Mul(clamp01(d, value), hn::Set(d, largest)));
 }
 
-// One channel of blend(). `kept`: what the source leaves of the pixel, or the pixel of the source.
+// One channel of blend(). `kept`: the share of the pixel that the source leaves visible or, front
+// to back, the share of the source that the pixel leaves visible.
 template <class D>
 HWY_INLINE void blend_channel(D d, const TargetBlend& target, hn::Vec<D> source, hn::Vec<D> kept,
                               hn::Vec<D>& there) {
@@ -82,9 +83,10 @@ HWY_INLINE void blend_channel(D d, const TargetBlend& target, hn::Vec<D> source,
     there = target.target == Target::float16 ? truncate_to_half(d, sum) : sum;
 }
 
-// What the blending unit of a float32, float16, fixed8 or fixed16 target does: source +
-// there (1 - source alpha), or front to back there + source (1 - there alpha). Fixed-point targets
-// round the fragment to codes first and the product again. All as llvmpipe does it.
+// Computes what the blending unit of a float32, float16, fixed8 or fixed16 target computes: source
+// + there (1 - source alpha), or front to back there + source (1 - there alpha). Fixed-point
+// targets round the fragment to codes first, and then the product. All rounding is that of
+// llvmpipe.
 template <class D>
 HWY_INLINE void blend(D d, const TargetBlend& target, const Fragment<hn::Vec<D>>& fragment,
                       Pixels<hn::Vec<D>>& there) {
@@ -103,7 +105,7 @@ HWY_INLINE void blend(D d, const TargetBlend& target, const Fragment<hn::Vec<D>>
     blend_channel(d, target, source.alpha, kept, there.alpha);
 }
 
-// Opacity alone.
+// The same for opacity alone.
 template <class D>
 HWY_INLINE void blend_opacity(D d, const TargetBlend& target, hn::Vec<D> opacity,
                               hn::Vec<D>& there) {
@@ -114,7 +116,7 @@ HWY_INLINE void blend_opacity(D d, const TargetBlend& target, hn::Vec<D> opacity
     blend_channel(d, target, source, kept, there);
 }
 
-// OVER or UNDER of one channel, in floats where they are enough.
+// OVER or UNDER of one channel, in floats where they are precise enough.
 template <class D>
 HWY_INLINE hn::Vec<D> composite_channel(D d, const TargetBlend& target, hn::Vec<D> color,
                                         hn::Vec<D> alpha, hn::Vec<D> there,
@@ -136,7 +138,7 @@ HWY_INLINE hn::Vec<D> composite_channel(D d, const TargetBlend& target, hn::Vec<
                                    one_channel(dd, c.high, a.high, t.high, ta.high)});
 }
 
-// Programmable blending of codes, as render.emulate says: colours not associated.
+// Programmable blending of codes, as render.emulate says. Colours are not associated.
 template <class D>
 HWY_INLINE void composite_codes(D d, const TargetBlend& target, const Pixels<hn::Vec<D>>& codes,
                                 Pixels<hn::Vec<D>>& there) {
@@ -154,7 +156,7 @@ HWY_INLINE void composite_opacity(D d, const TargetBlend& target, hn::Vec<D> alp
     there = composite_channel(d, target, opaque, alpha, there, there);
 }
 
-// Codes of opacities, rounded as render.emulate says. `random`: bits for stochastic rounding.
+// The codes of opacities, rounded as render.emulate says. `random`: bits for stochastic rounding.
 template <class D>
 HWY_INLINE hn::Vec<D> alpha_code(D d, const TargetBlend& target, const Doubles<D>& opacity,
                                  hn::Vec<hn::RebindToUnsigned<D>> random) {
@@ -167,7 +169,7 @@ HWY_INLINE hn::Vec<D> alpha_code(D d, const TargetBlend& target, const Doubles<D
     return to_floats(d, each_half(round, opacity, to_doubles_of_bits(d, random)));
 }
 
-// Codes of opacities or colours, 0..1, dithered along depth where the slab has the rank `rank`.
+// The codes of opacities or colours in 0..1, dithered along depth. `rank`: rank of the slab.
 template <class D>
 HWY_INLINE hn::Vec<D> dithered_code(D d, const TargetBlend& target, const Doubles<D>& value,
                                     const Dither& dither, std::uint32_t rank) {
@@ -180,7 +182,7 @@ HWY_INLINE hn::Vec<D> dithered_code(D d, const TargetBlend& target, const Double
     return to_floats(d, each_half(code, value));
 }
 
-// Codes of colours: the nearest.
+// The nearest codes of colours.
 template <class D>
 HWY_INLINE hn::Vec<D> color_code(D d, const TargetBlend& target, hn::Vec<D> color) {
     const typename Doubles<D>::Tag dd;
@@ -189,8 +191,8 @@ HWY_INLINE hn::Vec<D> color_code(D d, const TargetBlend& target, hn::Vec<D> colo
     return to_floats(d, each_half(code, to_doubles(d, clamp01(d, color))));
 }
 
-// OVER in real arithmetic on stored codes, the result rounded by chance: one random number for all
-// channels (compositing/stochastic_over.h).
+// OVER in real arithmetic on stored codes. The result is rounded at random, with one random number
+// for all channels (compositing/stochastic_over.h).
 template <class D>
 HWY_INLINE void composite_stochastic(D d, const TargetBlend& target,
                                      const Fragment<hn::Vec<D>>& fragment,

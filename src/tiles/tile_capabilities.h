@@ -5,7 +5,8 @@
 
 namespace lamina {
 
-// Of the native engine on this machine; the renderer is "cpu: AVX3".
+// The capabilities of the native engine on this machine. The renderer's name is, for example, "cpu:
+// AVX3".
 Capabilities tile_capabilities();
 
 }  // namespace lamina

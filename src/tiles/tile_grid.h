@@ -5,15 +5,16 @@
 
 namespace lamina {
 
-// A picture cut into squares that are drawn one after the other or at the same time, each by one
-// task. Rows run downwards from the picture's top.
+// A picture cut into squares (tiles). Each tile is drawn by one task, and tasks may run at the same
+// time. Rows run downwards from the picture's top.
 class TileGrid {
   public:
     static constexpr int edge = 32;  // pixels of a tile
-    static constexpr int block = 4;  // pixels of a block: vectors are whole blocks or rows of one
+    static constexpr int block = 4;  // pixels of a block; a vector is a whole block or rows of one
     static constexpr int pixels = edge * edge;
 
-    // The part of the picture that a tile covers; tiles at the right and at the bottom stick out.
+    // The pixels that a tile covers. Tiles at the right and lower edge may reach beyond the
+    // picture.
     struct Tile {
         int column, row;    // of its first pixel
         int width, height;  // inside the picture
@@ -35,13 +36,14 @@ class TileGrid {
         return {column, row, std::min(edge, width_ - column), std::min(edge, height_ - row)};
     }
 
-    // Where a tile keeps its pixel (column, row), both 0..edge-1: block by block, in a block row by
-    // row. So 4, 8 or 16 pixels that follow each other are 4 x 1, 4 x 2 or 4 x 4.
+    // The place at which a tile stores its pixel (column, row), both 0..edge-1. Blocks follow each
+    // other, and a block is stored row by row. So 4, 8 or 16 consecutive pixels are 4 x 1, 4 x 2 or
+    // 4 x 4 pixels of the picture.
     static constexpr int place(int column, int row) {
         const int number = row / block * (edge / block) + column / block;
         return number * block * block + row % block * block + column % block;
     }
-    // The pixel that it keeps there.
+    // The pixel at a place: the inverse of place().
     struct Place {
         int column, row;
     };

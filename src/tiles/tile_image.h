@@ -14,14 +14,14 @@ namespace lamina {
 // One number for each pixel of a tile, at TileGrid::place().
 struct alignas(64) TilePlane : std::array<float, TileGrid::pixels> {};
 
-// The pixels of one tile: associated colour and opacity; of fixed-point targets codes, which floats
-// hold exactly.
+// The pixels of one tile: associated colour and opacity. Fixed-point targets store codes, which
+// floats hold exactly.
 struct TilePixels {
     using Plane = TilePlane;
     Plane red, green, blue, alpha;
 };
 
-// A picture in tiles. Takes its memory once.
+// A picture in tiles. It takes its memory once.
 class TileImage {
   public:
     TileImage(int width, int height);

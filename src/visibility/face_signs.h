@@ -12,9 +12,9 @@
 
 namespace lamina {
 
-// On which side of a tet's faces the eye is. Bit f: on the outer side of face f, so that what lies
-// across is nearer to the eye; bit 4 + f: on the inner side, what lies across is farther. A face
-// that is seen edge-on has neither bit and hides nothing.
+// On which side of a tet's faces the eye is. Bit f: the eye is on the outer side of face f, so the
+// tet across that face is nearer to the eye. Bit 4 + f: the eye is on the inner side, so the tet
+// across is farther. A face that is seen edge-on has neither bit and hides nothing.
 using FaceSigns = std::uint32_t;
 constexpr FaceSigns nearer_bit(std::size_t face) {
     return FaceSigns{1} << face;
@@ -23,9 +23,9 @@ constexpr FaceSigns farther_bit(std::size_t face) {
     return FaceSigns{16} << face;
 }
 
-// The exact sign of the solid angle (at infinity: of the projected area) of the triangle a, b, c:
-// positive where an eye sees its corners clockwise, so that for a face with corners
-// counter-clockwise from outside its tet the eye is on the inner side.
+// The exact sign of the solid angle (for an eye at infinity, of the projected area) of the triangle
+// a, b, c. It is positive where the eye sees the corners clockwise. So for a face whose corners are
+// counter-clockwise from outside its tet, it is positive where the eye is on the inner side.
 inline int sign_as_seen(const Eye& eye, const glm::dvec3& a, const glm::dvec3& b,
                         const glm::dvec3& c) {
     const glm::dvec3& e = eye.position;
@@ -33,8 +33,9 @@ inline int sign_as_seen(const Eye& eye, const glm::dvec3& a, const glm::dvec3& b
     return sign_of_determinant(a, e, b, e, c, e);
 }
 
-// Finds the signs of a mesh's tets for one eye: rounded where an error bound decides, else exact,
-// so that the two tets of a face never disagree. Safe from many threads.
+// Finds the signs of a mesh's tets for one eye. Signs are computed in floating point where an error
+// bound decides them, and exactly elsewhere, so that the two tets of a face always agree. Safe from
+// many threads.
 class FaceSigner {
   public:
     FaceSigner(const TetMesh& mesh, const Eye& eye)

@@ -9,8 +9,8 @@
 
 namespace lamina {
 
-// How many shared faces an order gets wrong: the tet on the far side does not come first, by exact
-// signs. `order`: every tet once, back to front. Throws Error if it is not that. Parallel.
+// Counts the shared faces that an order gets wrong, because the tet on the far side does not come
+// first. Signs are exact. `order`: every tet once, back to front; otherwise throws Error. Parallel.
 std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
                              std::span<const std::int32_t> order);
 

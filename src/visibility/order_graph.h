@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "mesh/eye.h"
+#include "mesh/tet_mesh.h"
 #include "visibility/face_signs.h"
 #include "visibility/open_face_constraints.h"
-#include "mesh/tet_mesh.h"
 
 namespace lamina {
 
-// What hides what, for one eye after the other: a graph with an edge from each tet to every one
-// that must be drawn after it because it is nearer. Edges lead across shared faces and, if wanted,
-// across the gaps between open faces. The mesh must outlive this object.
+// Which tets hide which, for one eye after the other. It is a graph with an edge from each tet to
+// every tet that is nearer and must therefore be drawn after it. Edges lead across shared faces
+// and, if wanted, across the gaps between open faces. The mesh must outlive this object.
 class OrderGraph {
   public:
     OrderGraph(const TetMesh& mesh, bool across_gaps);
@@ -25,14 +25,14 @@ class OrderGraph {
     const TetMesh& mesh() const { return mesh_; }
     const Eye& eye() const { return eye_; }
 
-    // Of the shared faces alone: no bit of an open face is set.
+    // The signs of shared faces only; no bit of an open face is set.
     FaceSigns signs(std::int32_t tet) const { return signs_[static_cast<std::size_t>(tet)]; }
 
-    // How many edges lead to each tet. Whoever orders the tets may count down in here.
+    // How many edges lead to each tet. Callers that order the tets may count these numbers down.
     std::span<std::int32_t> farther_counts() { return farther_counts_; }
     std::span<const std::int32_t> farther_counts() const { return farther_counts_; }
 
-    // The edges from a tet: numbers 0 to 3 cross its faces, higher ones gaps.
+    // The edges from a tet. Edges 0 to 3 cross its faces; higher numbers cross gaps.
     static constexpr std::int32_t no_edge = -1;
     std::int32_t first_edge(std::int32_t tet) const { return edge_from(tet, 0); }
     std::int32_t next_edge(std::int32_t tet, std::int32_t edge) const {
@@ -42,13 +42,14 @@ class OrderGraph {
     std::int32_t first_gap_edge(std::int32_t tet) const {
         return first_gap_.empty() ? no_edge : shifted(first_gap_[static_cast<std::size_t>(tet)]);
     }
-    std::int32_t nearer(std::int32_t tet, std::int32_t edge) const {  // where the edge leads
+    std::int32_t nearer(std::int32_t tet,
+                        std::int32_t edge) const {  // the tet that the edge leads to
         if (edge < faces)
             return mesh_.neighbors()[static_cast<std::size_t>(tet)][static_cast<std::size_t>(edge)];
         const OpenFaceConstraint& gap = gap_edges_[static_cast<std::size_t>(edge - faces)];
         return mesh_.open_faces()[static_cast<std::size_t>(gap.exit)].tet;
     }
-    // How large the face, or the overlap of the two open faces, looks (seen_area.h).
+    // The seen area (seen_area.h) of the face, or of the overlap of the two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
 
   private:
@@ -68,10 +69,10 @@ class OrderGraph {
     Eye eye_;
     std::vector<std::uint8_t> signs_;
     std::vector<std::int32_t> farther_counts_;
-    std::unique_ptr<OpenFaceConstraints> gaps_;  // none: shared faces only
+    std::unique_ptr<OpenFaceConstraints> gaps_;  // null for shared faces only
     std::span<const OpenFaceConstraint> gap_edges_;
-    std::vector<std::int32_t> first_gap_;  // of a tet's list, or -1; empty without gaps
-    std::vector<std::int32_t> next_gap_;   // in the list of the same tet, or -1
+    std::vector<std::int32_t> first_gap_;  // first gap edge of each tet, or -1; empty without gaps
+    std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1
 };
 
 }  // namespace lamina

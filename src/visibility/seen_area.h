@@ -6,12 +6,12 @@
 
 namespace lamina {
 
-// How large a triangle looks: its solid angle (steradian), or for an eye at infinity the area of
+// The seen area of a triangle: its solid angle (steradian), or for an eye at infinity the area of
 // its projection (world units squared).
 double seen_area(const Eye& eye, const Triangle& triangle);
 
-// The part of `entry` that is seen through `exit` (corners clockwise for the eye), in the same
-// unit.
+// The seen area of the region of `entry` that is seen through `exit` (corners clockwise for the
+// eye).
 double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry);
 
 }  // namespace lamina

@@ -9,20 +9,20 @@
 
 namespace lamina {
 
-// A triangle as an eye sees it, with the planes through the eye and its edges. The rays through it
-// fill a pyramid, or a prism for an eye at infinity.
+// A triangle as an eye sees it, with the planes through the eye and its edges. The rays through the
+// triangle fill a pyramid, or a prism for an eye at infinity.
 class SeenTriangle {
   public:
     SeenTriangle() = default;
     SeenTriangle(const Eye& eye, const Triangle& corners);
 
-    // As sign_as_seen (face_signs.h), for a face of a tet: 1 an exit, through which rays leave the
-    // tet; -1 an entry; 0 edge-on.
+    // The sign that sign_as_seen (face_signs.h) gives for a face of a tet. 1: an exit, through
+    // which rays leave the tet. -1: an entry. 0: seen edge-on.
     int sign() const { return sign_; }
 
-    // Of an exit: is a part of `entry`, of positive area as seen from the eye, seen through it and
-    // on it or behind it? Exact for triangles that do not cut one another; where they do, true if a
-    // part of `entry` lies behind.
+    // For an exit: whether some of `entry`, of positive seen area, is seen through the exit, on it
+    // or behind it. Exact for triangles that do not intersect. For others it is true if some of
+    // `entry` lies behind the exit.
     bool shows(const Eye& eye, const SeenTriangle& entry) const;
 
   private:
@@ -36,17 +36,20 @@ class SeenTriangle {
     bool behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const;
 
     Triangle corners_{glm::dvec3(0), glm::dvec3(0), glm::dvec3(0)};
-    std::array<RoundedPlane, 3> edges_;  // of corners 01, 12, 20, through the first of them
-    RoundedPlane face_;                  // through corner 0; positive: outside the tet
+    // Planes of edges 01, 12, 20, through the first corner of each.
+    std::array<RoundedPlane, 3> edges_;
+    RoundedPlane face_;  // plane of the triangle through corner 0; positive outside the tet
     int sign_ = 0;
 };
 
-// The part of space that is seen through an exit, on it or behind it, to search boxes for.
+// The region of space that is seen through an exit, on it or behind it. Boxes are searched for what
+// it may contain.
 class SeenThrough {
   public:
-    // `bounds`: of all boxes.
+    // `bounds`: a box around all boxes.
     SeenThrough(const SeenTriangle& exit, const FaceTree::Box& bounds);
-    // Never false, whatever the rounding, for a box or a triangle that holds such a point.
+    // Whether a box or a triangle may contain a point of the region. Rounding never makes this
+    // false where it does contain one.
     template <typename Shape>
     bool reaches(const Shape& box_or_triangle) const {
         return sides_[0].reaches(box_or_triangle) && sides_[1].reaches(box_or_triangle) &&

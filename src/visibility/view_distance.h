@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Grows with the distance of a point from the eye: its square, or the distance along the view for
-// an eye at infinity. To compare points with.
+// A number that grows with the distance of a point from the eye, for comparisons: the squared
+// distance, or for an eye at infinity the distance along the view.
 inline double view_distance(const Eye& eye, const glm::dvec3& point) {
     if (eye.at_infinity) return glm::dot(eye.position, point);
     const glm::dvec3 ray = point - eye.position;

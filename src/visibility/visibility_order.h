@@ -16,37 +16,41 @@
 namespace lamina {
 
 enum class OrderMethod {
-    mpvo,      // Williams 1992: across shared faces; on nonconvex meshes with his guess
-               // (farthest_first.h)
-    exact,     // and across gaps (open_face_constraints.h)
-    centroid,  // by the distance of centroids, as VTK: often wrong, for comparison
-    none       // as the mesh lists them
+    mpvo,  // Williams 1992: keeps the order across shared faces; on nonconvex meshes with his guess
+           // (farthest_first.h)
+    exact,     // also keeps the order across gaps (open_face_constraints.h)
+    centroid,  // by the distance of centroids, as VTK does; often wrong, for comparison
+    none       // in the order of the mesh
 };
 const char* name_of(OrderMethod method);
 
-// What the last sort() met.
+// What the last sort() found.
 struct OrderReport {
-    std::int64_t cycles = 0;       // sets of tets that hide one another in a ring
-    std::int64_t cyclic_tets = 0;  // in them
-    std::int64_t broken = 0;  // pairs of tets in a wrong order, all within cycles (exact), or faces
-                              // (mpvo of a nonconvex mesh)
-    double broken_area = 0;   // exact: the seen area (seen_area.h) of these, which bounds that of
-                              // the view in which the order is wrong; 0 for mpvo's guess
+    std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
+    std::int64_t cyclic_tets = 0;  // number of tets in these
+    // Pairs of tets in a wrong order (exact; all of them are within cycles), or faces (mpvo of a
+    // nonconvex mesh).
+    std::int64_t broken = 0;
+    // For exact: the seen area (seen_area.h) of these pairs, which bounds the area of the view in
+    // which the order is wrong. 0 for mpvo's guess.
+    double broken_area = 0;
 };
 
-// Tets in the order in which they are to be composited, for one eye after the other. Takes its
-// memory once, some 10 bytes a tet, and 28 more at the first view with cycles; sort() allocates
-// only where a view has more constraints across gaps, or larger cycles, than all before it. The
-// order depends on the mesh, the method and the eye alone. The mesh must outlive this object.
+// Sorts tets into the order in which they are to be composited, for one eye after the other. It
+// takes some 10 bytes a tet once, and 28 more at the first view with cycles. sort() allocates
+// memory only where a view has more constraints across gaps, or larger cycles, than all views
+// before it. The order depends only on the mesh, the method and the eye. The mesh must outlive this
+// object.
 class VisibilityOrder {
   public:
     VisibilityOrder(const TetMesh& mesh, OrderMethod method);
 
-    // All tets, back to front; valid until the next call. For an eye anywhere, inside the mesh too.
-    // `meanwhile` is called once, while the rest takes but one core.
+    // Returns all tets back to front, for an eye anywhere, also inside the mesh. The result is
+    // valid until the next call. `meanwhile` is called once, while the rest of the work uses only
+    // one core.
     std::span<const std::int32_t> sort(
         const Eye& eye, const std::function<void()>& meanwhile = [] {});
-    std::span<const std::int32_t> order() const { return order_; }  // of the last sort()
+    std::span<const std::int32_t> order() const { return order_; }  // result of the last sort()
 
     OrderMethod method() const { return method_; }
     const OrderReport& report() const { return report_; }

@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Of bzip2 streams. (teem 1.12 does not notice where the end is missing.)
+// Decompresses bzip2 streams. (teem 1.12 does not notice where the end is missing.)
 class Bzip2Reader : public PackedReader {
   public:
     Bzip2Reader(std::FILE* stream, std::string file);

@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// Bytes from where the file stands to its end.
+// The number of bytes from the current position of the file to its end.
 inline std::uint64_t bytes_left(std::FILE* file) {
     const off_t here = ftello(file);
     fseeko(file, 0, SEEK_END);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes made by formula (docs/scene.md, volume.generate). The same samples on every machine.
+// Volumes made by formula (docs/scene.md, volume.generate). The samples are the same on every
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,13 @@ constexpr std::int64_t largest_generated_axis = 2048;
 
 const std::vector<std::string>& generator_names();
 
-// The unit box, samples at its faces (`node`; an axis of one sample: `cell`); ramp: voxels of edge
-// 1, the first sample at the origin. Throws Error where name, size (1..2048 along each axis) or
-// type are none.
+// The grid is the unit box with samples at its faces (`node`; an axis of one sample is `cell`). For
+// "ramp" it has voxels of edge 1 and the first sample at the origin. Throws Error where name, size
+// (1..2048 along each axis) or type is not valid.
 Grid generated_grid(const GeneratorRequest& request);
 
-// Values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress. Both throw
-// Error.
+// Generate values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress.
+// Both throw Error.
 Volume generate(const GeneratorRequest& request);  // in memory
 void generate_nrrd(AtomicFile& file,
                    const GeneratorRequest& request);  // slab by slab: below 200 MB at any size

@@ -13,11 +13,13 @@ class Generator {
   public:
     virtual ~Generator() = default;
 
-    // The samples (0, y, z), (1, y, z), ..., each in 0..1. Safe from several threads at once.
+    // Computes the samples (0, y, z), (1, y, z), ..., each in 0..1. Safe from several threads at
+    // once.
     virtual void row(std::int64_t y, std::int64_t z, double* values) const = 0;
 };
 
-// Where sample i of n lies in the unit box: 0 for the first, 1 for the last, 1/2 for an only one.
+// The position of sample i of n in the unit box: 0 for the first, 1 for the last, 1/2 for a single
+// one.
 inline double unit_position(std::int64_t i, std::int64_t n) {
     return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
 }

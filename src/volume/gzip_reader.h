@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Of gzip or zlib streams. (teem 1.12 does not notice a damaged or missing checksum.)
+// Decompresses gzip or zlib streams. (teem 1.12 does not notice a damaged or missing checksum.)
 class GzipReader : public PackedReader {
   public:
     GzipReader(std::FILE* stream, std::string file);

@@ -7,10 +7,10 @@
 
 namespace lamina {
 
-// The three slices through the middle sample, side by side with room between: (x right, y up), (x
-// right, z up), (y right, z up). One pixel a sample; grey from `range.lo` (black) to `range.hi`
-// (white), 0.5 where they are one value; samples that are not finite, and the room between, are
-// blue. Throws Error where that is larger than an image may be.
+// The three slices through the middle sample, side by side with gaps: (x right, y up), (x right, z
+// up), (y right, z up). A sample is one pixel. Grey goes from `range.lo` (black) to `range.hi`
+// (white), and is 0.5 where both are the same. Samples that are not finite and the gaps are blue.
+// Throws Error where the picture would exceed the limits of images.
 CodedImage middle_slices(const Volume& volume, const ValueRange& range);
 
 }  // namespace lamina

@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// Range of the finite scalars in a part of a volume; lo > hi where there are none.
+// A range of finite scalars; lo > hi where there are none.
 struct ValueRange {
     double lo = 1;
     double hi = 0;
@@ -18,13 +18,13 @@ struct ValueRange {
     friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
-// The volume in bricks of `edge` cells; a brick's range covers every sample that interpolation
-// inside the brick can touch (its own samples and the next one along each axis), so neighbours
-// share their border samples. Takes an eighth of the memory of a volume of bytes.
+// The volume in bricks of `edge` cells. A brick's range covers every sample that interpolation
+// inside the brick can touch: its own samples and the next one along each axis. So neighbours share
+// their border samples. The bricks take an eighth of the memory of a volume of bytes.
 struct MinMaxBricks {
     static constexpr std::int64_t edge = 4;
 
-    // A ValueRange: float32 holds every sample type exactly.
+    // A ValueRange in float32, which holds every sample type exactly.
     struct Range {
         float lo = 1;
         float hi = 0;

@@ -7,10 +7,10 @@
 
 namespace lamina {
 
-// A turbulent mixing layer after a Richtmyer-Meshkov instability, in looks: light fluid (0) at
-// small x, heavy fluid (1) at large x; narrow spikes of heavy fluid reach into the light one and
-// broad bubbles of light fluid into the heavy one; in between both are stirred down to a few
-// samples, so a finer grid shows finer eddies.
+// A field that looks like a turbulent mixing layer after a Richtmyer-Meshkov instability. Light
+// fluid (0) lies at small x, heavy fluid (1) at large x. Narrow spikes of heavy fluid reach into
+// the light one, and broad bubbles of light fluid into the heavy one. In between both are mixed
+// down to the scale of a few samples, so that a finer grid shows finer eddies.
 std::unique_ptr<Generator> make_mixing(const GridSize& size);
 
 }  // namespace lamina

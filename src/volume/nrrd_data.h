@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Checks that the data file can hold the samples that the header promises, then takes memory and
-// reads them, in native byte order. Throws Error.
+// Reads the samples, in native byte order. It takes memory only after it has checked that the data
+// file can hold the samples that the header promises. Throws Error.
 std::shared_ptr<const void> read_nrrd_samples(const NrrdHeader& header);
 
 }  // namespace lamina

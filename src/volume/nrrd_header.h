@@ -12,7 +12,7 @@ namespace lamina {
 
 enum class NrrdEncoding { raw, ascii, gzip, bzip2 };
 
-// What the header of a NRRD file says, and where its samples are. Nothing but the header has been
+// The contents of the header of a NRRD file, and the place of its samples. Only the header has been
 // read.
 struct NrrdHeader {
     std::filesystem::path path;  // the file that the user named
@@ -21,10 +21,11 @@ struct NrrdHeader {
     NrrdEncoding encoding = NrrdEncoding::raw;
     bool swap_bytes = false;          // the samples are not in this machine's byte order
     std::filesystem::path data_path;  // `path` itself where the header is attached
-    std::int64_t data_offset = 0;     // bytes in data_path before anything of the data
-    std::int64_t line_skip = 0;       // then so many lines
-    std::int64_t byte_skip = 0;  // then so many bytes (of the decompressed stream); -1 - n: raw
-                                 // data that end n bytes before the end of the file
+    std::int64_t data_offset = 0;     // bytes to skip first in data_path
+    std::int64_t line_skip = 0;       // lines to skip next
+    // Bytes to skip last, of the decompressed stream. -1 - n means raw data that end n bytes before
+    // the end of the file.
+    std::int64_t byte_skip = 0;
 };
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path);

@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// Decompresses a stream (of one or more members) from where `stream` stands, and checks checksums.
-// Throws Error; `file` is for messages.
+// Decompresses a stream of one or more members from the current position of `stream`, and verifies
+// checksums. Throws Error; `file` is for messages.
 class PackedReader {
   public:
     virtual ~PackedReader() = default;
@@ -21,14 +21,15 @@ class PackedReader {
     void read(void* bytes, std::size_t count);
     void skip(std::size_t count);
 
-    // What nobody asked for.
+    // The data beyond what was read.
     struct Surplus {
-        std::uint64_t unpacked =
-            0;  // bytes of the member that was read last, counted to most_unpacked
-        std::uint64_t behind = 0;  // bytes of the file behind that member
+        // Bytes of the last member that were not read, counted up to most_unpacked.
+        std::uint64_t unpacked = 0;
+        std::uint64_t behind = 0;  // bytes of the file after that member
     };
     static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 26;
-    // Once all is read: ends the member, with its checksum, as far as its surplus is counted.
+    // Must be called once all is read. It decompresses the rest of the member, up to the counted
+    // surplus, and verifies its checksum.
     Surplus finish();
 
   protected:
@@ -39,8 +40,8 @@ class PackedReader {
     [[noreturn]] void fail_as_damaged(const char* reason) const;
 
   private:
-    // Moves some bytes from one to the other and leaves the rest of both. True at a member's end,
-    // from where it can go on with another.
+    // Decompresses some bytes from `from` to `to` and updates both. Returns true at the end of a
+    // member; the next call may then start another member.
     virtual bool unpack(Input& from, Output& to) = 0;
 
     bool unpack_some(Output& to);  // false at the end of the file
@@ -50,7 +51,7 @@ class PackedReader {
     const char* format_;
     std::vector<unsigned char> input_;
     Input left_;              // of input_
-    bool in_member_ = false;  // which has begun and not ended
+    bool in_member_ = false;  // whether a member has begun and not ended
 };
 
 }  // namespace lamina

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions that round in the same way on every machine with IEEE doubles, which those of libm do
-// not: generated volumes are the same everywhere. Good to a few units in the last place.
+// Functions that round in the same way on every machine with IEEE doubles, unlike those of libm. So
+// generated volumes are the same everywhere. Errors are a few units in the last place.
 #pragma once
 
 namespace lamina {

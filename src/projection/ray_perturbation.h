@@ -8,13 +8,14 @@
 
 namespace lamina {
 
-// Rays that run along faces are moved by so many pixels: far below what pictures resolve, far above
-// the rounding of doubles.
+// The ray perturbation: rays that run along faces are moved by so many pixels. This is far below
+// what pictures resolve and far above the rounding of doubles.
 inline constexpr double tie_pixels = 1e-7;
 
-// The direction into which the tracer moves rays that meet edges and corners (mesh/ray_walk.cpp):
-// along the world's x, y and z, the later ones much less. Its parts along right, up and forward.
-inline glm::dvec3 tie_shift(const View& view) {
+// The perturbation along right, up and forward. Its direction is the one in which the tracer moves
+// rays that meet edges and corners (mesh/ray_walk.cpp): along the world's x, y and z, each far less
+// than the one before.
+inline glm::dvec3 ray_perturbation(const View& view) {
     const glm::dvec3 direction(1, 3e-3, 1e-5);
     const bool perspective = view.projection == Projection::perspective;
     return tie_pixels * glm::dvec3(glm::dot(view.right, direction), glm::dot(view.up, direction),
