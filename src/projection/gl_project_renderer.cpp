@@ -19,7 +19,6 @@
 #include "projection/fan_geometry.h"
 #include "projection/ray_perturbation.h"
 #include "projection/silhouette_geometry.h"
-#include "projection/tie_shift.h"
 
 namespace lamina {
 namespace {

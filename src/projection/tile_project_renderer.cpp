@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "base/stage.h"
 #include "facts/world_unit.h"
-#include "projection/tie_shift.h"
+#include "projection/ray_perturbation.h"
 
 namespace lamina {
 namespace {
