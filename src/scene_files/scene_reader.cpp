@@ -211,8 +211,4 @@ void remove_key(nlohmann::json& document, const std::string& key) {
     if (object.is_object()) object.erase(place.back());
 }
 
-Scene load_scene(const std::filesystem::path& file) {
-    return read_scene(load_json(file), file);
-}
-
 }  // namespace lamina
