@@ -53,7 +53,8 @@ const SceneMesh& Session::Parts::mesh_data() {
 }
 
 void Session::Parts::open_context() {
-    if (!context) context = std::make_unique<DrawContext>(choice);
+    if (context) return;
+    threads.execute([&] { context = std::make_unique<DrawContext>(choice); });
 }
 
 SceneRenderer& Session::Parts::renderer() {

@@ -162,22 +162,22 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
     Scene scene = scene_for(volume.grid().bounds());
     scene.width = 0;
     expect_error([&] { Session(scene, volume, native); },
-                 "image: found 0 x 40 pixels, expected 1 x 1 or more");
+                 {"image: found 0 x 40 pixels, expected 1 x 1 or more"});
     scene.width = 50;
     expect_error(
         [&] {
             Session(scene, volume, {ContextChoice::cpu, -1});
         },
-        "threads: found -1, expected 0 (all) or more");
+        {"threads: found -1, expected 0 (all) or more"});
     expect_error([&] { Session(scene, native); },
-                 "the session has no volume, and its scene names none");
+                 {"the session has no volume, and its scene names none"});
     Session session(scene, volume, native);
     const TemporaryFolder folder;
     expect_error([&] { session.save_resolved_scene(folder / "a.json"); },
-                 "the scene names no data");
+                 {"the scene names no data"});
     scene.method = Method::trace;
     session.set_scene(scene);
-    expect_error([&] { session.plan(); }, "\"trace\" has no plan");
+    expect_error([&] { session.plan(); }, {"\"trace\" has no plan"});
 }
 
 }  // namespace
