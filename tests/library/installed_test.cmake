@@ -39,7 +39,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${place}/build -DCMAKE_PREFIX_PATH
 run(${CMAKE_COMMAND} --build ${place}/build)
 
 set(scene ${place}/scene.json)
-file(WRITE ${scene} [=[{"version": 1, "volume": {"generate": {"name": "gaussians", "size": [24, 24, 24]}},
+file(WRITE ${scene} [=[{"version": 1, "volume": {"generate": "gaussians", "size": [24, 24, 24]},
   "transfer_function": {"points": [{"value": 0, "color": [1, 1, 1], "extinction": 0},
                                    {"value": 255, "color": [1, 0.5, 0.2], "extinction": 4}]},
   "camera": {"eye": [2, 1, 2], "center": [0.5, 0.5, 0.5]}, "image": {"width": 60, "height": 40}}]=])
