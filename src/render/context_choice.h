@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "gl/context.h"
@@ -11,8 +10,7 @@ namespace lamina {
 // --context. automatic: a GPU through EGL where there is one, else the native engine.
 enum class ContextChoice { automatic, osmesa, egl, cpu };
 
-// None where the word is none.
-std::optional<ContextChoice> find_context_choice(const std::string& word);
+const char* name_of(ContextChoice choice);
 
 // Throws UsageError where the word is none.
 ContextChoice context_choice(const std::string& word);

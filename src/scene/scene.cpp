@@ -35,6 +35,26 @@ const char* name_of(Target target) {
     return nullptr;
 }
 
+const char* name_of(TraceOf of) {
+    switch (of) {
+        case TraceOf::volume:
+            return "volume";
+        case TraceOf::mesh:
+            return "mesh";
+    }
+    return nullptr;
+}
+
+const char* name_of(NanPolicy policy) {
+    switch (policy) {
+        case NanPolicy::error:
+            return "error";
+        case NanPolicy::transparent:
+            return "transparent";
+    }
+    return nullptr;
+}
+
 const char* name_of(Classification classification) {
     switch (classification) {
         case Classification::post:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_words.h"
 #include "scene_files/json_reader.h"
 #include "volume/generate.h"
 
@@ -83,8 +84,7 @@ void read_data(JsonReader& reader, Scene& scene) {
         scene.scalar = reader.text("scalar");
         if (scene.mesh_file.empty()) reader.reject("scalar", "a mesh from a file beside it");
     }
-    scene.nan = reader.choice<NanPolicy>(
-        "nan", {{"error", NanPolicy::error}, {"transparent", NanPolicy::transparent}});
+    scene.nan = reader.choice<NanPolicy>("nan", enum_words<NanPolicy>());
 }
 
 }  // namespace lamina
