@@ -2,7 +2,7 @@
 #include "lamina/scene.h"
 
 #include "volume/generate.h"
-#include "volume/nrrd.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 
@@ -132,7 +132,7 @@ const char* name_of(OverRounding rounding) {
 }
 
 Volume load_volume(const Scene& scene) {
-    return scene.volume_request ? generate(*scene.volume_request) : read_nrrd(scene.volume_file);
+    return scene.volume_request ? generate(*scene.volume_request) : read_volume(scene.volume_file);
 }
 
 }  // namespace lamina

@@ -43,7 +43,7 @@ GeneratorRequest read_generator(JsonReader reader) {
     return request;
 }
 
-void read_volume(JsonReader& reader, Scene& scene) {
+void read_volume_source(JsonReader& reader, Scene& scene) {
     if (!reader.has("volume")) return;
     if (reader.has("volume") && reader.value("volume").is_object()) {
         scene.volume_request = read_generator(reader.object("volume"));
@@ -76,7 +76,7 @@ void read_mesh_source(JsonReader& reader, Scene& scene) {
 }  // namespace
 
 void read_data(JsonReader& reader, Scene& scene) {
-    read_volume(reader, scene);
+    read_volume_source(reader, scene);
     read_mesh_source(reader, scene);
     if (!scene.has_volume() && !scene.has_mesh())
         reader.reject("volume", "a path, an object {...}, or a mesh under \"mesh\"");
