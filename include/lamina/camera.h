@@ -19,6 +19,8 @@ struct Camera {
     double height = 1;  // world units, orthographic
 };
 
+LAMINA_API const char* name_of(Projection projection);
+
 // The camera with its eye turned by `degrees` about the axis `up` through `center`.
 LAMINA_API Camera turned(const Camera& camera, double degrees);
 

@@ -66,6 +66,8 @@ LAMINA_API const char* name_of(Target target);
 inline bool is_fixed_point(Target target) {
     return target == Target::fixed8 || target == Target::fixed16 || target == Target::emulated;
 }
+LAMINA_API const char* name_of(TraceOf of);
+LAMINA_API const char* name_of(NanPolicy policy);
 LAMINA_API const char* name_of(Classification classification);
 LAMINA_API const char* name_of(Order order);
 LAMINA_API const char* name_of(Filter filter);

@@ -41,5 +41,6 @@ struct TableSettings {
 LAMINA_API const char* name_of(LengthMapping mapping);
 LAMINA_API const char* name_of(TableStore store);
 LAMINA_API const char* name_of(TableFormat format);
+LAMINA_API const char* name_of(TableConstruction construction);
 
 }  // namespace lamina

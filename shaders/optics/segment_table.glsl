@@ -30,12 +30,14 @@ float length_layer(float world_length) {
     return v;
 #elif TABLE_MAPPING == MAPPING_LOG2
     return log2(max(v, 1.0)) + min(v, 1.0);  // Kraus 2004, Equation 1
-#else
+#elif TABLE_MAPPING == MAPPING_OCTAVE
     // The bits of a float are linear within each octave: 1 + o + (v / 2^o - 1) (docs/numerics.md, section 5) is the
     // number of octaves from 1/2 on. Below v = 1 that is less than v, which holds there.
     const int bits_of_half = 0x3f000000;
     float octaves = float(floatBitsToInt(v) - bits_of_half) * (1.0 / 8388608.0);
     return max(octaves, min(v, 1.0));
+#else
+#error TABLE_MAPPING is none of these
 #endif
 }
 #endif
@@ -94,11 +96,15 @@ vec4 integrate_segment(float front, float back, float world_length) {
 #else
     return vec4(single_color, 1.0) * (entry.r * table_scale);
 #endif
-#elif defined(TABLE_COLORED)
+#elif TABLE_STORE == STORE_MEAN_EXTINCTION
+#ifdef TABLE_COLORED
     float alpha = opacity_from_depth(entry.a * (table_scale * world_length));
     // Of a depth that is 0, emission is, too. The scale cancels.
     return vec4(entry.rgb * (alpha / max(entry.a, 1e-37)), alpha);
 #else
     return vec4(single_color, 1.0) * opacity_from_depth(entry.r * (table_scale * world_length));
+#endif
+#else
+#error TABLE_STORE is none of these
 #endif
 }

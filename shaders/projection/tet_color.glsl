@@ -45,7 +45,7 @@ vec4 tet_color() {
     return vec4(single_color * opacity, opacity);
 #endif
 }
-#else
+#elif SOURCE == SOURCE_TABLE || SOURCE == SOURCE_ANALYTIC
 #if SOURCE == SOURCE_TABLE
 #include "optics/segment_table.glsl"
 #else
@@ -55,4 +55,6 @@ vec4 tet_color() {
     TetRun run = find_run();
     return integrate_segment(clamp(run.front, 0.0, 1.0), clamp(run.back, 0.0, 1.0), run.world_length);
 }
+#else
+#error SOURCE is none of these
 #endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,27 @@ std::vector<std::pair<const char*, Enum>> enum_words() {
         if (word == nullptr) return words;
         words.emplace_back(word, value);
     }
+}
+
+// None where the word is none of the enum's.
+template <typename Enum>
+std::optional<Enum> value_of_word(std::string_view word) {
+    for (const auto& [known, value] : enum_words<Enum>()) {
+        if (word == known) return value;
+    }
+    return std::nullopt;
+}
+
+// "a, b or c", for messages.
+template <typename Enum>
+std::string alternatives() {
+    const auto words = enum_words<Enum>();
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+        text += words[i].first;
+    }
+    return text;
 }
 
 }  // namespace lamina

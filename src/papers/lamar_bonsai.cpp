@@ -9,7 +9,7 @@
 #include "papers/lamar_stage.h"
 #include "study/picture_sheet.h"
 #include "study/text_file.h"
-#include "volume/nrrd.h"
+#include "volume/volume_file.h"
 
 namespace lamina::papers {
 namespace {
@@ -55,7 +55,7 @@ Scene bonsai_scene() {
 Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const std::filesystem::path file = bonsai_file();
     if (!std::filesystem::exists(file)) return skipped();
-    const auto bonsai = std::make_shared<const VolumeData>(read_nrrd(file));
+    const auto bonsai = std::make_shared<const VolumeData>(read_volume(file));
     const Scene scene = bonsai_scene();
     const Image exact = SceneRenderer(scene, bonsai, stage.capabilities()).draw_picture();
     std::vector<Image> pictures{exact};

@@ -5,23 +5,31 @@
 
 #include <cstdlib>
 
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/unreachable.h"
 #include "tiles/instruction_set.h"
 
 namespace lamina {
 
-std::optional<ContextChoice> find_context_choice(const std::string& word) {
-    if (word == "auto") return ContextChoice::automatic;
-    if (word == "osmesa") return ContextChoice::osmesa;
-    if (word == "egl") return ContextChoice::egl;
-    if (word == "cpu") return ContextChoice::cpu;
-    return std::nullopt;
+// Its words are listed by enum_words() (base/enum_words.h), too.
+const char* name_of(ContextChoice choice) {
+    switch (choice) {
+        case ContextChoice::automatic:
+            return "auto";
+        case ContextChoice::osmesa:
+            return "osmesa";
+        case ContextChoice::egl:
+            return "egl";
+        case ContextChoice::cpu:
+            return "cpu";
+    }
+    return nullptr;
 }
 
 ContextChoice context_choice(const std::string& word) {
-    if (const auto found = find_context_choice(word)) return *found;
-    throw UsageError(fmt::format("--context {}: expected auto, osmesa, egl or cpu", word));
+    if (const auto found = value_of_word<ContextChoice>(word)) return *found;
+    throw UsageError(fmt::format("--context {}: expected {}", word, alternatives<ContextChoice>()));
 }
 
 gl::ContextKind opengl_kind(const std::string& word) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "gl/context.h"
@@ -9,8 +8,7 @@
 
 namespace lamina {
 
-// None where the word is none.
-std::optional<ContextChoice> find_context_choice(const std::string& word);
+const char* name_of(ContextChoice choice);
 
 // The same; throws UsageError where the word is unknown.
 ContextChoice context_choice(const std::string& word);

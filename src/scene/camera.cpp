@@ -42,6 +42,17 @@ View::Ray View::ray(double column, double row) const {
     return {eye + offset, forward};
 }
 
+// Its words are listed by enum_words() (base/enum_words.h), too.
+const char* name_of(Projection projection) {
+    switch (projection) {
+        case Projection::perspective:
+            return "perspective";
+        case Projection::orthographic:
+            return "orthographic";
+    }
+    return nullptr;
+}
+
 Camera turned(const Camera& camera, double degrees) {
     const glm::dvec3 axis = direction_of(camera.up);
     const glm::dvec3 arm = camera.eye - camera.center;

@@ -114,4 +114,14 @@ const char* name_of(TableFormat format) {
     return nullptr;
 }
 
+const char* name_of(TableConstruction construction) {
+    switch (construction) {
+        case TableConstruction::exact:
+            return "exact";
+        case TableConstruction::incremental:
+            return "incremental";
+    }
+    return nullptr;
+}
+
 }  // namespace lamina

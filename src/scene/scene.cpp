@@ -2,7 +2,7 @@
 #include "lamina/scene.h"
 
 #include "volume/generate.h"
-#include "volume/nrrd.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 
@@ -31,6 +31,26 @@ const char* name_of(Target target) {
             return "fixed8";
         case Target::emulated:
             return "emulated";
+    }
+    return nullptr;
+}
+
+const char* name_of(TraceOf of) {
+    switch (of) {
+        case TraceOf::volume:
+            return "volume";
+        case TraceOf::mesh:
+            return "mesh";
+    }
+    return nullptr;
+}
+
+const char* name_of(NanPolicy policy) {
+    switch (policy) {
+        case NanPolicy::error:
+            return "error";
+        case NanPolicy::transparent:
+            return "transparent";
     }
     return nullptr;
 }
@@ -112,7 +132,7 @@ const char* name_of(OverRounding rounding) {
 }
 
 Volume load_volume(const Scene& scene) {
-    return scene.volume_request ? generate(*scene.volume_request) : read_nrrd(scene.volume_file);
+    return scene.volume_request ? generate(*scene.volume_request) : read_volume(scene.volume_file);
 }
 
 }  // namespace lamina

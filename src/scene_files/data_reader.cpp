@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/enum_words.h"
 #include "scene_files/json_reader.h"
 #include "volume/generate.h"
 
@@ -42,7 +43,7 @@ GeneratorRequest read_generator(JsonReader reader) {
     return request;
 }
 
-void read_volume(JsonReader& reader, Scene& scene) {
+void read_volume_source(JsonReader& reader, Scene& scene) {
     if (!reader.has("volume")) return;
     if (reader.has("volume") && reader.value("volume").is_object()) {
         scene.volume_request = read_generator(reader.object("volume"));
@@ -75,7 +76,7 @@ void read_mesh_source(JsonReader& reader, Scene& scene) {
 }  // namespace
 
 void read_data(JsonReader& reader, Scene& scene) {
-    read_volume(reader, scene);
+    read_volume_source(reader, scene);
     read_mesh_source(reader, scene);
     if (!scene.has_volume() && !scene.has_mesh())
         reader.reject("volume", "a path, an object {...}, or a mesh under \"mesh\"");
@@ -83,8 +84,7 @@ void read_data(JsonReader& reader, Scene& scene) {
         scene.scalar = reader.text("scalar");
         if (scene.mesh_file.empty()) reader.reject("scalar", "a mesh from a file beside it");
     }
-    scene.nan = reader.choice<NanPolicy>(
-        "nan", {{"error", NanPolicy::error}, {"transparent", NanPolicy::transparent}});
+    scene.nan = reader.choice<NanPolicy>("nan", enum_words<NanPolicy>());
 }
 
 }  // namespace lamina

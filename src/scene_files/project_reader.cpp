@@ -14,9 +14,8 @@ TableSettings read_table(JsonReader reader) {
     table.mapping = reader.choice<LengthMapping>("mapping", enum_words<LengthMapping>());
     table.store = reader.choice<TableStore>("store", enum_words<TableStore>());
     table.format = reader.choice<TableFormat>("format", enum_words<TableFormat>());
-    table.construction = reader.choice<TableConstruction>(
-        "construction",
-        {{"exact", TableConstruction::exact}, {"incremental", TableConstruction::incremental}});
+    table.construction =
+        reader.choice<TableConstruction>("construction", enum_words<TableConstruction>());
     reader.close();
     return table;
 }

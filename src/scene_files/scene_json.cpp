@@ -46,8 +46,7 @@ Json transfer_function_json(const TransferFunction& transfer_function) {
 }
 
 Json camera_json(const Camera& camera) {
-    const bool perspective = camera.projection == Projection::perspective;
-    return {{"projection", perspective ? "perspective" : "orthographic"},
+    return {{"projection", name_of(camera.projection)},
             {"eye", vector_json(camera.eye)},
             {"center", vector_json(camera.center)},
             {"up", vector_json(camera.up)},
@@ -100,13 +99,12 @@ Json project_json(const ProjectSettings& project) {
               {"dither", name_of(project.dither)}};
     if (project.table) {
         const TableSettings& table = *project.table;
-        const bool exact = table.construction == TableConstruction::exact;
         json["table"] = {{"scalar", table.scalar},
                          {"length", table.length},
                          {"mapping", name_of(table.mapping)},
                          {"store", name_of(table.store)},
                          {"format", name_of(table.format)},
-                         {"construction", exact ? "exact" : "incremental"}};
+                         {"construction", name_of(table.construction)}};
     }
     if (project.tree) json["tree"] = tree_json(*project.tree);
     return json;
@@ -119,9 +117,7 @@ Json render_json(const Scene& scene) {
             {"max_error", scene.max_error},
             {"slice", slice_json(scene.slice)},
             {"project", project_json(scene.project)},
-            {"trace",
-             {{"of", scene.trace_of == TraceOf::volume ? "volume" : "mesh"},
-              {"tolerance", scene.trace_tolerance}}}};
+            {"trace", {{"of", name_of(scene.trace_of)}, {"tolerance", scene.trace_tolerance}}}};
 }
 
 }  // namespace
@@ -131,7 +127,7 @@ Json scene_json(const Scene& scene) {
     if (scene.has_volume()) json["volume"] = volume_json(scene);
     if (scene.has_mesh()) json["mesh"] = mesh_json(scene);
     if (!scene.scalar.empty()) json["scalar"] = scene.scalar;
-    json["nan"] = scene.nan == NanPolicy::error ? "error" : "transparent";
+    json["nan"] = name_of(scene.nan);
     json["transfer_function"] = transfer_function_json(scene.transfer_function);
     json["camera"] = camera_json(scene.camera);
     json["image"] = {{"width", scene.width},

@@ -24,9 +24,7 @@ constexpr double max_coordinate = 1e100;
 
 Camera read_camera(JsonReader reader) {
     Camera camera;
-    camera.projection = reader.choice<Projection>(
-        "projection",
-        {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
+    camera.projection = reader.choice<Projection>("projection", enum_words<Projection>());
     camera.eye = reader.vector("eye");
     camera.center = reader.vector("center");
     camera.up = reader.vector_or("up", camera.up);
@@ -65,8 +63,7 @@ void read_image(JsonReader reader, Scene& scene) {
 
 TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
     if (!trace.has("of")) return scene.has_volume() ? TraceOf::volume : TraceOf::mesh;
-    const TraceOf of =
-        trace.choice<TraceOf>("of", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+    const TraceOf of = trace.choice<TraceOf>("of", enum_words<TraceOf>());
     if (of == TraceOf::volume && !scene.has_volume())
         trace.reject("of", "\"mesh\": the scene has no volume");
     if (of == TraceOf::mesh && !scene.has_mesh())

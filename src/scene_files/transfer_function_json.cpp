@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/vector_relational.hpp>
 
+#include "base/enum_words.h"
 #include "optics/colormap.h"
 #include "optics/opacity.h"
 
@@ -12,7 +13,17 @@ namespace {
 
 constexpr std::size_t max_points = 4096;
 
-enum class Interpolation { linear, nearest };
+enum class PointInterpolation { linear, nearest };
+
+const char* name_of(PointInterpolation interpolation) {
+    switch (interpolation) {
+        case PointInterpolation::linear:
+            return "linear";
+        case PointInterpolation::nearest:
+            return "nearest";
+    }
+    return nullptr;
+}
 
 glm::dvec3 read_color(JsonReader& point) {
     const glm::dvec3 color = point.vector_or("color", glm::dvec3(1));
@@ -127,10 +138,10 @@ TransferFunction read_with_colormap(JsonReader& reader, double unit_length) {
 TransferFunction read_transfer_function(JsonReader reader, std::vector<std::string>* warnings) {
     const double unit_length = reader.number_or("unit_length", 1);
     if (!(unit_length > 0)) reader.reject("unit_length", "a number > 0");
-    const auto interpolation = reader.choice<Interpolation>(
-        "interpolation", {{"linear", Interpolation::linear}, {"nearest", Interpolation::nearest}});
+    const auto interpolation =
+        reader.choice<PointInterpolation>("interpolation", enum_words<PointInterpolation>());
     if (reader.has("colormap")) {
-        if (interpolation == Interpolation::nearest) {
+        if (interpolation == PointInterpolation::nearest) {
             reader.fail_at("interpolation", "nearest does not go with a colormap, expected linear");
         }
         TransferFunction result = read_with_colormap(reader, unit_length);
@@ -140,7 +151,8 @@ TransferFunction read_transfer_function(JsonReader reader, std::vector<std::stri
     Points points = read_points(reader, unit_length, true);
     reader.close();
     try {
-        if (interpolation == Interpolation::nearest) return TransferFunction::nearest(points.knots);
+        if (interpolation == PointInterpolation::nearest)
+            return TransferFunction::nearest(points.knots);
         warn_of_opaque_ramp(points.knots, points.opaque, reader, warnings);
         return TransferFunction::linear(std::move(points.knots));
     } catch (const Error& error) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "lamina/image.h"
 #include "lamina/volume.h"
 #include "plan/capabilities.h"
@@ -12,25 +10,20 @@
 
 namespace lamina::selftest {
 
-// Draws as `lamina render` does: facts, plan, renderer. For checks of the self-test itself it can
-// make a mistake on purpose: what it draws is then not what it was asked for.
+// Draws as `lamina render` does: facts, plan, renderer. Virtual for checks of the self-test itself,
+// which must find what a wrong renderer draws.
 class PictureMaker {
   public:
-    // `mistake`: one of mistakes(), or empty. Throws UsageError where it is neither.
-    PictureMaker(const Capabilities& capabilities, std::string mistake);
+    explicit PictureMaker(const Capabilities& capabilities) : capabilities_(capabilities) {}
+    virtual ~PictureMaker() = default;
 
-    PreciseImage draw(const Scene& scene, const Volume& volume) const;
+    virtual PreciseImage draw(const Scene& scene, const Volume& volume) const;
     // `order`: what was found of the visibility order, where something was drawn in one.
-    PreciseImage draw(const Scene& scene, const SceneMesh& mesh,
-                      OrderReport* order = nullptr) const;
-
-    static const std::vector<std::string>& mistakes();
+    virtual PreciseImage draw(const Scene& scene, const SceneMesh& mesh,
+                              OrderReport* order = nullptr) const;
 
   private:
-    Scene mistaken(Scene scene) const;
-
     const Capabilities& capabilities_;
-    std::string mistake_;
 };
 
 }  // namespace lamina::selftest

@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/content_hash.h"
+#include "base/enum_words.h"
 #include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
@@ -57,8 +58,7 @@ std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder
     JsonReader reader(document, file);
     Reference reference;
     reference.id = id;
-    reference.of =
-        reader.choice<TraceOf>("of", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+    reference.of = reader.choice<TraceOf>("of", enum_words<TraceOf>());
     reference.error_estimate = reader.number("error_estimate");
     reference.ms = reader.number("ms");
     return {std::move(reference), reader.text("picture")};
@@ -108,7 +108,7 @@ Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceO
     // The picture before the facts: what has its .json is complete.
     write_npy(*picture, reference.image);
     picture->commit();
-    const nlohmann::ordered_json facts{{"of", reference.of == TraceOf::volume ? "volume" : "mesh"},
+    const nlohmann::ordered_json facts{{"of", name_of(reference.of)},
                                        {"error_estimate", reference.error_estimate},
                                        {"ms", reference.ms},
                                        {"picture", content_of(reference.image)}};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "render/context_choice.h"
 #include "scene_files/scene_reader.h"
@@ -19,9 +20,9 @@ void check_file(const std::filesystem::path& path, const StudyFile::SceneEntry& 
 }
 
 void check_context(const std::string& word, const StudyFile& study) {
-    if (!find_context_choice(word)) {
-        fail("{}: context: found \"{}\", expected auto, osmesa, egl or cpu", study.file.string(),
-             word);
+    if (!value_of_word<ContextChoice>(word)) {
+        fail("{}: context: found \"{}\", expected {}", study.file.string(), word,
+             alternatives<ContextChoice>());
     }
 }
 

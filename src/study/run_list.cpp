@@ -42,7 +42,7 @@ std::string run_id(const StudyRun& run, const StudyFile& file) {
     hash.add(file.scenes[run.scene].name);
     hash.add(context_of(run, file));
     hash.add(json_text(document_of(run, file)));
-    if (file.reference) hash.add(*file.reference == TraceOf::volume ? "volume" : "mesh");
+    if (file.reference) hash.add(name_of(*file.reference));
     return hash.hex();
 }
 

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
@@ -146,8 +147,7 @@ StudyFile load_study(const std::filesystem::path& path) {
     read_drops(study, swept, file);
     read_baseline(study, swept, file);
     if (study.has("reference")) {
-        file.reference = study.choice<TraceOf>(
-            "reference", {{"volume", TraceOf::volume}, {"mesh", TraceOf::mesh}});
+        file.reference = study.choice<TraceOf>("reference", enum_words<TraceOf>());
     }
     if (study.has("rounds")) file.rounds = static_cast<int>(study.whole("rounds", 1, 1000));
     if (study.has("frames")) file.frames = static_cast<int>(study.whole("frames", 1, 1000));

@@ -91,7 +91,7 @@ void add_pictures_to(Json& comparison, const StudyFolder& folder) {
     std::map<std::string, Reference> references;
     for (Json& each : comparison["references"]) {
         Reference reference = ReferenceStore::load(folder.references(), each["id"]);
-        each["of"] = reference.of == TraceOf::volume ? "volume" : "mesh";
+        each["of"] = name_of(reference.of);
         each["ms"] = reference.ms;
         each["width"] = reference.image.width;
         each["height"] = reference.image.height;

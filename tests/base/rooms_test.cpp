@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Lowest first: a room includes only itself and the rooms before it.
-const std::vector<std::string> rooms = {
-    "base",       "image",     "optics",     "compositing", "volume",      "mesh",
-    "mesh_files", "meshing",   "visibility", "scene",       "scene_files", "facts",
-    "plan",       "reference", "gl",         "tiles",       "executors",   "slicing",
-    "projection", "render",    "library",    "study",       "papers",      "selftest"};
+std::vector<std::string> words_of(const char* text) {
+    std::istringstream words(text);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+// Lowest first: a room includes only itself and the rooms before it. src/CMakeLists.txt lists them.
+const std::vector<std::string> rooms = words_of(LAMINA_ROOMS);
 const fs::path source = LAMINA_SOURCE_DIR;
 
 std::size_t height_of(const std::string& room) {

@@ -64,6 +64,9 @@ std::string words_of() {
 TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<Method>(), "slice project trace");
     EXPECT_EQ(words_of<Target>(), "float32 float16 fixed16 fixed8 emulated");
+    EXPECT_EQ(words_of<TraceOf>(), "volume mesh");
+    EXPECT_EQ(words_of<NanPolicy>(), "error transparent");
+    EXPECT_EQ(words_of<Projection>(), "perspective orthographic");
     EXPECT_EQ(words_of<Classification>(), "post preintegrated");
     EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");
     EXPECT_EQ(words_of<Filter>(), "exact hardware auto");
@@ -79,6 +82,15 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<LengthMapping>(), "octave log2 linear");
     EXPECT_EQ(words_of<TableStore>(), "mean_extinction opacity");
     EXPECT_EQ(words_of<TableFormat>(), "fixed16 fixed8 float16 float32");
+    EXPECT_EQ(words_of<TableConstruction>(), "exact incremental");
+}
+
+TEST(EnumWords, AreFoundAndListedForMessages) {
+    EXPECT_EQ(value_of_word<NodeCode>("phi"), NodeCode::phi);
+    EXPECT_EQ(value_of_word<NodeCode>("ph"), std::nullopt);
+    EXPECT_EQ(value_of_word<NodeCode>(""), std::nullopt);
+    EXPECT_EQ(alternatives<NodeCode>(), "minimax, phi or alpha");
+    EXPECT_EQ(alternatives<NanPolicy>(), "error or transparent");
 }
 
 }  // namespace

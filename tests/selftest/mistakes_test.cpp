@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "selftest/mistaken_maker.h"
 #include "selftest/selftest.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina::selftest {
 namespace {
 
-std::vector<SelftestResult> run_with(const std::string& mistake) {
+std::vector<SelftestResult> run_with(Mistake mistake) {
     static const Capabilities capabilities = tile_capabilities();
     std::vector<SelftestCase> cases = selftest_cases({"optics", "meshes", "views", "metamorphic"});
     std::erase_if(cases, [](const SelftestCase& each) { return each.scene == "hub_1e6"; });
-    return run_selftest(cases, PictureMaker(capabilities, mistake));
+    return run_selftest(cases, MistakenMaker(capabilities, mistake));
 }
 
 bool failed(const std::vector<SelftestResult>& results, const std::string& scene,
@@ -35,7 +35,7 @@ bool starts_with(const std::string& text, const std::string& beginning) {
 }
 
 TEST(Mistakes, ExtinctionOffByOnePercentShowsWhereverLightIsLeft) {
-    const auto results = run_with("extinction");
+    const auto results = run_with(Mistake::extinction);
     for (const char* way :
          {"trace volume", "trace mesh", "slice post float32", "slice preintegrated float32",
           "project float32", "project analytic float32"}) {
@@ -45,7 +45,7 @@ TEST(Mistakes, ExtinctionOffByOnePercentShowsWhereverLightIsLeft) {
 }
 
 TEST(Mistakes, RaysOffByAThousandthShow) {
-    const auto results = run_with("position");
+    const auto results = run_with(Mistake::position);
     for (const char* way : {"trace volume", "slice post float32", "project float32"}) {
         for (const char* scene : {"jump_1e8", "fov_10", "eye_inside", "eye_on_corner"})
             EXPECT_TRUE(failed(results, scene, way)) << scene << ", " << way;
@@ -53,7 +53,7 @@ TEST(Mistakes, RaysOffByAThousandthShow) {
 }
 
 TEST(Mistakes, OneSlabTooFewShowsInSlicingAlone) {
-    const auto results = run_with("slabs");
+    const auto results = run_with(Mistake::slabs);
     EXPECT_TRUE(failed(results, "jump_1e8", "slice post float32"));
     EXPECT_TRUE(failed(results, "steps", "slice post float32"));
     for (const SelftestResult& result : results) {
@@ -63,7 +63,7 @@ TEST(Mistakes, OneSlabTooFewShowsInSlicingAlone) {
 }
 
 TEST(Mistakes, ThicknessAlongDepthShowsInPerspectiveProjectionAlone) {
-    const auto results = run_with("thickness");
+    const auto results = run_with(Mistake::thickness);
     EXPECT_TRUE(failed(results, "fov_90", "project float32"));
     EXPECT_TRUE(failed(results, "fov_170", "project float32"));
     for (const SelftestResult& result : results) {
@@ -74,7 +74,7 @@ TEST(Mistakes, ThicknessAlongDepthShowsInPerspectiveProjectionAlone) {
 }
 
 TEST(Mistakes, NoVisibilityOrderShowsInColoredMeshesAlone) {
-    const auto results = run_with("order");
+    const auto results = run_with(Mistake::order);
     EXPECT_TRUE(failed(results, "kuhn_8", "project float32"));
     EXPECT_TRUE(failed(results, "irregular", "project analytic float32"));
     EXPECT_TRUE(failed(results, "reorder_tets", "project float32"));
@@ -83,7 +83,7 @@ TEST(Mistakes, NoVisibilityOrderShowsInColoredMeshesAlone) {
 }
 
 TEST(Mistakes, TwoBitsTooFewShowsInEmulatedTargetsAlone) {
-    const auto results = run_with("bits");
+    const auto results = run_with(Mistake::bits);
     std::size_t failures = 0;
     for (const SelftestResult& result : results) {
         if (result.outcome.verdict == Verdict::passed) continue;
@@ -91,11 +91,6 @@ TEST(Mistakes, TwoBitsTooFewShowsInEmulatedTargetsAlone) {
         EXPECT_NE(result.way.find("emulated"), std::string::npos) << result.scene;
     }
     EXPECT_GE(failures, 1u);
-}
-
-TEST(Mistakes, OnlyThoseKnown) {
-    const Capabilities capabilities = tile_capabilities();
-    EXPECT_THROW(PictureMaker(capabilities, "luck"), UsageError);
 }
 
 }  // namespace

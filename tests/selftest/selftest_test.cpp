@@ -28,7 +28,7 @@ class SelftestGroup : public testing::TestWithParam<std::string> {};
 
 TEST_P(SelftestGroup, Passes) {
     const Capabilities capabilities = tile_capabilities();
-    const PictureMaker maker(capabilities, "");
+    const PictureMaker maker(capabilities);
     for (const SelftestResult& result : run_selftest(cases_but_the_large(GetParam()), maker)) {
         EXPECT_EQ(result.outcome.verdict, Verdict::passed)
             << result.scene << ", " << result.way << ": " << result.outcome.note;
@@ -55,7 +55,7 @@ TEST(Selftest, RefusesUnknownGroups) {
 // A case that cannot be drawn is neither passed nor failed, and says why.
 TEST(Selftest, ReportsWhatWasRefused) {
     const Capabilities capabilities = tile_capabilities();
-    const PictureMaker maker(capabilities, "");
+    const PictureMaker maker(capabilities);
     const SelftestCase refused{"g", "s", "w", "about", [](const PictureMaker&) -> CaseOutcome {
                                    fail("no such extension");
                                }};

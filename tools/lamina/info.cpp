@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include "mesh_files/mesh_file.h"
 #include "scene_files.h"
 #include "verbs.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -36,13 +35,6 @@ std::string table_text(const Json& info) {
                         printable(value.is_string() ? value.get<std::string>() : json_text(value)));
     }
     return text;
-}
-
-bool is_volume_file(const std::string& file) {
-    std::string extension = std::filesystem::path(file).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".nrrd" || extension == ".nhdr";
 }
 
 void run(const InfoOptions& options) {

@@ -16,11 +16,11 @@
 #include "different_files.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
+#include "scene_files.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_reader.h"
-#include "scene_files.h"
 #include "verbs.h"
-#include "volume/nrrd.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -95,7 +95,7 @@ bool is_scene(const std::filesystem::path& path) {
 MeshTask load(const MeshOptions& options, const MeshOutput& output) {
     if (!is_scene(options.input)) {
         expect_different_files(files_of_volume(options.input), output.paths());
-        return {read_nrrd(options.input), {}, {}};
+        return {read_volume(options.input), {}, {}};
     }
     const Scene scene = read_scene(load_json(options.input), options.input);
     expect_different_files(files_of(scene), output.paths());

@@ -26,6 +26,7 @@
 #include "render/draw_context.h"
 #include "scene_files.h"
 #include "verbs.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files.h"
 
-#include "base/error.h"
-#include "volume/nrrd_header.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -14,16 +13,6 @@ void append(Paths& files, const Paths& more) {
 }
 
 }  // namespace
-
-Paths files_of_volume(const std::filesystem::path& volume) {
-    Paths files{volume};
-    try {
-        files.push_back(read_nrrd_header(volume).data_path);
-    } catch (const Error&) {
-        // Said when the volume is read, if it is.
-    }
-    return files;
-}
 
 Paths files_of_mesh(const std::filesystem::path& mesh) {
     Paths files{mesh};

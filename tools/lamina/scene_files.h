@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that reading one file means.
+// The files that reading one file means. A volume's: volume/volume_file.h.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,6 @@
 #include "lamina/scene.h"
 
 namespace lamina {
-
-// A volume's, and its data file.
-std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& volume);
 
 // A mesh's one or two.
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& mesh);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -34,12 +33,6 @@ struct SelftestOptions {
     bool force = false, quiet = false;
 };
 
-// Makes the renderer wrong on purpose, to see that the self-test finds it.
-std::string mistake_asked_for() {
-    const char* const mistake = std::getenv("LAMINA_SELFTEST_MISTAKE");
-    return mistake ? mistake : "";
-}
-
 int run(const SelftestOptions& options) {
     const std::vector<selftest::SelftestCase> cases = selftest::selftest_cases(options.groups);
     const ContextChoice choice = context_choice(options.context);
@@ -48,19 +41,14 @@ int run(const SelftestOptions& options) {
     expect_own_folder(folder, verb_name, {report_name, table_name}, {}, options.force);
     make_folder(folder);
     AtomicFile report(folder / report_name), table_file(folder / table_name);
-    const std::string mistake = mistake_asked_for();
     const DrawContext context(choice);
     const auto current = context.make_current();
-    const selftest::PictureMaker maker(context.capabilities(), mistake);
-    if (!mistake.empty())
-        print_message("lamina: warning: drawing wrongly on purpose: LAMINA_SELFTEST_MISTAKE={}\n",
-                      mistake);
+    const selftest::PictureMaker maker(context.capabilities());
     const std::vector<selftest::SelftestResult> results = selftest::run_selftest(cases, maker);
 
     nlohmann::ordered_json document{{"version", LAMINA_VERSION},
                                     {"commit", git_commit},
                                     {"context", renderer_and_threads(context.capabilities())},
-                                    {"mistake", mistake},
                                     {"machine", study::describe_machine()}};
     document.update(selftest::selftest_json(results));
     OwnFiles(folder, verb_name).add({report_name, table_name});

@@ -7,7 +7,7 @@
 #include "json_vector.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
-#include "volume/nrrd.h"
+#include "volume/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -41,7 +41,7 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks) {
 nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png) {
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
-    const Volume volume = read_nrrd(file);
+    const Volume volume = read_volume(file);
     const MinMaxBricks bricks = measure_bricks(volume);
     if (picture) {
         write_png(*picture, middle_slices(volume, bricks.whole));

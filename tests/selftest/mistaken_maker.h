@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "selftest/picture_maker.h"
+
+namespace lamina::selftest {
+
+// What a wrong renderer would do.
+enum class Mistake {
+    extinction,  // opacities corrected wrongly: extinction 1 % too high
+    position,    // rays off by 1e-3 of their distance
+    slabs,       // a slab too few
+    thickness,   // Kraus's thickness along the depth axis
+    order,       // no visibility order
+    bits         // two bits too few
+};
+
+// Draws another scene than it is asked for.
+class MistakenMaker : public PictureMaker {
+  public:
+    MistakenMaker(const Capabilities& capabilities, Mistake mistake)
+        : PictureMaker(capabilities), mistake_(mistake) {}
+
+    PreciseImage draw(const Scene& scene, const Volume& volume) const override;
+    PreciseImage draw(const Scene& scene, const SceneMesh& mesh, OrderReport* order) const override;
+
+  private:
+    Scene mistaken(Scene scene) const;
+
+    Mistake mistake_;
+};
+
+}  // namespace lamina::selftest
