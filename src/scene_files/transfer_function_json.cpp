@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t max_points = 4096;
 
-enum class Interpolation { linear, nearest };
+enum class KnotInterpolation { linear, nearest };
 
 glm::dvec3 read_color(JsonReader& point) {
     const glm::dvec3 color = point.vector_or("color", glm::dvec3(1));
@@ -127,10 +127,11 @@ TransferFunction read_with_colormap(JsonReader& reader, double unit_length) {
 TransferFunction read_transfer_function(JsonReader reader, std::vector<std::string>* warnings) {
     const double unit_length = reader.number_or("unit_length", 1);
     if (!(unit_length > 0)) reader.reject("unit_length", "a number > 0");
-    const auto interpolation = reader.choice<Interpolation>(
-        "interpolation", {{"linear", Interpolation::linear}, {"nearest", Interpolation::nearest}});
+    const auto interpolation = reader.choice<KnotInterpolation>(
+        "interpolation",
+        {{"linear", KnotInterpolation::linear}, {"nearest", KnotInterpolation::nearest}});
     if (reader.has("colormap")) {
-        if (interpolation == Interpolation::nearest) {
+        if (interpolation == KnotInterpolation::nearest) {
             reader.fail_at("interpolation", "nearest does not go with a colormap, expected linear");
         }
         TransferFunction result = read_with_colormap(reader, unit_length);
@@ -140,7 +141,8 @@ TransferFunction read_transfer_function(JsonReader reader, std::vector<std::stri
     Points points = read_points(reader, unit_length, true);
     reader.close();
     try {
-        if (interpolation == Interpolation::nearest) return TransferFunction::nearest(points.knots);
+        if (interpolation == KnotInterpolation::nearest)
+            return TransferFunction::nearest(points.knots);
         warn_of_opaque_ramp(points.knots, points.opaque, reader, warnings);
         return TransferFunction::linear(std::move(points.knots));
     } catch (const Error& error) {
