@@ -42,6 +42,16 @@ function(lamina_room name)
     target_link_libraries(lamina_${name} PUBLIC lamina_options ${ROOM_LINK})
 endfunction()
 
+# lamina_join_sources(TARGET): its sources are compiled eight at a time. Each of them alone spends most of its time on
+# headers and templates (JSON, command lines) that the others use too. Helpers of two files must not share a name then,
+# although namespaces without names hide them. Debug builds compile each source alone: only so is an include missed that
+# the file before it has.
+function(lamina_join_sources target)
+    if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    endif()
+endfunction()
+
 # lamina_test(ROOM SOURCES ... LINK ...): the program test_ROOM, registered test by test with CTest.
 function(lamina_test name)
     cmake_parse_arguments(TEST "" "" "SOURCES;LINK" ${ARGN})

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int magnification = 12;
 constexpr double least_range = 16.0 / 255;  // that fills an inset's contrast
-constexpr double middle = 0.35;             // linear light: where an inset's mean goes
+constexpr double inset_mean = 0.35;         // linear light: where an inset's mean goes
 // A difference is darkest where this share of the first variant's components is off by less.
 constexpr double shown_share = 0.995;
 
@@ -112,7 +112,7 @@ CodedImage magnified(const Image& image, const Inset& inset, double gain) {
                             inset.row + std::min(y / magnification, inset.height - 1));
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 large.pixel(x, y)[channel] =
-                    static_cast<float>(middle + gain * (from[channel] - mean[channel]));
+                    static_cast<float>(inset_mean + gain * (from[channel] - mean[channel]));
             }
         }
     }

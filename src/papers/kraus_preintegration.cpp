@@ -23,7 +23,7 @@ int half(int pixels) {
     return std::max(1, pixels / 2);
 }
 
-enum Way : std::size_t { incremental, exact, ours_incremental, ours, automatic, analytic };
+enum TableWay : std::size_t { incremental, exact, ours_incremental, ours, automatic, analytic };
 
 std::vector<Variant> ways(const Scene& scene) {
     const auto table = [&](TableStore store, TableConstruction construction) {
@@ -82,7 +82,7 @@ Json measured_rows(KrausSubject& subject, const char* transfer_function, const S
 
 void judge(Findings& findings, const std::string& on, const std::vector<VariantErrors>& errors,
            const Json& rows) {
-    const auto l2 = [&](Way way) { return errors[way].all.l2; };
+    const auto l2 = [&](TableWay way) { return errors[way].all.l2; };
     findings.add(on + "the analytic solution is nearer to the tracer than the paper's numerical "
                       "pre-integration",
                  l2(analytic) < l2(incremental),

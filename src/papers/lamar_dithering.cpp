@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int depths[] = {64, 256, 1024, 4096};
+constexpr int dither_depths[] = {64, 256, 1024, 4096};
 constexpr int increments[] = {1, 2, 4, 8, 16};
 
 void append(Json& row, const ErrorNorms& e) {
@@ -64,7 +64,7 @@ Json measure_periods() {
     Progress progress("dithering: periods", 3 * 4 * 11);
     Json rows = Json::array();
     for (const auto& [color, over] : color_cases) {
-        for (const int samples : depths) {
+        for (const int samples : dither_depths) {
             for (int period = 4; period <= 4096; period *= 2) {
                 rows.push_back(measure_period(samples, period, color, over));
                 progress.advance();
@@ -90,7 +90,7 @@ Json measure_increments() {
     for (const auto& [color, over] : color_cases) {
         for (const bool dither_color : {false, true}) {
             if (color == 1 && dither_color) continue;  // 255 has no fraction
-            for (const int samples : depths) {
+            for (const int samples : dither_depths) {
                 for (const int increment : increments) {
                     RampSetting setting{.samples = samples, .color = color};
                     setting.emulation.over = over;
@@ -144,7 +144,7 @@ std::vector<Json> select(const Json& rows, const Json& wanted) {
 std::string error_plot(const Json& rows, const std::string& title, const study::PlotAxis& x_axis,
                        const std::string& key) {
     study::LinePlot plot(title, x_axis, {"L2, in 1/255", 1, 256, true});
-    for (const int samples : depths) {
+    for (const int samples : dither_depths) {
         std::vector<double> x, y;
         for (const Json& row : rows) {
             if (row["samples"] != samples || row["color"] != 1.0) continue;
@@ -160,7 +160,7 @@ std::string error_plot(const Json& rows, const std::string& title, const study::
 void judge_periods(Findings& findings, const Json& periods) {
     bool holds = true;
     std::string needed;
-    for (const int samples : depths) {
+    for (const int samples : dither_depths) {
         // The shortest period that shows the ramp's faintest column.
         int shortest = 0;
         for (const Json& row : select(periods, {{"samples", samples}, {"color", 1.0}})) {
@@ -195,7 +195,7 @@ void judge_periods(Findings& findings, const Json& periods) {
 void judge_increments(Findings& findings, const Json& rows) {
     bool holds = true;
     std::string measured;
-    for (const int samples : depths) {
+    for (const int samples : dither_depths) {
         const auto l2 = [&](int increment) {
             return select(rows, {{"samples", samples},
                                  {"period", dither_period_for(samples)},

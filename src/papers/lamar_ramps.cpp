@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int depths[] = {16, 64, 256};  // the paper's sample depths
-constexpr int paper_period = 11;         // section 5.1
+constexpr int ramp_depths[] = {16, 64, 256};  // the paper's sample depths
+constexpr int paper_period = 11;              // section 5.1
 
 std::string depth_name(int samples) {
     return fmt::format("N={}", samples);
@@ -55,7 +55,7 @@ double slope_of_first_half(const Curve& curve) {
 
 Json reproduce_figure2(const std::filesystem::path& folder) {
     std::vector<NamedCurve> curves{{"software", exact_ramp(1)}};
-    for (const int samples : depths) {
+    for (const int samples : ramp_depths) {
         curves.push_back({depth_name(samples), composite_ramp({.samples = samples})});
     }
     Json values = write_ramp_figure(folder, "figure2", "Figure 2: the ramp in 8 bits", curves);
@@ -87,7 +87,7 @@ Json reproduce_figure3(const std::filesystem::path& folder) {
     std::vector<NamedCurve> curves{{"software", exact_ramp(0.5)}};
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
         const char* const word = name_of(rounding);
-        for (const int samples : depths) {
+        for (const int samples : ramp_depths) {
             RampSetting setting{.samples = samples, .color = 0.5};
             setting.emulation.over = rounding;
             curves.push_back(
@@ -137,7 +137,7 @@ Json reproduce_figure5(const std::filesystem::path& folder) {
     std::vector<NamedCurve> curves{{"software", exact_ramp(0.5)}};
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
         const char* const word = rounding == OverRounding::separate ? "" : " fused";
-        for (const int samples : depths) {
+        for (const int samples : ramp_depths) {
             RampSetting setting{.samples = samples, .color = 0.5, .dither = paper_dither()};
             setting.emulation.over = rounding;
             curves.push_back({depth_name(samples) + word, composite_ramp(setting)});

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int pixels = 512, slices = 1024, rounds = 3;
+constexpr int timed_pixels = 512, slices = 1024, rounds = 3;
 constexpr int barrier_pixels = 64;
 constexpr int palette_period = 16;
 // The volume's square covers a quarter of the picture; what a tree does once a node is done over
@@ -37,13 +37,13 @@ Scene timed_scene(bool white) {
     scene.camera.eye = {0.5, 0.5, 2};
     scene.camera.center = glm::dvec3(0.5);
     scene.camera.height = 1 / volume_in_picture;
-    scene.width = scene.height = pixels;
+    scene.width = scene.height = timed_pixels;
     scene.slice.samples = slices;
     return scene;
 }
 
 // How to composite; `blend` keeps float32 from being marched in registers.
-struct Technique {
+struct TimedWay {
     std::string name;
     Target target = Target::fixed8;
     bool white = false;
@@ -53,7 +53,7 @@ struct Technique {
     bool blend = false;
 };
 
-std::vector<Technique> techniques() {
+std::vector<TimedWay> timed_ways() {
     const std::vector<int> binary(10, 2), quaternary(5, 4), two{32, 32};
     const auto fixed = NodeArithmetic::fixed;
     return {{"straight fixed8"},
@@ -72,7 +72,7 @@ std::vector<Technique> techniques() {
             {.name = "fixed tree 2^10, white", .white = true, .factors = binary, .nodes = fixed}};
 }
 
-Scene scene_of(const Technique& technique) {
+Scene scene_of(const TimedWay& technique) {
     Scene scene = timed_scene(technique.white);
     scene.target = technique.target;
     if (technique.dither) scene.slice.dither = DitherSettings{.period = palette_period};
@@ -99,7 +99,7 @@ study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const 
 Json time_techniques(const std::shared_ptr<const VolumeData>& volume,
                      const Capabilities& capabilities) {
     std::vector<study::TimedFrame> frames;
-    for (const Technique& technique : techniques()) {
+    for (const TimedWay& technique : timed_ways()) {
         OmissionSwitch omissions;
         if (technique.blend) omissions.kept = {"blending"};
         frames.push_back(
@@ -133,8 +133,8 @@ Json time_palettes(bool& same_picture) {
     std::vector<study::TimedFrame> frames;
     std::array<Image, 2> images;
     const auto add = [&](const char* name, Way way, Image& image) {
-        const auto all = std::make_shared<PaletteSlices>(way, pixels, slices, palette_period);
-        const auto few = std::make_shared<PaletteSlices>(way, pixels, 1, palette_period);
+        const auto all = std::make_shared<PaletteSlices>(way, timed_pixels, slices, palette_period);
+        const auto few = std::make_shared<PaletteSlices>(way, timed_pixels, 1, palette_period);
         frames.push_back({name, [few] { few->draw(); }, [all, &image] { image = all->draw(); }});
     };
     add("one dependent lookup", Way::lookup, images[0]);
@@ -152,7 +152,7 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
         generate({"mixing", std::array<std::int64_t, 3>{128, 128, 128}, SampleType::uint8}));
     Json values{{"files", {"times.csv", "times_barriers.csv", "times_palettes.csv"}},
                 {"renderer", renderer_and_threads(stage.capabilities())},
-                {"pixels", pixels},
+                {"pixels", timed_pixels},
                 {"covered_share", volume_in_picture * volume_in_picture},
                 {"samples", slices},
                 {"rounds", rounds}};

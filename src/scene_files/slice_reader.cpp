@@ -34,7 +34,7 @@ DitherSettings read_dither(JsonReader reader) {
     return dither;
 }
 
-SliceTableSettings read_table(JsonReader reader) {
+SliceTableSettings read_slice_table(JsonReader reader) {
     SliceTableSettings table;
     if (reader.has("scalar")) table.scalars = static_cast<int>(reader.whole("scalar", 2, 4096));
     if (reader.has("length")) table.lengths = static_cast<int>(reader.whole("length", 1, 64));
@@ -64,7 +64,7 @@ SliceSettings read_slice(JsonReader reader) {
     if (reader.has("table") && reader.value("table") != "auto") {
         if (!reader.value("table").is_object())
             reader.reject("table", "an object {\"scalar\": ...}, or \"auto\"");
-        slice.table = read_table(reader.object("table"));
+        slice.table = read_slice_table(reader.object("table"));
     }
     reader.close();
     return slice;

@@ -9,7 +9,7 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "depth";
+constexpr const char* depth_group = "depth";
 
 SelftestScene slabs_scene(const std::string& name, int slabs, double extinction) {
     SelftestScene scene = plain_scene(
@@ -31,7 +31,7 @@ SelftestScene slabs_scene(const std::string& name, int slabs, double extinction)
 std::vector<SelftestCase> depth_cases() {
     std::vector<SelftestCase> cases;
     const auto add = [&](const SelftestScene& scene, const std::vector<DrawingWay>& ways) {
-        for (SelftestCase& each : cases_of(group, scene, ways)) cases.push_back(each);
+        for (SelftestCase& each : cases_of(depth_group, scene, ways)) cases.push_back(each);
     };
     for (const int slabs : {1, 2, 3, 17, 255, 4096, 65536}) {
         add(slabs_scene("medium", slabs, 2), float_ways());

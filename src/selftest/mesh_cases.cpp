@@ -10,9 +10,9 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "meshes";
+constexpr const char* mesh_group = "meshes";
 
-const std::vector<DrawingWay>& ways() {
+const std::vector<DrawingWay>& mesh_ways() {
     static const std::vector<DrawingWay> all{traces()[1], way_named("project float32"),
                                              way_named("project analytic float32")};
     return all;
@@ -193,10 +193,10 @@ std::vector<MeshScene> mesh_scenes() {
 std::vector<SelftestCase> mesh_cases() {
     std::vector<SelftestCase> cases;
     for (const SelftestScene& scene : box_scenes()) {
-        for (SelftestCase& each : cases_of(group, scene, ways())) cases.push_back(each);
+        for (SelftestCase& each : cases_of(mesh_group, scene, mesh_ways())) cases.push_back(each);
     }
     for (const MeshScene& scene : mesh_scenes()) {
-        for (const DrawingWay& way : ways()) cases.push_back(case_of(group, scene, way));
+        for (const DrawingWay& way : mesh_ways()) cases.push_back(case_of(mesh_group, scene, way));
     }
     return cases;
 }

@@ -10,7 +10,7 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "metamorphic";
+constexpr const char* metamorphic_group = "metamorphic";
 
 SelftestScene base_scene(const std::string& about = "") {
     SelftestScene scene = plain_scene("base", about);
@@ -127,7 +127,8 @@ std::vector<SelftestCase> metamorphic_cases() {
     const auto add = [&](const std::string& name, const SelftestScene& other,
                          const std::vector<std::string>& ways) {
         for (const std::string& way : ways)
-            cases.push_back(same_picture_case(group, name, base_scene(), other, way_named(way)));
+            cases.push_back(
+                same_picture_case(metamorphic_group, name, base_scene(), other, way_named(way)));
     };
     const std::vector<std::string> slices{"slice post float32", "slice preintegrated float32"};
     const std::vector<std::string> projections{"project float32", "project analytic float32"};

@@ -11,7 +11,7 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "numbers";
+constexpr const char* number_group = "numbers";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -107,12 +107,12 @@ std::vector<SelftestCase> number_cases() {
         ways.push_back(way_named(name));
     std::vector<SelftestCase> cases;
     for (const SelftestScene& scene : scenes) {
-        for (SelftestCase& each : cases_of(group, scene, ways)) cases.push_back(each);
+        for (SelftestCase& each : cases_of(number_group, scene, ways)) cases.push_back(each);
     }
     const char* const reason = "NaN or infinite samples";
-    cases.push_back(
-        refusal_case(group, not_finite("nan_error", nan), way_named("slice post float32"), reason));
-    cases.push_back(refusal_case(group, not_finite("infinity_error", infinity),
+    cases.push_back(refusal_case(number_group, not_finite("nan_error", nan),
+                                 way_named("slice post float32"), reason));
+    cases.push_back(refusal_case(number_group, not_finite("infinity_error", infinity),
                                  way_named("slice post float32"), reason));
     return cases;
 }

@@ -12,15 +12,15 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "optics";
+constexpr const char* optics_group = "optics";
 
 void append(std::vector<SelftestCase>& cases, std::vector<SelftestCase> more) {
     for (SelftestCase& each : more) cases.push_back(std::move(each));
 }
 
 void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& scene) {
-    append(cases, cases_of(group, scene, traces()));
-    append(cases, cases_of(group, scene, float_ways()));
+    append(cases, cases_of(optics_group, scene, traces()));
+    append(cases, cases_of(optics_group, scene, float_ways()));
 }
 
 // Of optical depths up to `depth`; where little shows, little may be left out.
@@ -112,10 +112,10 @@ void append_targets(std::vector<SelftestCase>& cases) {
     colored.scene.slice.samples = 16;
     colored.scene.transfer_function = optics_of({{0, {{0, .1, 1}, 1}}, {1, {{1, .4, 0}, 3}}});
     for (const SelftestScene* scene : {&faint, &dense, &colored})
-        append(cases, cases_of(group, *scene, coarse_ways()));
+        append(cases, cases_of(optics_group, *scene, coarse_ways()));
     for (SelftestScene* scene : {&faint, &dense, &colored}) {
         scene->scene.slice.samples = 64;
-        append(cases, cases_of(group, *scene, tree_ways()));
+        append(cases, cases_of(optics_group, *scene, tree_ways()));
     }
 }
 

@@ -10,9 +10,9 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr const char* group = "views";
+constexpr const char* view_group = "views";
 
-const std::vector<DrawingWay>& ways() {
+const std::vector<DrawingWay>& view_ways() {
     static const std::vector<DrawingWay> all = [] {
         std::vector<DrawingWay> list = traces();
         for (const char* name : {"slice post float32", "slice preintegrated float32",
@@ -111,7 +111,7 @@ std::vector<SelftestCase> view_cases() {
     }
     std::vector<SelftestCase> cases;
     for (const SelftestScene& scene : scenes) {
-        for (SelftestCase& each : cases_of(group, scene, ways())) cases.push_back(each);
+        for (SelftestCase& each : cases_of(view_group, scene, view_ways())) cases.push_back(each);
     }
     return cases;
 }

@@ -14,8 +14,8 @@ namespace {
 
 // Pixels of the drawing; the plot's own rectangle within it.
 constexpr double drawing_width = 760, drawing_height = 440;
-constexpr double left = 70, top = 44, width = 460, height = 330;
-constexpr double right = left + width, bottom = top + height;
+constexpr double left = 70, top = 44, plot_width = 460, plot_height = 330;
+constexpr double right = left + plot_width, bottom = top + plot_height;
 
 struct Pen {
     const char* color;
@@ -97,10 +97,10 @@ void LinePlot::add(std::string name, std::vector<double> x, std::vector<double> 
 }
 
 double LinePlot::across(double x) const {
-    return left + width * share_of(x_, x);
+    return left + plot_width * share_of(x_, x);
 }
 double LinePlot::down(double y) const {
-    return bottom - height * share_of(y_, y);
+    return bottom - plot_height * share_of(y_, y);
 }
 
 std::string LinePlot::grid() const {

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Settings& settings) {
+Json settings_to_json(const Settings& settings) {
     Json json = Json::object();
     for (const auto& [key, value] : settings) json[key] = value;
     return json;
@@ -48,7 +48,7 @@ nlohmann::ordered_json to_json(const RunList& list) {
         json["runs"].push_back({{"id", run.id},
                                 {"name", run.name},
                                 {"scene", run.scene},
-                                {"settings", to_json(run.settings)}});
+                                {"settings", settings_to_json(run.settings)}});
     }
     return json;
 }

@@ -33,7 +33,7 @@
 namespace lamina {
 namespace {
 
-constexpr const char* verb_name = "crosscheck";
+constexpr const char* crosscheck_name = "crosscheck";
 const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr", "sliced.exr",
                                           "projected.exr",     "budget.json",     "report.html"};
 
@@ -66,7 +66,7 @@ void write_picture(const std::filesystem::path& path, const Image& image) {
 void write_all(const std::filesystem::path& folder, const study::Crosscheck& made,
                const study::CrosscheckSubject& subject) {
     const study::ErrorBudget budget = study::error_budget(made.pictures);
-    OwnFiles(folder, verb_name).add(file_names);
+    OwnFiles(folder, crosscheck_name).add(file_names);
     write_picture(folder / "traced_volume.exr", made.pictures.traced_volume);
     write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
     write_picture(folder / "sliced.exr", made.pictures.sliced);
@@ -84,7 +84,7 @@ void run(const CrosscheckOptions& options) {
     std::string ignored;
     const Scene scene = load_scene(options.scene, ignored);
     const std::filesystem::path folder = options.output;
-    expect_own_folder(folder, verb_name, file_names, files_of(scene), options.force);
+    expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     make_folder(folder);
@@ -107,7 +107,7 @@ void run(const CrosscheckOptions& options) {
 void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
-        verb_name, "Slice a volume and project its mesh, and say where they differ, and why");
+        crosscheck_name, "Slice a volume and project its mesh, and say where they differ, and why");
     verb->add_option("SCENE", options->scene.file, "Scene file (JSON) with a volume")->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();

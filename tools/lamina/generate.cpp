@@ -21,7 +21,7 @@ struct GenerateOptions {
     bool quiet = false;
 };
 
-std::array<std::int64_t, 3> parse_size(const std::string& text) {
+std::array<std::int64_t, 3> parse_grid_size(const std::string& text) {
     std::array<std::int64_t, 3> size{};
     const char* at = text.data();
     const char* const end = at + text.size();
@@ -48,7 +48,7 @@ GeneratorRequest request_of(const GenerateOptions& options) {
     GeneratorRequest request;
     request.name = options.name;
     request.type = parse_type(options.type);
-    if (!options.size.empty()) request.size = parse_size(options.size);
+    if (!options.size.empty()) request.size = parse_grid_size(options.size);
     try {
         generated_grid(request);
     } catch (const Error& error) {  // all that it knows comes from the command line

@@ -25,7 +25,7 @@ SegmentIntegral integral_of(const IntegrationCase& given) {
 }
 
 // 17 significant digits: what every double needs to be read back as itself.
-std::string json_text(const std::vector<SegmentIntegral>& results) {
+std::string text_of(const std::vector<SegmentIntegral>& results) {
     std::string text = "[";
     for (const SegmentIntegral& result : results) {
         text += text.size() > 1 ? ",\n " : "\n ";
@@ -60,10 +60,10 @@ void integrate(const std::string& cases_file, const std::string& output) {
     expect_different_files(read, {output});
     for (const std::string& warning : warnings) print_message("lamina: warning: {}\n", warning);
     if (file) {
-        file->write(json_text(results));
+        file->write(text_of(results));
         file->commit();
     } else {
-        write_result(json_text(results));
+        write_result(text_of(results));
     }
 }
 

@@ -20,15 +20,15 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
-#include "mesh_files/mesh_file.h"
 #include "mesh/mesh_shape.h"
-#include "visibility/order_check.h"
-#include "visibility/visibility_order.h"
+#include "mesh_files/mesh_file.h"
 #include "reference/order_pixels.h"
-#include "scene_files/json_reader.h"
 #include "scene/scene_mesh.h"
+#include "scene_files/json_reader.h"
 #include "scene_files/scene_reader.h"
 #include "verbs.h"
+#include "visibility/order_check.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina {
 namespace {
@@ -51,7 +51,7 @@ struct Size {
     int width, height;
 };
 
-Size parse_size(const std::string& text) {
+Size parse_view_size(const std::string& text) {
     Size size{};
     const char* const end = text.data() + text.size();
     const auto [middle, first] = std::from_chars(text.data(), end, size.width);
@@ -232,7 +232,7 @@ void run(const OrderOptions& options) {
         throw UsageError(
             fmt::format("--eyes {}: expected a number from 1 to {}", options.eyes, most_eyes));
     }
-    const Size size = parse_size(options.size);
+    const Size size = parse_view_size(options.size);
     const Input input = load(options.input);
     const std::vector<Outcome> outcomes = measure_orders(input, options.eyes, size);
     (options.json ? print_json : print_table)(input, outcomes, options.eyes);

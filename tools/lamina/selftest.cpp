@@ -24,7 +24,7 @@ namespace lamina {
 namespace {
 
 constexpr int bound_exceeded = 3;
-constexpr const char* verb_name = "selftest";
+constexpr const char* selftest_name = "selftest";
 constexpr const char *report_name = "selftest.json", *table_name = "selftest.txt";
 
 struct SelftestOptions {
@@ -38,7 +38,7 @@ int run(const SelftestOptions& options) {
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     const std::filesystem::path folder = options.output;
-    expect_own_folder(folder, verb_name, {report_name, table_name}, {}, options.force);
+    expect_own_folder(folder, selftest_name, {report_name, table_name}, {}, options.force);
     make_folder(folder);
     AtomicFile report(folder / report_name), table_file(folder / table_name);
     const DrawContext context(choice);
@@ -51,7 +51,7 @@ int run(const SelftestOptions& options) {
                                     {"context", renderer_and_threads(context.capabilities())},
                                     {"machine", study::describe_machine()}};
     document.update(selftest::selftest_json(results));
-    OwnFiles(folder, verb_name).add({report_name, table_name});
+    OwnFiles(folder, selftest_name).add({report_name, table_name});
     report.write(json_text(document, 1) + "\n");
     report.commit();
     const std::string table = selftest::selftest_table(results);
@@ -70,7 +70,8 @@ int run(const SelftestOptions& options) {
 void add_selftest(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<SelftestOptions>();
     CLI::App* const verb = app.add_subcommand(
-        verb_name, "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
+        selftest_name,
+        "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
     verb->add_option("-o,--output", options->output,
                      "Folder for selftest.json and selftest.txt (made if need be)")
         ->required();
