@@ -9,11 +9,11 @@
 
 namespace lamina::study {
 
-// Contexts by their words (--context), made when first asked for. Of those with OpenGL only one is
-// there at a time (gl/context.h).
+// Contexts by their names (--context), made when they are first needed. Only one OpenGL context
+// exists at a time (gl/context.h).
 class DrawContexts {
   public:
-    // `before_switch`: called before the one with OpenGL goes; its renderers must be gone after.
+    // `before_switch`: called before an OpenGL context is destroyed; it must destroy its renderers.
     explicit DrawContexts(std::function<void()> before_switch)
         : before_switch_(std::move(before_switch)) {}
     ~DrawContexts() { before_switch_(); }
