@@ -12,15 +12,15 @@
 
 namespace lamina::selftest {
 
-// Draws as `lamina render` does: facts, plan, renderer. For checks of the self-test itself it can
-// make a mistake on purpose: what it draws is then not what it was asked for.
+// Draws as `lamina render` does: facts, plan, renderer. To check the self-test itself it can make a
+// deliberate mistake, so that the picture is not the one that was asked for.
 class PictureMaker {
   public:
-    // `mistake`: one of mistakes(), or empty. Throws UsageError where it is neither.
+    // `mistake`: one of mistakes(), or empty. Throws UsageError for anything else.
     PictureMaker(const Capabilities& capabilities, std::string mistake);
 
     PreciseImage draw(const Scene& scene, const Volume& volume) const;
-    // `order`: what was found of the visibility order, where something was drawn in one.
+    // `order`: receives the report of the visibility order, where there was one.
     PreciseImage draw(const Scene& scene, const SceneMesh& mesh,
                       OrderReport* order = nullptr) const;
 
