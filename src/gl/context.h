@@ -12,9 +12,9 @@ namespace lamina::gl {
 // egl: a GPU where there is one, else a software renderer.
 enum class ContextKind { automatic, gpu, osmesa, egl };
 
-// An OpenGL 4.5 core context without a window or a display server, current in the thread that made
-// it. Only one is alive at a time. Every object of this room belongs to it and must be gone before
-// it.
+// An OpenGL 4.5 core context without a window or a display server. It is current in the thread that
+// made it. Only one exists at a time. All objects of this room belong to it and must be destroyed
+// before it.
 class Context {
   public:
     // Makes a context. Throws Error, which says what was tried, why each attempt failed, and what
@@ -32,8 +32,8 @@ class Context {
 
     Context();
 
-    // To be called once the context is current: loads OpenGL's functions, fills the capabilities
-    // and sets the state that the whole project relies on. `interface_name` goes in front of
+    // Must be called once the context is current. Loads OpenGL's functions, fills the capabilities
+    // and sets the state that the whole project relies on. `interface_name` is put in front of
     // GL_RENDERER.
     void initialise(LoadFunction load, const char* interface_name, bool software);
 

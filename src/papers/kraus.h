@@ -31,7 +31,8 @@ nlohmann::ordered_json draw_kraus_table2(const std::filesystem::path& folder, Kr
 // Every remedy switched off in turn, on all meshes.
 nlohmann::ordered_json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage);
 
-// Section 6, future work: numerical against analytic pre-integration, and wrong orders.
+// The paper's future work (section 6): compares numerical with analytic pre-integration, and shows
+// wrong orders.
 nlohmann::ordered_json draw_kraus_preintegration(const std::filesystem::path& folder,
                                                  KrausStage& stage);
 nlohmann::ordered_json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage);

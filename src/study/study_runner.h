@@ -30,14 +30,16 @@ struct Shard {
 // that a slow phase of the machine affects all of them. A shard without a scene's baseline also
 // times that baseline.
 //
-// Records of the journal, in any order (times in ms, errors in 1/255):
-//   {"begin": {machine, processors, date, version, commit, command}}   of every process
-//   {"run", "session", "round", "frame_ms": [...], "still_ms": [...]}   a round; sessions count the
-//                                                             processes: only within one are rounds
-//                                                             neighbours in time
-//   {"run", "drawn": {...}}                                   picture and costs, once a run
-//   {"run", "failed": message}                                instead of these; tried again when
-//                                                             the study goes on
+// The journal has these records, in any order (times in ms, errors in 1/255):
+//   {"begin": {machine, processors, date, version, commit, command}}
+//       one for every process
+//   {"run", "session", "round", "frame_ms": [...], "still_ms": [...]}
+//       one for every round; sessions number the processes, and rounds are neighbours in time only
+//       within one session
+//   {"run", "drawn": {...}}
+//       picture and costs, once for every run
+//   {"run", "failed": message}
+//       instead of the others; the run is tried again when the study goes on
 class StudyRunner {
   public:
     // `begin`: a record of where and how this process runs. `data`: may already hold data of the
