@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "render/drawing.h"
 #include "facts/mesh_facts.h"
+#include "render/drawing.h"
 #include "scene/scene_mesh.h"
 
 namespace lamina {

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "plan/sample_trials.h"
 #include "render/drawing.h"
 #include "render/volume_data.h"
-#include "plan/sample_trials.h"
 
 namespace lamina {
 
