@@ -15,8 +15,8 @@ struct Camera {
     glm::dvec3 eye{0, 0, 1};
     glm::dvec3 center{0};
     glm::dvec3 up{0, 1, 0};
-    double fov_y = 40;  // degrees, perspective
-    double height = 1;  // world units, orthographic
+    double fov_y = 40;  // vertical field of view in degrees; perspective views
+    double height = 1;  // height of the picture in world units; orthographic views
 };
 
 LAMINA_API const char* name_of(Projection projection);

@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Bad data, or a machine that cannot do what was asked. The message is one line that names the
+// The data are bad, or the machine cannot do what was asked. The message is one line that names the
 // file, the field or line, what was found and what was expected.
 class LAMINA_API Error : public std::runtime_error {
   public:

@@ -19,8 +19,8 @@ struct MeshReport {
     std::int64_t points = 0;
     std::int64_t tets = 0;
     std::int64_t kuhn_tets = 0;  // the Kuhn split has so many, or would have
-    int rounds = 0;              // of the adaptive mesh
-    double range = 0;            // of the volume's values: largest - least
+    int rounds = 0;              // rounds of refinement of the adaptive mesh
+    double range = 0;            // largest minus least value of the volume
     // Largest difference between the mesh and the volume's trilinear field, anywhere, in the data's
     // units.
     double error = 0;

@@ -50,7 +50,7 @@ struct Scene {
     SliceSettings slice;
     ProjectSettings project;
     TraceOf trace_of = TraceOf::volume;
-    double trace_tolerance = 1e-5;  // of full scale
+    double trace_tolerance = 1e-5;  // largest error of a traced picture, as a share of full scale
     std::vector<std::string> warnings;
 
     bool has_volume() const { return !volume_file.empty() || volume_request; }

@@ -7,9 +7,10 @@ namespace lamina {
 
 // How a node of a compositing tree stores its optical depth S as a code. Here sigma is the optical
 // depth of a whole ray that is filled like the node's share of it (docs/numerics.md, section 4).
-//  phi:     1 - exp(-sigma), as in the paper: the opacity if the node's share filled the whole ray
-//  alpha:   1 - exp(-S), the node's own opacity
-//  minimax: rounding has the same worst effect on the ray's opacity for every sigma
+//
+//   phi:     1 - exp(-sigma), as in the paper: the opacity if the node's share filled the whole ray
+//   alpha:   1 - exp(-S), the node's own opacity
+//   minimax: rounding has the same worst effect on the ray's opacity for every sigma
 enum class NodeCode { minimax, phi, alpha };
 
 // What composites the children of a node: a program with float arithmetic, or a fixed-point buffer

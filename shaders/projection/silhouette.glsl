@@ -3,7 +3,7 @@
 // decided here: the polygon covers a little more than the tet, and rasterisers move its corners.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
-uniform dvec3 ray_perturbation;   // pixels: moves rays that run along faces to one side, the same for all tets
+uniform dvec3 ray_perturbation;  // pixels: moves rays that run along faces to one side, the same for all tets
 uniform float near_depth;  // "depth" of the near plane
 #else
 flat in vec4 face_depths[3];

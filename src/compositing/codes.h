@@ -17,8 +17,9 @@ constexpr std::uint32_t largest_code(int bits) {
     return (std::uint32_t{1} << bits) - 1;
 }
 
-// A scaled value (M times a value in [0, 1]) this close below a whole number is that number:
-// rounding errors of double precision must not turn the opacity of code k into code k - 1.
+// A scaled value (M times a value in [0, 1]) that is this little below a whole number counts as
+// that number. Otherwise rounding errors of double precision could turn the opacity of code k into
+// code k - 1.
 inline constexpr double code_noise = 1e-9;
 
 // A scaled value, split into its whole part and the rest, 0 <= rest < 1.

@@ -28,7 +28,7 @@ struct TileTransfer {
 
     int intervals = 0;
     std::vector<float> end, inverse_width;  // left end, 1 / width
-    // Of the table: at the left end; their number to the right end.
+    // Nodes of the table: the one at the left end, and how many there are to the right end.
     std::vector<float> first_node, nodes;
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end
     std::array<std::vector<float>, 4> change;  // from the left end to the right end

@@ -39,7 +39,7 @@ class Framebuffer {
     Handle<ObjectKind::framebuffer> handle_;
 };
 
-// Draws into single layers of array textures that others own and that outlive it.
+// Draws into single layers of array textures that belong to others and must outlive it.
 class LayerFramebuffer {
   public:
     LayerFramebuffer();

@@ -18,7 +18,8 @@ class Query {
     void begin();
     void end();
     void stamp();
-    std::uint64_t result() const;  // waits for the draws; nanoseconds of OpenGL's clock
+    // Waits for the draws; a timestamp is in nanoseconds of OpenGL's clock.
+    std::uint64_t result() const;
 
   private:
     Kind kind_;

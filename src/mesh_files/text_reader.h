@@ -57,7 +57,7 @@ class TextReader {
         auto [stop, error] = std::from_chars(first, end_, value);
         if constexpr (std::is_floating_point_v<T>) {
             if (error == std::errc::result_out_of_range) {
-                long double wide = 0;  // has exponents to spare
+                long double wide = 0;  // its range of exponents is larger
                 const auto again = std::from_chars(first, end_, wide);
                 if (again.ec == std::errc{} && std::abs(wide) < 1) {
                     value = std::copysign(T{0}, static_cast<T>(wide));

@@ -12,7 +12,7 @@
 
 namespace lamina::papers {
 
-// One way to draw what another picture shows, too.
+// One of several ways to draw the same picture.
 struct Variant {
     std::string name;
     Scene scene;
@@ -20,34 +20,35 @@ struct Variant {
 
 struct VariantErrors {
     std::string name;
-    ErrorNorms all;      // of R, G, B and A against the tracer
-    ErrorNorms opacity;  // of A
+    ErrorNorms all;      // errors of R, G, B and A against the tracer
+    ErrorNorms opacity;  // errors of A
 };
 
-// Draws them all; only their errors are kept.
+// Draws all variants and keeps only their errors.
 std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject& subject,
                                           const std::vector<Variant>& variants,
                                           const Capabilities& capabilities);
 
 VariantErrors errors_of(const std::string& variant, const Difference& difference);
 
-// {mesh, tets, picture, linf, l1, l2, opacity_l1, opacity_l2}: a row for csv_of_rows.
+// A row for csv_of_rows: {mesh, tets, picture, linf, l1, l2, opacity_l1, opacity_l2}.
 nlohmann::ordered_json error_row(const KrausSubject& subject, const VariantErrors& errors);
 
-// What write_compared_pictures() has to tell.
+// The result of write_compared_pictures().
 struct ComparedPictures {
-    std::vector<VariantErrors> errors;  // as the variants
+    std::vector<VariantErrors> errors;  // one for each variant
     nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows
 };
 
-// NAME.png and NAME.csv.
+// The files that write_compared_pictures() writes: NAME.png and NAME.csv.
 std::vector<std::string> compared_picture_files(const std::string& name);
 
-// NAME.png, as the paper's figures: the variants' pictures side by side, the exact one last; below
-// each its inset, magnified and contrast-enhanced (each about its own mean, all with one
-// gain, which follows the exact one); and below that the signed difference from the exact one
-// (image/false_color.h). The inset is taken where the first variant's error varies most, in that
-// contrast. All scenes are of one camera, size and transfer function. And NAME.csv: their errors.
+// Writes NAME.png in the manner of the paper's figures, and NAME.csv with the errors. The first row
+// has the variants' pictures side by side and the exact picture last. Below each picture is its
+// inset, magnified and with more contrast: each about its own mean, all with one gain, which
+// follows the exact picture. Below that is the signed difference from the exact picture
+// (image/false_color.h). The inset lies where the first variant's error varies most in that
+// contrast. All scenes must have one camera, size and transfer function.
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
                                          const std::string& name, KrausSubject& subject,
                                          const std::vector<Variant>& variants,

@@ -15,12 +15,12 @@ struct NamedCurve {
     Curve curve;
 };
 
-// NAME.csv, NAME.svg and NAME.png.
+// The files that write_ramp_figure() writes: NAME.csv, NAME.svg and NAME.png.
 std::vector<std::string> ramp_figure_files(const std::string& name);
 
-// Writes a figure of ramps, `curves[0]` being the exact one, into `folder`: NAME.csv (a column a
-// curve), NAME.svg (their plot) and NAME.png (a grey strip a curve, as the paper shows them).
-// Returns {files, curves: {name: [...]}, errors: {name: {linf, l1, l2}}}, in units of 1/255.
+// Writes a figure of ramps into `folder`; `curves[0]` is the exact one. NAME.csv has one column for
+// each curve, NAME.svg is their plot, and NAME.png has one grey strip for each curve, as in the
+// paper. Returns {files, curves: {name: [...]}, errors: {name: {linf, l1, l2}}}, in units of 1/255.
 nlohmann::ordered_json write_ramp_figure(const std::filesystem::path& folder,
                                          const std::string& name, const std::string& title,
                                          const std::vector<NamedCurve>& curves);

@@ -7,17 +7,19 @@
 
 namespace lamina::papers {
 
-// What a paper says of one table or figure, statement by statement, each against what was measured.
+// The statements of a paper about one table or figure, each compared with measurements.
 class Findings {
   public:
-    // `says`: the paper's own words. `measured`: what supports `holds`, in words and numbers.
+    // `says`: the paper's own words. `holds`: whether the measurements support them. `measured`:
+    // these measurements in words and numbers.
     void add(std::string says, bool holds, std::string measured);
 
     bool agree() const;
 
-    // {values, paper: {printed, says}, agrees, note, checks: [{says, holds, measured}]}. `agrees`:
-    // every statement holds. `note` says so in words, names those that do not, and ends with
-    // `more`. `printed`: the numbers that the paper prints; null for none.
+    // Returns {values, paper: {printed, says}, agrees, note, checks: [{says, holds, measured}]}.
+    // `agrees`: whether every statement holds. `note` says so in words, names the statements that
+    // do not hold, and ends with `more`. `printed`: the numbers that the paper prints, or null for
+    // none.
     nlohmann::ordered_json result(nlohmann::ordered_json values,
                                   nlohmann::ordered_json printed = nullptr,
                                   const std::string& more = {}) const;

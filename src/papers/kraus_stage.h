@@ -13,21 +13,21 @@
 
 namespace lamina::papers {
 
-// How large pictures and generated meshes are; tests want less.
+// Sizes of pictures and generated meshes; tests use smaller ones.
 struct KrausSizes {
-    int width = 640, height = 480;              // of pictures and what is measured in them
-    int timed_width = 800, timed_height = 600;  // the paper's
+    int width = 640, height = 480;              // of pictures and of measurements in them
+    int timed_width = 800, timed_height = 600;  // as in the paper
     std::int32_t graded_cells = 24, graded_layers = 40;
-    std::int32_t box_cells = 31;  // along an edge of the box that stands in: 178,746 tets
-    // Of Table 2: 20,250 tets; then as many as the paper's heat sink, cylinder and X38 have.
+    std::int32_t box_cells = 31;  // along an edge of the box that replaces data sets: 178,746 tets
+    // For Table 2: 20,250 tets, then as many as the paper's heat sink, cylinder and X38 have.
     std::vector<std::int32_t> timed_box_cells{15, 27, 47, 69};
     int rounds = 3;
 };
 
-// What the items share: the context that is current, and meshes with their traced pictures.
+// What the items share: the current context, and meshes with their traced pictures.
 class KrausStage {
   public:
-    // Meshes of data sets are read from `data`; none, where it is empty or lacks them.
+    // Meshes of data sets are read from `data`, unless it is empty or lacks them.
     explicit KrausStage(const Capabilities& capabilities, KrausSizes sizes = {},
                         std::filesystem::path data = data_folder());
 
@@ -35,10 +35,10 @@ class KrausStage {
     const KrausSizes& sizes() const { return sizes_; }
 
     bool has(const std::string& data_set) const;
-    // One of kraus_view(): made when first asked for. Where a data set is not there, "box" stands
-    // in. "graded" has a bump, "plate" none; the edge ratio of both is 1e4.
+    // A subject of kraus_view(), made when it is first needed. Where a data set is missing, "box"
+    // replaces it. "graded" has a bump and "plate" has none; the edge ratio of both is 1e4.
     KrausSubject& subject(const std::string& name);
-    // All of these that are there; "box" where no data set is.
+    // All subjects whose data exist, or "box" where no data set does.
     std::vector<KrausSubject*> subjects();
 
     static std::filesystem::path data_folder();  // LAMINA_DATA, or empty
@@ -51,8 +51,8 @@ class KrausStage {
     std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
 };
 
-// The result of an item that wants these data sets: where one is missing, the note says what stands
-// in for it or is left out, and `agrees` is null.
+// Adds a note to the result of an item that needs these data sets. Where one is missing, the note
+// says what replaces it or is left out, and `agrees` is null.
 nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const KrausStage& stage,
                                       const std::vector<std::string>& data_sets,
                                       const std::string& instead);

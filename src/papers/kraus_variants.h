@@ -6,7 +6,7 @@
 
 namespace lamina::papers {
 
-// Where the scene asks for a table of its own.
+// Changes only scenes that have a table of their own.
 inline Scene with_table_format(Scene scene, TableFormat format) {
     scene.project.table->format = format;
     return scene;

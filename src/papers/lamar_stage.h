@@ -12,13 +12,13 @@ namespace lamina::papers {
 
 // The mixing liquids, exact (float32) and as the paper's hardware dithers them.
 struct DitheredMixing {
-    Scene scene;  // of the exact picture
+    Scene scene;  // scene of the exact picture
     Image exact;
-    std::vector<int> periods;  // 1: none
+    std::vector<int> periods;  // 1 stands for no dithering
     std::vector<Image> dithered;
 };
 
-// What the items that draw share: the context that is current, and pictures that two of them show.
+// What the items that draw share: the current context, and pictures that two of them show.
 class LamarStage {
   public:
     // Pictures of the mixing liquids have `pixels` x `pixels` pixels.
@@ -27,8 +27,8 @@ class LamarStage {
 
     const Capabilities& capabilities() const { return capabilities_; }
     int pixels() const { return pixels_; }
-    Image draw_mixing(const Scene& scene);    // of a volume that is made when first asked for
-    const DitheredMixing& dithered_mixing();  // likewise: of Table 4 and Figure 6
+    Image draw_mixing(const Scene& scene);    // the volume is made when first needed
+    const DitheredMixing& dithered_mixing();  // for Table 4 and Figure 6; made when first needed
 
   private:
     Capabilities capabilities_;

@@ -13,7 +13,7 @@
 
 namespace lamina::papers {
 
-// A scene of a mesh, set up to be drawn again and again. The context must outlive it.
+// A scene of a mesh, prepared to be drawn again and again. The context must outlive it.
 class MeshFrame {
   public:
     MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
@@ -28,7 +28,7 @@ class MeshFrame {
         return dynamic_cast<const ProjectRenderer&>(session_->renderer());
     }
     Image picture() const { return session_->picture(); }
-    // Order, geometry and fragments.
+    // Draws a whole frame: order, geometry and fragments.
     void draw() {
         session_->draw();
         drawn_ = true;
@@ -43,7 +43,7 @@ class MeshFrame {
     bool drawn_ = false;
 };
 
-// For time_interleaved(): whole frames. `frames` must stay where they are.
+// Whole frames for time_interleaved(). `frames` must not move in memory.
 inline std::vector<study::TimedFrame> timed(std::vector<MeshFrame>& frames) {
     std::vector<study::TimedFrame> all;
     for (MeshFrame& frame : frames) {

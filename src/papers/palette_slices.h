@@ -7,18 +7,18 @@
 
 namespace lamina::papers {
 
-// What LaMar 2004, section 5, asks: how to give every slice its own dithered palette. Full-screen
-// slices of an 8-bit texture are blended in 8 bits; the palette of 256 entries changes with period
-// `period`.
+// Two answers to a question of LaMar 2004, section 5: how to give every slice its own dithered
+// palette. Full-screen slices of an 8-bit texture are blended in 8 bits. The palette of 256 entries
+// changes with period `period`.
 class PaletteSlices {
   public:
     enum class Way {
         upload,  // the palette is uploaded before each slice
-        lookup,  // all palettes lie in one texture: one dependent lookup
+        lookup,  // all palettes are in one texture, with one dependent lookup
     };
     PaletteSlices(Way way, int pixels, int slices, int period);
 
-    Image draw();  // a frame, complete
+    Image draw();  // draws a frame, which is complete on return
 
   private:
     Way way_;

@@ -9,10 +9,10 @@
 
 namespace lamina::papers {
 
-// Target `emulated`: 8 bits, as LaMar's hardware composites (2004, section 4).
+// The scene with target `emulated` of 8 bits, as LaMar's hardware composites (2004, section 4).
 Scene with_paper_hardware(Scene scene);
 
-// Norms of a channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
+// Norms of one channel (0..3: R, G, B, A) of `image` - `exact`, in units of 1/255.
 ErrorNorms channel_error(const Image& image, const Image& exact, std::size_t channel);
 
 }  // namespace lamina::papers

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// LaMar 2004, section 4: 256 rays side by side, each homogeneous and one unit long; ray x has the
-// opacity x/255.
+// The ramp of LaMar 2004, section 4: 256 rays side by side, each homogeneous and one unit long. Ray
+// x has the opacity x/255.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace lamina::papers {
 
 inline constexpr int ramp_width = 256;
 
-// One number a ray, in units of 1/255: colour, associated, as it would be shown.
+// One number for each ray in units of 1/255: the associated colour that would be shown.
 using Curve = std::vector<double>;
 
 struct RampSetting {
@@ -25,27 +25,27 @@ struct RampSetting {
     Order order = Order::back_to_front;
 };
 
-// What software shows: color * x.
+// The exact ramp: color * x.
 Curve exact_ramp(double color);
 
 Curve composite_ramp(const RampSetting& setting);
 
-// Opacity (colour 1) by exponent-factoring; factors as TreeShape takes them.
+// The opacity (colour 1) by exponent-factoring. `factors`: as in TreeShape.
 Curve composite_ramp_tree(const RampSetting& setting, const std::vector<int>& factors);
 
-// Of e = measured - exact. Both of one size, at least 1.
+// Norms of e = measured - exact. Both have the same size, at least 1.
 ErrorNorms error_of(const Curve& measured, const Curve& exact);
 
-// Places where a curve is lower than one place before.
+// The number of places where a curve is lower than one place before.
 int decreases(const Curve& curve);
 
-// By how much, at most; 0 where it never decreases.
+// The largest such decrease; 0 where the curve never decreases.
 double largest_drop(const Curve& curve);
 
-// How many different values it has.
+// The number of different values of a curve.
 int levels(const Curve& curve);
 
-// The first column that shows something; ramp_width when none does.
+// The first column that is not 0, or ramp_width where there is none.
 int first_shown(const Curve& curve);
 
 }  // namespace lamina::papers

@@ -18,7 +18,8 @@ struct Capabilities {
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
-    // GL's own limits mislead (docs/numerics.md, section 2).
+    // The largest texture. The limits that OpenGL reports are not reliable (docs/numerics.md,
+    // section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
     bool exact_float_filter =
         // Measured: linear filtering of R32F has errors below 1e-6 (so on llvmpipe, not on GPUs).

@@ -70,7 +70,8 @@ struct SlicePlan : CompositingPlan {
     // scalar.
     bool linear = false;
     TablePlan table;  // otherwise, for Classification::preintegrated
-    // Polygons cover this part of the box. Segments are those of the whole box.
+    // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
+    // box.
     IndexBox drawn;
     bool occupied_only = false;     // segments that come near no occupied brick are not evaluated
     bool constant_regions = false;  // marched rays cross constant regions in one step
@@ -95,7 +96,7 @@ struct SlicePlan : CompositingPlan {
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;
 };
 
-// The plan without remarks that change no picture.
+// The plan without its remarks (reasons, found errors), which change no picture.
 SlicePlan without_remarks(SlicePlan plan);
 // The same, and all that belongs to one view has its default value. Renderers prepare for all views
 // from what is left.
@@ -119,7 +120,7 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 // moving scene.
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials = {});
-// For methods that draw a mesh (Scene::draws_mesh).
+// The plan of a method that draws a mesh (Scene::draws_mesh).
 Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& capabilities,
                const OmissionSwitch& omissions);
 

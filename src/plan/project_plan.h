@@ -59,7 +59,7 @@ struct ProjectPlan : CompositingPlan {
     friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
 };
 
-// The plan without remarks that change no picture.
+// The plan without its remarks (reasons, found errors), which change no picture.
 ProjectPlan without_remarks(ProjectPlan plan);
 
 const char* name_of(SegmentSource source);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fine a slicing plan's pre-integration table is.
+// Choice of the size of a slicing plan's pre-integration table.
 #pragma once
 
 #include "facts/facts.h"

@@ -13,7 +13,7 @@ struct Work {
     double fetches = 0;   // fetches of the volume's texels by OpenGL's fragments
     double tets = 0;      // projected tets, or cell fragments where tets are cut
     double ordered = 0;   // tets put in visibility order
-    double passes = 0;    // layers put into images one by one
+    double passes = 0;    // layers that are composited onto images one by one
     double bytes = 0;     // size of the volume, tables and images that are read and written
 
     // The amounts that are not 0, with their names.

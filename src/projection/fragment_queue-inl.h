@@ -41,7 +41,7 @@ class FragmentQueue {
     // A vector of pixels, and the position of its fragments in the queue.
     struct Place {
         std::uint16_t place;  // TileGrid::place() of the first pixel
-        std::uint16_t part;   // TileChunk's number
+        std::uint16_t part;   // number of the cell fragment in its TileChunk
         std::uint16_t first;
         std::uint8_t inside[8];
     };

@@ -79,7 +79,7 @@ HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fr
         case SegmentSource::parts:
         case SegmentSource::mean:
         case SegmentSource::vertices:
-            break;  // these know their colour by other means than two scalars
+            break;  // the colour of these does not come from two scalars
     }
     unreachable_enum();
 }

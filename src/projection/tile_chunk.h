@@ -96,7 +96,7 @@ class TileChunk {
     std::vector<Parts> parts_of_tile_;
 };
 
-// Calls visit(part) for the members of a set, in order.
+// Calls visit(part) for the cell fragments of a set, in order.
 template <typename Visit>
 void for_each_part(const TileChunk::Parts& parts, const Visit& visit) {
     for (std::size_t word = 0; word < parts.size(); ++word) {

@@ -38,7 +38,7 @@ class TileProjectRenderer : public ProjectRenderer {
     TileProjectRenderer(const TileProjectRenderer&) = delete;
     TileProjectRenderer& operator=(const TileProjectRenderer&) = delete;
 
-    // Steps are batches.
+    // The steps of the progress are batches.
     bool take(const Plan& plan) override;
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;

@@ -18,10 +18,11 @@ namespace lamina {
 // tets one after the other, and the order has them the other way round.
 struct OrderPixels {
     std::int64_t covered = 0;  // pixels whose ray meets a tet
-    std::int64_t wrong = 0;    // of these
-    // Of the wrong ones: a wrong pair is not within one reported cycle.
+    std::int64_t wrong = 0;    // covered pixels that are wrong
+    // Wrong pixels with a wrong pair that is not within one reported cycle.
     std::int64_t outside_cycles = 0;
-    std::int64_t overlapping = 0;  // of the wrong ones: the mesh overlaps itself on the ray
+    // Of those outside cycles: pixels on whose ray the mesh overlaps itself.
+    std::int64_t overlapping = 0;
 };
 
 // Checks the last result of each order, which must have been sorted for eye_of(view), against the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cases from scenes and ways to draw them.
+// Makes cases from scenes and ways to draw them.
 #pragma once
 
 #include <string>
@@ -11,32 +11,32 @@
 
 namespace lamina::selftest {
 
-// A mesh by itself, in one colour (picture_bounds.h).
+// A mesh without a volume, in one colour (picture_bounds.h).
 struct MeshScene {
     std::string name, about;
     Scene scene;
     std::function<MeshData()> mesh;
-    bool cyclic = false;  // its visibility order has cycles, which must be reported
+    bool cyclic = false;  // its visibility order has cycles, which the renderer must report
 };
 
-// The scene in each way that it allows: ways that draw meshes where it has one.
+// One case for each way to draw that the scene allows; ways that draw meshes need a mesh.
 std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene& scene,
                                    const std::vector<DrawingWay>& ways);
 SelftestCase case_of(const std::string& group, const MeshScene& scene, const DrawingWay& way);
 
-// Two scenes whose pictures must be the same.
+// A case of two scenes whose pictures must be the same.
 SelftestCase same_picture_case(const std::string& group, const std::string& name,
                                const SelftestScene& a, const SelftestScene& b,
                                const DrawingWay& way);
 
-// Drawing must throw an Error.
+// A case in which drawing must throw Error.
 SelftestCase refusal_case(const std::string& group, const SelftestScene& scene,
                           const DrawingWay& way, const std::string& reason);
 
-// A box in perspective, all of it in view, 24 x 18 pixels, 64 slabs.
+// A box in perspective that is wholly in view, with 24 x 18 pixels and 64 slabs.
 SelftestScene plain_scene(const std::string& name, const std::string& about);
-// Looking at the box from the same side as plain_scene() does, at this distance in units of its
-// diagonal.
+// A camera that looks at the box from the same side as in plain_scene(). `distance` is in units of
+// the box's diagonal.
 Camera camera_at(const LayeredBox& box, double distance, double fov_y);
 TransferFunction optics_of(const std::vector<TransferKnot>& knots);
 

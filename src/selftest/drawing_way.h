@@ -10,13 +10,13 @@
 
 namespace lamina::selftest {
 
-// A way to draw a self-test's scene: method, classification or colouring, target.
+// A way to draw a scene of the self-test: method, classification or colouring, target.
 struct DrawingWay {
     std::string name;
     Method method = Method::slice;
     TraceOf trace_of = TraceOf::volume;
-    std::function<void(Scene&)> set;  // further keys of the scene
-    BlendRounding rounding;           // of one blend
+    std::function<void(Scene&)> set;  // sets further keys of the scene
+    BlendRounding rounding;           // rounding of one blend
 
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
@@ -30,10 +30,10 @@ std::vector<DrawingWay> traces();
 std::vector<DrawingWay> float_ways();
 // Both methods in float16, fixed16, fixed8 and emulated targets.
 std::vector<DrawingWay> coarse_ways();
-// Trees over 64 slabs: in fixed8 and float16.
+// Trees over 64 slabs, in fixed8 and float16.
 std::vector<DrawingWay> tree_ways();
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target);
-// Of float_ways().
+// The way of float_ways() with this name.
 DrawingWay way_named(const std::string& name);
 
 }  // namespace lamina::selftest

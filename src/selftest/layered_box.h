@@ -12,36 +12,36 @@
 
 namespace lamina::selftest {
 
-// A box whose scalar depends on one of its axes alone and is linear between samples there: along
-// every ray it is linear piece by piece, so that every picture of it has a closed form. Points of
-// the box are (u, v, w) in [0, 1]^3.
+// A box whose scalar depends on one of its axes alone and is linear between samples there. Along
+// every ray the scalar is piecewise linear, so every picture of the box has a closed form. Points
+// of the box are (u, v, w) in [0, 1]^3.
 struct LayeredBox {
     std::vector<double> samples{0, 1};  // along w, at least one; may be NaN
     SampleType type = SampleType::float32;
-    glm::dvec3 corner{0};                                                // at (0, 0, 0), world
+    glm::dvec3 corner{0};  // world position of (0, 0, 0)
     std::array<glm::dvec3, 3> edges{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // orthogonal
     std::array<std::int64_t, 2> samples_across{2, 2};                    // along u and v
 
     Volume volume() const;
 
-    glm::dvec3 world(const glm::dvec3& place) const;  // of (u, v, w)
+    glm::dvec3 world(const glm::dvec3& place) const;  // world position of (u, v, w)
     glm::dvec3 place(const glm::dvec3& world) const;
     double longest_edge() const;
 
     std::size_t layers() const { return samples.size() > 1 ? samples.size() - 1 : 1; }
-    // The layer that has w between its ends, and the scalar there; w is clamped.
+    // The layer that contains w, and the scalar there; w is clamped.
     std::size_t layer_at(double w) const;
     double layer_begin(std::size_t layer) const;
     double scalar(std::size_t layer, double w) const;
-    // A layer with a sample that is no finite number shows nothing.
+    // Whether a layer has a sample that is not finite; it then shows nothing.
     bool is_void(std::size_t layer) const;
-    // Of the finite samples.
+    // The range of the finite samples.
     Interval range() const;
 };
 
-// The part of a ray inside the box, by the ray's parameter.
+// The segment of a ray inside the box, by the ray's parameter.
 struct BoxChord {
-    glm::dvec3 start{0}, step{0};  // the ray in (u, v, w)
+    glm::dvec3 start{0}, step{0};  // the ray in coordinates (u, v, w)
     double world_per_parameter = 1;
     Interval parameters;
 
@@ -49,7 +49,8 @@ struct BoxChord {
     double w(double parameter) const { return start.z + parameter * step.z; }
 };
 
-// Of the box widened by `slack` (of each edge) on all sides; none where the ray misses it.
+// The chord of the box widened by `slack` (a share of each edge) on all sides; empty where the ray
+// misses it.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
 }  // namespace lamina::selftest

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a layered box, cut into pieces: exactly, and as the ways to draw cut them, with bounds of
-// what these may make of a piece.
+// Rays through a layered box, cut into pieces: exactly, and as each way to draw cuts them. Bounds
+// say what a way to draw may make of a piece.
 #pragma once
 
 #include <vector>
@@ -12,34 +12,35 @@
 
 namespace lamina::selftest {
 
-// Layer by layer, each in closed form (docs/numerics.md, section 5). Nothing where the ray misses
-// the box.
+// The exact pieces, one for each layer, in closed form (docs/numerics.md, section 5). Empty where
+// the ray misses the box.
 std::vector<PieceBounds> exact_pieces(const LayeredBox& box,
                                       const TransferFunction& transfer_function,
                                       const View::Ray& ray);
 
-// N slabs of equal thickness across the view direction, from the box's nearest to its farthest
-// point in front of the eye (docs/scene.md, render.slice.samples).
+// N slabs of equal thickness perpendicular to the view direction, from the box's nearest to its
+// farthest point in front of the eye (docs/scene.md, render.slice.samples).
 struct Slabs {
     double near = 0, thickness = 0;  // eye-space depths
     int count = 0;
 };
 Slabs slabs_of(const LayeredBox& box, const View& view, int count);
 
-// Classification `post`: a slab's piece of the ray shows what the scalar in its middle shows.
+// Classification `post`: the piece of the ray in a slab has the optics of the scalar in its middle.
 std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
                                        const TransferFunction& transfer_function,
                                        const View::Ray& ray, const Slabs& slabs,
                                        const Precision& precision);
 
-// `preintegrated`: a slab's piece has the exact optical depth between its ends where the scalar is
-// linear between them, else one of a scalar met in it; and colours met in it.
+// Classification `preintegrated`. Where the scalar is linear in a slab, the piece of the ray there
+// has the exact optical depth. Otherwise it has an optical depth of scalars that occur in the
+// piece. Its colours occur in the piece.
 std::vector<PieceBounds> run_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     const Slabs& slabs, const Precision& precision);
 
-// The exact pieces as tetrahedra that conform to the layers show them: with errors of the faces
-// that add up to `length_error` (world) along the ray.
+// The exact pieces as shown by tetrahedra that conform to the layers. The errors of faces add up to
+// `length_error` (world units) along the ray.
 std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     double length_error, const Precision& precision);

@@ -8,7 +8,7 @@
 
 namespace lamina::selftest {
 
-// What a transfer function shows over a closed interval of scalars; both sides of steps count.
+// The optics of a transfer function over a closed interval of scalars. Both sides of steps count.
 struct OpticsRange {
     Interval extinction;
     std::array<Interval, 3> color;

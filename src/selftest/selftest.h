@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The battery of stiff and extreme scenes: whether what draws here can be trusted.
+// A battery of stiff and extreme scenes, which shows whether this machine's drawing can be trusted.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,13 +16,13 @@ struct SelftestResult {
     double ms = 0;
 };
 
-// Runs every case. An Error of a case is its outcome: refused.
+// Runs every case. A case that throws Error has the outcome "refused".
 std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
                                          const PictureMaker& maker);
 
 std::size_t count_of(const std::vector<SelftestResult>& results, Verdict verdict);
 
-// For people: a line a case, and a summary of each group.
+// A table for people: one line a case, and a summary of each group.
 std::string selftest_table(const std::vector<SelftestResult>& results);
 std::string selftest_summary(const std::vector<SelftestResult>& results);
 // {cases: [{group, scene, way, verdict, error, bound, largest_error, ms, about, note}], counts}.

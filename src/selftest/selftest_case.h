@@ -20,10 +20,10 @@ struct CaseOutcome {
     std::string note;          // what failed, or why it was refused
 };
 
-// One picture of the self-test, or two that must agree, with what they are held against.
+// One picture of the self-test, or two that must agree, with the bounds that they must keep.
 struct SelftestCase {
     std::string group, scene, way;
-    std::string about;  // what is stiff or extreme, and what the bound follows from
+    std::string about;  // what is stiff or extreme, and where the bound comes from
     std::function<CaseOutcome(const PictureMaker&)> run;
 
     std::string name() const { return group + "/" + scene + "/" + way; }
@@ -31,7 +31,7 @@ struct SelftestCase {
 
 // The groups in the order in which they run.
 const std::vector<std::string>& selftest_groups();
-// All cases, or those of the groups named. Throws UsageError for a name that is none.
+// All cases, or those of the groups that are named. Throws UsageError for an unknown name.
 std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups);
 
 }  // namespace lamina::selftest

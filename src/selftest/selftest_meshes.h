@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tetrahedra that fill a layered box, with its scalar at their corners, in ways that try a
+// Meshes that fill a layered box, with its scalar at their corners, and that are hard for a
 // renderer.
 #pragma once
 
@@ -10,18 +10,19 @@
 
 namespace lamina::selftest {
 
-// Every layer cut into across x across cuboids, six tets each (Kuhn).
+// Every layer is cut into across x across cuboids, six tets each (Kuhn).
 MeshData kuhn_tets(const LayeredBox& box, int across);
 
-// For one layer: 12 * across^2 tets from the middle of the box to its surface, which all have that
-// point.
+// For a box of one layer: 12 * across^2 tets from the middle of the box, which is a corner of all,
+// to its surface.
 MeshData fan_tets(const LayeredBox& box, int across);
 
-// For one layer: kuhn_tets(box, 1), split `splits` times by a point inside a tet which is a share
-// `least` or less away from a face, an edge or a corner of it: flat tets, slivers and needles.
+// For a box of one layer: kuhn_tets(box, 1), split `splits` times by a point inside a tet. The
+// point's distance from a face, an edge or a corner of the tet is a share `least` or less, which
+// gives flat tets, slivers and needles.
 MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32_t seed);
 
-// The same mesh with tets, their corners and the points in another order.
+// The same mesh with its tets, their corners and its points in another order.
 MeshData shuffled(const MeshData& mesh, std::uint32_t seed);
 
 }  // namespace lamina::selftest

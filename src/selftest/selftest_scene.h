@@ -10,13 +10,13 @@
 
 namespace lamina::selftest {
 
-// What a case of the self-test draws: a layered box, as a volume and as a mesh.
+// What a case of the self-test draws: a layered box, both as a volume and as a mesh.
 struct SelftestScene {
     std::string name;
     std::string about;  // what is stiff or extreme here
     LayeredBox box;
     Scene scene;  // transfer function, camera, size, number of slabs; no files
-    // Tets that fill the box; none: no mesh is drawn.
+    // Makes tets that fill the box. Empty where no mesh is drawn.
     std::function<MeshData(const LayeredBox&)> mesh;
 };
 

@@ -31,10 +31,10 @@ struct SlabVertex {
     float slab;
 };
 
-// Appends triangles for each slab. They cover every pixel whose ray meets the part of `box` (index
-// space) inside the slab, and each pixel centre lies in at most one triangle of a slab. They may
-// cover a little more, because the fragment's own ray decides. `starts`, if given, gets the number
-// of vertices before each slab, in drawing order, and after the last one.
+// Appends triangles for each slab. They cover every pixel whose ray meets `box` (index space)
+// inside the slab, and each pixel centre lies in at most one triangle of a slab. They may cover a
+// little more, because the fragment's own ray decides. `starts`, if given, gets the number of
+// vertices before each slab, in drawing order, and after the last one.
 void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
                           const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
                           std::vector<std::size_t>* starts = nullptr);

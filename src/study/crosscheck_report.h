@@ -8,22 +8,23 @@
 
 namespace lamina::study {
 
-// What a crosscheck is told with.
+// What a report says about a cross-check beside its results.
 struct CrosscheckSubject {
-    std::string name;                    // of the scene
-    double wanted = 1;                   // error that counts as agreement, Linf in 1/255
-    nlohmann::ordered_json environment;  // of the report
+    std::string name;                    // name of the scene
+    double wanted = 1;                   // largest error that counts as agreement, Linf in 1/255
+    nlohmann::ordered_json environment;  // machine and version, for the report
 };
 
-// budget.json: the four pictures' parts, and the whole ladder of both methods.
+// The contents of budget.json: the error budget of the four pictures, and all results of both
+// methods.
 nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                    const CrosscheckSubject& subject);
 
-// The page's document (docs/study.md).
+// The document that the page shows (docs/study.md).
 nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                          const CrosscheckSubject& subject);
 
-// Sentences for stdout and the page.
+// The findings as sentences, for stdout and the page.
 std::vector<std::string> crosscheck_findings(const Crosscheck& crosscheck,
                                              const ErrorBudget& budget,
                                              const CrosscheckSubject& subject);

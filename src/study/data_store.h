@@ -10,12 +10,12 @@
 
 namespace lamina::study {
 
-// Paths, or formulas.
+// Names of data: paths, or the formulas of generated data.
 std::string volume_name(const Scene& scene);
 std::string mesh_name(const Scene& scene);
 
-// Volumes and meshes of scenes, each loaded or made once, when first asked for. Throws Error where
-// that fails.
+// Volumes and meshes of scenes. Each is loaded or made once, when it is first needed. Throws Error
+// where that fails.
 class DataStore {
   public:
     struct StoredVolume {

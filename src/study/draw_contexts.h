@@ -14,7 +14,7 @@ namespace lamina::study {
 // there at a time, current in the thread that asked for it.
 class DrawContexts {
   public:
-    // `before_switch`: called before the one with OpenGL goes; its renderers must be gone after.
+    // `before_switch`: called before an OpenGL context is destroyed; it must destroy its renderers.
     explicit DrawContexts(std::function<void()> before_switch)
         : before_switch_(std::move(before_switch)) {}
     ~DrawContexts() { before_switch_(); }

@@ -11,12 +11,12 @@
 
 namespace lamina::study {
 
-// One volume drawn in two ways, and each of them against what the exact picture of its own data is.
+// One volume drawn by two methods, and for each method the exact picture of the data that it draws.
 struct FourPictures {
     Image traced_volume, traced_mesh, sliced, projected;
 };
 
-// Where the difference of the two ways comes from, in every pixel:
+// Splits the difference of the two methods into parts, in every pixel:
 //   projected - sliced = (traced mesh - traced volume) - (sliced - traced volume)
 //                      + (projected - traced mesh)
 struct ErrorBudget {
@@ -24,20 +24,20 @@ struct ErrorBudget {
         std::string name;
         Difference e;  // in 1/255
         ImageError error;
-        // Of the raw difference d that the part s explains: <s, d> / <d, d>, with the part's sign
-        // in the sum above; the three add up to 1. 0 where d is 0.
+        // The share of the raw difference d that the part s explains: <s, d> / <d, d>, with the
+        // part's sign in the sum above. The three shares add up to 1. It is 0 where d is 0.
         double share = 0;
     };
 
-    std::array<Part, 3> parts;  // mesh discretisation, slicing method, PT method
+    std::array<Part, 3> parts;  // mesh discretisation, slicing method, projection method
     Difference raw;             // projected - sliced
     ImageError raw_error;
-    double residual = 0;  // largest |raw - sum of the parts|, in 1/255: rounding
+    double residual = 0;  // largest |raw - sum of the parts|, in 1/255; this is rounding
 
-    const Part& dominant() const;  // with the largest L2
+    const Part& dominant() const;  // the part with the largest L2
 };
 
-// All of one size; else throws Error.
+// Throws Error where the pictures differ in size.
 ErrorBudget error_budget(const FourPictures& pictures);
 
 }  // namespace lamina::study

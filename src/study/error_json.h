@@ -7,10 +7,10 @@
 
 namespace lamina::study {
 
-// {linf, l1, l2}, in 1/255.
+// Norms as {linf, l1, l2}, in 1/255.
 nlohmann::ordered_json to_json(const ErrorNorms& norms);
 
-// {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints it.
+// Errors as {channels: {R: norms, ...}, all: norms}, as `lamina compare --json` prints them.
 nlohmann::ordered_json to_json(const ImageError& error);
 
 }  // namespace lamina::study

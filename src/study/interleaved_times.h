@@ -8,8 +8,8 @@
 
 namespace lamina::study {
 
-// Something to time: `draw` makes one frame and returns when it is complete; `warm_up` makes it
-// ready.
+// A kind of frame to time. `draw` draws one frame and returns when it is complete; `warm_up`
+// prepares it.
 struct TimedFrame {
     std::string name;
     std::function<void()> warm_up, draw;
@@ -22,12 +22,12 @@ struct FrameTimes {
     std::size_t count = 0;
 };
 
-// Rounds A B C, A B C ...: what slows the machine for a while slows all of them. At least three
-// rounds.
+// Times frames in rounds A B C, A B C, ..., so that a slow phase of the machine affects all of
+// them. There must be at least three rounds.
 std::vector<FrameTimes> time_interleaved(const std::string& label,
                                          const std::vector<TimedFrame>& frames, int rounds);
 
-// Names beside times, and ratios to the first frame: [{technique, ms, ratio, cpu_ms, ...}].
+// Rows of names, times and ratios to the first frame: [{technique, ms, ratio, cpu_ms, ...}].
 nlohmann::ordered_json time_rows(const std::vector<TimedFrame>& frames,
                                  const std::vector<FrameTimes>& times);
 

@@ -7,19 +7,19 @@
 
 namespace lamina::study {
 
-// Records of a study as it runs, a line of JSON each, on the disk before append() returns: whatever
-// ends the program loses nothing but the record that was being written.
+// The records of a running study, one line of JSON each. A record is on disk before append()
+// returns, so that a crash loses at most the record that was being written.
 class Journal {
   public:
-    // Opens the file, or makes it; a last line that is not complete is taken away. Throws Error,
-    // also where another process has it open.
+    // Opens or makes the file. An incomplete last line is removed. Throws Error, also where another
+    // process has the file open.
     explicit Journal(std::filesystem::path path);
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
     void append(const nlohmann::ordered_json& record);
-    // What stood in the file when it was opened.
+    // The records that the file had when it was opened.
     const std::vector<nlohmann::json>& found() const { return found_; }
 
     // All complete records of a journal.

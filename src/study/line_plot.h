@@ -10,17 +10,18 @@ struct PlotAxis {
     std::string label;
     double low = 0;
     double high = 1;             // > low
-    bool powers_of_two = false;  // logarithmic, ticks at powers of two; then low > 0
+    bool powers_of_two = false;  // logarithmic with ticks at powers of two; needs low > 0
 };
 
-// A plot of lines as SVG, for print: seven colours that stay apart for the colour-blind (Okabe and
-// Ito 2008, without yellow), with a dash pattern of their own each so that grey paper will do, and
-// a legend to the right. The first line is black and whole, for what is right.
+// A plot of lines as SVG, for print. It has seven colours that colour-blind people can tell apart
+// (Okabe and Ito 2008, without yellow). Each has its own dash pattern, so that it also works in
+// grey. The legend is at the right. The first line is black and solid; it is for exact values.
 class LinePlot {
   public:
     LinePlot(std::string title, PlotAxis x, PlotAxis y);
 
-    // Points (x[i], y[i]), as many of each; clamped to the axes.
+    // Adds a line through the points (x[i], y[i]); both vectors have the same length. Points are
+    // clamped to the axes.
     void add(std::string name, std::vector<double> x, std::vector<double> y);
 
     std::string svg() const;

@@ -6,10 +6,11 @@
 namespace lamina::study {
 
 struct CostAndError {
-    double cost = 0, error = 0;  // in any units, the same of all points
+    double cost = 0, error = 0;  // in any units, the same for all points
 };
 
-// Which points no other one beats: has as little of both, and less of one.
+// For each point whether no other point beats it. A point beats another where it is no larger in
+// both numbers and smaller in one.
 std::vector<bool> pareto_front(const std::vector<CostAndError>& points);
 
 }  // namespace lamina::study

@@ -10,12 +10,12 @@
 
 namespace lamina::study {
 
-// What an exact picture depends on beside its data: transfer function, camera and size.
+// All that an exact picture depends on beside its data: transfer function, camera and size.
 std::string picture_key(const Scene& scene);
 
 std::string transfer_function_key(const TransferFunction& transfer_function);
 
-// Names of the data themselves, wherever they came from.
+// Identifies the contents of data, wherever they came from.
 std::string content_of(const Volume& volume);
 std::string content_of(const SceneMesh& mesh);
 std::string content_of(const Colormap& colormap);

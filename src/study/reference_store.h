@@ -14,35 +14,37 @@
 
 namespace lamina::study {
 
-// What a tracer makes of a scene.
+// A tracer's picture of a scene.
 struct Reference {
-    std::string id;  // of all that it depends on: data, transfer function, camera, size, tolerance
+    // Hash of all that it depends on: data, transfer function, camera, size, tolerance.
+    std::string id;
     TraceOf of = TraceOf::volume;
-    double error_estimate = 0;  // the tracer's own, in 1/255
-    double ms = 0;              // that tracing took
+    double error_estimate = 0;  // the tracer's own estimate, in 1/255
+    double ms = 0;              // time that tracing took
     PreciseImage image;
 };
 
-// Traced pictures, each made once; with a folder kept there as ID.npy and ID.json, where later
-// studies of the same content find them. What is damaged there is made again.
+// Traced pictures, each made once. With a folder they are kept there as ID.npy and ID.json, where
+// later studies of the same content find them. Damaged files are made again.
 class ReferenceStore {
   public:
     using Say = std::function<void(const std::string&)>;
 
-    ReferenceStore() = default;  // in memory alone
-    // `say` gets a message for each that is made again.
+    ReferenceStore() = default;  // keeps references in memory only
+    // `say` gets a message for each reference that is made again.
     ReferenceStore(std::filesystem::path folder, Say say)
         : folder_(std::move(folder)), say_(std::move(say)) {}
 
-    // As `of` asks: of the scene's volume or of its mesh. Throws Error. The reference stays until
-    // clear().
+    // The reference for the scene's volume or its mesh, as `of` says. Throws Error. The result is
+    // valid until clear().
     const Reference& get(const Scene& scene, TraceOf of, DataStore& data);
     void clear() { references_.clear(); }  // from memory
 
-    // One that was made before is whole in the folder; where not, it will be made again.
+    // Whether a reference that was made before is intact in the folder. If not, it will be made
+    // again.
     bool is_kept(const std::string& id);
 
-    // As kept in `folder`; throws Error where it is not there, or not as it was written.
+    // Loads a reference from `folder`. Throws Error where it is missing or was changed.
     static Reference load(const std::filesystem::path& folder, const std::string& id);
     static double error_estimate(const std::filesystem::path& folder, const std::string& id);
 
@@ -52,7 +54,7 @@ class ReferenceStore {
 
     std::filesystem::path folder_;
     Say say_;
-    std::set<std::string> lost_;  // that was said
+    std::set<std::string> lost_;  // references whose loss was reported
     std::map<std::string, Reference> references_;
 };
 

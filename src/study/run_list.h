@@ -14,16 +14,17 @@ namespace lamina::study {
 
 // One configuration of one scene.
 struct StudyRun {
-    std::string id;    // of scene, settings, all else that the scene file says, and the reference
-    std::string name;  // of the settings, for people
+    // Hash of the scene, the settings, the rest of the scene file, and the reference.
+    std::string id;
+    std::string name;  // name of the settings, for people
     std::size_t scene = 0;
-    Settings settings;  // what is swept
+    Settings settings;  // values of the swept keys
 };
 
-// Settings as a name for people: "fixed8, 32x32".
+// A name of settings for people: "fixed8, 32x32".
 std::string run_name(const Settings& settings);
 
-// What a study runs.
+// The runs of a study.
 struct RunList {
     struct Dropped {
         std::string because;
@@ -32,49 +33,49 @@ struct RunList {
 
     // A volume, a mesh or a colour map that runs draw.
     struct Data {
-        std::string name;     // its path, or its formula
-        std::string content;  // names what it holds; empty: it could not be read
+        std::string name;     // path or formula
+        std::string content;  // hash of its contents; empty where it could not be read
     };
 
     std::string title;
     std::vector<std::string> scenes;
     std::vector<std::string> swept;      // keys
     std::vector<StudyRun> runs;          // scene by scene
-    std::vector<std::size_t> baselines;  // of each scene, into runs
+    std::vector<std::size_t> baselines;  // for each scene an index into runs
     std::vector<Dropped> dropped;
     int rounds = 0, frames = 0;
     std::vector<Data> data;  // in the order of the runs
 
-    // A hash of all that decides what is measured, but for what the data hold.
+    // A hash of all that decides what is measured, except for the contents of the data.
     std::string id() const;
 };
 
 constexpr std::uint64_t most_runs_unasked = 10000;
 
-// How many runs the file's sweep has, before any is dropped.
+// The number of runs of the file's sweep, before any is dropped.
 std::uint64_t run_count(const StudyFile& file);
 
-// Expands the sweep. Throws Error where nothing is left, a baseline is not one run of each scene,
-// or there are more than most_runs.
+// Expands the sweep. Throws Error where no run is left, where the baseline does not name one run of
+// each scene, or where there are more than most_runs.
 RunList list_runs(const StudyFile& file);
 
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file);
-// auto, osmesa, egl or cpu.
+// The context of a run: auto, osmesa, egl or cpu.
 std::string context_of(const StudyRun& run, const StudyFile& file);
 
-// The scene of a run. Throws KeyError for what no run can measure: method "trace", a reference that
-// the scene does not have.
+// The scene of a run. Throws KeyError for what no run can measure: the method "trace", or a
+// reference that the scene does not have.
 Scene scene_of(const StudyRun& run, const StudyFile& file);
 TraceOf reference_of(const Scene& scene, const StudyFile& file);
 
-// Reads every run's scene, looks for its files, and throws Error where one is missing, a key is
-// unknown, or no run of a scene can be drawn. Whatever is wrong with single runs is found when
-// these are run. Returns what the runs draw, each once.
+// Reads every run's scene and checks that its files exist. Throws Error where a file is missing, a
+// key is unknown, or no run of a scene can be drawn. Other errors of single runs are found when
+// these are run. Returns the data that the runs draw, each once.
 std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
 
-// Where two lists of one study both know what data hold, it must be the same, else Error; what only
-// one of them knows `list` knows then. `list_of`, `other_of`: where they come from, for the
-// message.
+// Compares the data of two lists of one study. Throws Error where both lists know the contents of
+// data and they differ. Contents that only one list knows are added to `list`. `list_of`,
+// `other_of`: where the lists come from, for the message.
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of);
 

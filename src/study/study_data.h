@@ -15,21 +15,22 @@ struct StudyData {
     enum class Kind { volume, mesh, colormap };
     Kind kind;
     std::string name;   // its path, or its formula
-    std::size_t scene;  // of the study
-    Scene drawn;        // a run's that draws it
+    std::size_t scene;  // number of the scene in the study
+    Scene drawn;        // scene of a run that draws it
 
-    bool operator==(const StudyData& other) const {  // the same data of the same scene
+    bool operator==(
+        const StudyData& other) const {  // whether both are the same data of the same scene
         return kind == other.kind && scene == other.scene && name == other.name;
     }
 };
 
-// Adds what a run of the study's scene `number` draws, where it is not there yet: its reference is
-// part of it, and a mesh made from a volume is that volume.
+// Adds the data that a run of the study's scene `number` draws, where they are not listed yet. The
+// data of its reference are included. For a mesh made from a volume the volume is added.
 void add_data(std::size_t number, const Scene& drawn, TraceOf reference,
               std::vector<StudyData>& data);
 
-// Names what each of them holds, wherever it comes from; empty where it cannot be read: runs that
-// need it say so. Each is read once; those of a single scene stay in the store.
+// Hashes of the contents of data. A hash is empty where the data cannot be read; the runs that need
+// them report this. Each is read once. Data of a single scene stay in the store.
 std::vector<std::string> contents_of(const std::vector<StudyData>& data, DataStore& store);
 
 }  // namespace lamina::study

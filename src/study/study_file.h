@@ -12,34 +12,34 @@
 
 namespace lamina::study {
 
-// A study as its file says (docs/study.md), nothing expanded yet.
+// A study as its file says (docs/study.md). Nothing is expanded yet.
 struct StudyFile {
     struct SceneEntry {
         std::string name;
         std::filesystem::path file;
-        nlohmann::json document;  // of the file, with `base` and the entry's own `set`
+        nlohmann::json document;  // the scene file with `base` and the entry's own `set` applied
     };
-    // Runs with all of these values are left out.
+    // Runs are left out where all axes have one of these values.
     struct Drop {
-        std::vector<SweepAxis> where;  // "scene", or a swept key: any of the values
+        std::vector<SweepAxis> where;  // "scene" or a swept key, each with the values that match
         std::string because;
     };
 
     std::filesystem::path file;
     std::string title;
     std::vector<SceneEntry> scenes;
-    std::string context = "auto";  // where no axis says otherwise
+    std::string context = "auto";  // used where no axis sets it
     std::vector<SweepGrid> sweep;
     std::vector<Drop> drops;
-    std::optional<Settings> baseline;  // of one run of each scene; none: its first run
-    std::optional<TraceOf> reference;  // none: of what a run draws
-    int rounds = 3, frames = 3;        // frames of a round: as many with a still camera
+    std::optional<Settings> baseline;  // settings of one run of each scene; none: its first run
+    std::optional<TraceOf> reference;  // none: the reference for what a run draws
+    int rounds = 3, frames = 3;  // frames in a round; as many again are drawn with a still camera
 };
 
-// Throws Error, naming the key.
+// Loads a study. Throws Error, which names the key.
 StudyFile load_study(const std::filesystem::path& file);
 
-// Gives the keys their values; null takes a key away.
+// Sets keys to their values; null removes a key.
 void apply_settings(const Settings& settings, nlohmann::json& document);
 
 }  // namespace lamina::study

@@ -8,7 +8,7 @@
 
 namespace lamina::study {
 
-// What the figures say, in sentences; every number in them is one that was measured.
+// The results of a study as sentences. Every number in them was measured.
 std::vector<std::string> study_findings(const StudyResults& results);
 
 }  // namespace lamina::study

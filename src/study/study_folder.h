@@ -10,11 +10,11 @@
 
 namespace lamina::study {
 
-// Where a study keeps what.
+// The folder of a study and the files in it.
 struct StudyFolder {
     explicit StudyFolder(std::filesystem::path folder) : path(std::move(folder)) {}
 
-    // Of what a study replaces, and of what it fills.
+    // The files that a study replaces, and the folders that it adds files to.
     static std::vector<std::string> results() {
         return {"results.csv", "results.json", "report.html"};
     }
@@ -30,10 +30,10 @@ struct StudyFolder {
         return pictures() / (run + ".exr");
     }
     std::filesystem::path journal(int shard, int shards) const;
-    std::vector<std::filesystem::path> journals() const;  // that are there, by name
-    // All that is there and not a result: run list, journals, references, pictures.
+    std::vector<std::filesystem::path> journals() const;  // those that exist, by name
+    // All existing files that are not results: run list, journals, references, pictures.
     std::vector<std::filesystem::path> kept() const;
-    void make() const;  // with its folders; throws Error
+    void make() const;  // makes the folder and its subfolders; throws Error
 };
 
 }  // namespace lamina::study

@@ -9,14 +9,14 @@
 
 namespace lamina::study {
 
-// A scene of method slice or project, set up to be drawn again and again. The data and the context
-// must outlive it.
+// A scene of method slice or project, prepared to be drawn again and again. The data and the
+// context must outlive it.
 class StudyFrames {
   public:
     StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities);
 
     void draw();
-    // With the scene's eye turned about its centre.
+    // Draws a frame with the scene's eye turned about its centre.
     void draw_turned(double degrees);
 
     const Scene& scene() const { return session_->scene(); }
@@ -24,7 +24,8 @@ class StudyFrames {
     Image picture() const { return session_->picture(); }
     double set_up_ms() const { return set_up_ms_; }
     bool on_tiles() const { return session_->capabilities().tiles; }
-    std::int64_t bytes_gpu() const { return bytes_gpu_; }  // OpenGL's, once it has drawn
+    // Bytes of OpenGL memory after the first frame.
+    std::int64_t bytes_gpu() const { return bytes_gpu_; }
     std::int64_t bytes_host() const { return renderer().byte_count(); }
     std::int64_t bytes() const { return bytes_gpu() + bytes_host(); }
 

@@ -11,14 +11,14 @@
 namespace lamina::study {
 
 struct StudySummary {
-    std::size_t runs = 0, wanted = 0;  // finished, and of the whole study
+    std::size_t runs = 0, wanted = 0;  // runs that are finished, and runs of the whole study
     std::vector<std::string> findings, failures;
 };
 
-// runs.json.
+// Writes runs.json.
 void write_run_list(const StudyFolder& folder, const RunList& list);
 
-// results.csv, results.json and report.html from what the folder's journals hold. Throws Error.
+// Writes results.csv, results.json and report.html from the folder's journals. Throws Error.
 StudySummary write_study_output(const StudyFolder& folder);
 
 }  // namespace lamina::study

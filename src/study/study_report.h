@@ -8,7 +8,8 @@
 
 namespace lamina::study {
 
-// results.json (docs/study.md): all that the page of a study shows, but for its pictures.
+// The contents of results.json (docs/study.md): all that the page of a study shows, except for its
+// pictures.
 nlohmann::ordered_json report_of(const StudyResults& results);
 
 // Adds pictures of runs, references and differences, as data URIs.

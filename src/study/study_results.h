@@ -14,37 +14,38 @@
 
 namespace lamina::study {
 
-// What was measured of one run. Times in ms, errors in 1/255.
+// The measurements of one run. Times in ms, errors in 1/255.
 struct RunResult {
-    std::size_t run = 0;  // into the list
-    std::string failed;   // why; then nothing else is known
+    std::size_t run = 0;  // index into the list of runs
+    std::string failed;   // reason of a failure; then nothing else is set
     std::vector<double> frame_ms, still_ms;
-    std::optional<double> ratio;  // of frame times to the baseline's: median of the rounds' ratios
-    std::string reference;        // its id
-    double reference_error = 0;   // its own estimate
+    // Frame time over the baseline's: the median of the rounds' ratios.
+    std::optional<double> ratio;
+    std::string reference;       // id of the reference
+    double reference_error = 0;  // the reference's own estimate
     ErrorNorms all;
     std::map<std::string, ErrorNorms> channels;
     std::map<std::string, double> stages_ms;
     std::int64_t bytes_gpu = 0, bytes_host = 0;
     std::string renderer;
-    bool pareto = false;  // of its scene's runs, in median frame time and L2
+    bool pareto = false;  // on the Pareto front of its scene's runs, in median frame time and L2
 
-    // An error below ten times what the reference knows of its own says little of the run.
+    // Whether the error is below ten times the reference's own estimate. Then it says little about
+    // the run.
     bool near_reference() const { return all.linf < 10 * reference_error; }
 };
 
-// What the journals of a folder hold of its study: of every finished run one result, in the list's
-// order.
+// The results in a folder's journals: one for every finished run, in the order of the list.
 struct StudyResults {
     RunList list;
     std::vector<RunResult> runs;
     nlohmann::ordered_json environment;
 };
 
-// Throws Error where the folder holds no study, or one that was tampered with.
+// Reads the results. Throws Error where the folder holds no study, or one whose files were changed.
 StudyResults read_results(const StudyFolder& folder);
 
-// results.csv: a row a run.
+// The contents of results.csv: one row for each run.
 std::string csv_of(const StudyResults& results);
 
 }  // namespace lamina::study

@@ -17,8 +17,8 @@
 
 namespace lamina::study {
 
-// Which runs of a list a process does: those whose number leaves `number` - 1 when divided by
-// `count`.
+// The runs of a list that a process does: those whose number leaves the remainder `number` - 1 when
+// divided by `count`.
 struct Shard {
     int number = 1, count = 1;
     bool has(std::size_t run) const {
@@ -26,41 +26,43 @@ struct Shard {
     }
 };
 
-// Draws and measures the runs of a study, scene by scene: in rounds A B C, A B C, ..., so that what
-// slows the machine for a while slows all of them. A shard without a scene's baseline times it,
-// too.
+// Draws and measures the runs of a study, scene by scene. It goes in rounds A B C, A B C, ..., so
+// that a slow phase of the machine affects all of them. A shard without a scene's baseline also
+// times that baseline.
 //
-// Records of the journal, in any order (times in ms, errors in 1/255):
-//   {"begin": {machine, processors, date, version, commit, command}}   of every process
-//   {"run", "session", "round", "frame_ms": [...], "still_ms": [...]}   a round; sessions count the
-//                                                             processes: only within one are rounds
-//                                                             neighbours in time
-//   {"run", "drawn": {...}}                                   picture and costs, once a run
-//   {"run", "failed": message}                                instead of these; tried again when
-//                                                             the study goes on
+// The journal has these records, in any order (times in ms, errors in 1/255):
+//   {"begin": {machine, processors, date, version, commit, command}}
+//       one for every process
+//   {"run", "session", "round", "frame_ms": [...], "still_ms": [...]}
+//       one for every round; sessions number the processes, and rounds are neighbours in time only
+//       within one session
+//   {"run", "drawn": {...}}
+//       picture and costs, once for every run
+//   {"run", "failed": message}
+//       instead of the others; the run is tried again when the study goes on
 class StudyRunner {
   public:
-    // `begin`: a record of where and how this process runs. `data`: may hold some of the first
-    // scene's. `say`: for what is done again though it was done before. Throws Error where the
+    // `begin`: a record of where and how this process runs. `data`: may already hold data of the
+    // first scene. `say`: gets messages about work that is done again. Throws Error where the
     // journal cannot be written, or another process writes it.
     StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder, Shard shard,
                 const nlohmann::ordered_json& begin, DataStore data, ReferenceStore::Say say);
 
-    // Does what the journal lacks. Throws Interrupted, and Error where records cannot be written;
-    // whatever is wrong with a run alone is recorded.
+    // Does all runs that the journal lacks. Throws Interrupted, and Error where records cannot be
+    // written. Errors of single runs are recorded.
     void run();
-    // Of this shard, as far as the journal goes.
+    // The number of runs of this shard that the journal has.
     std::size_t finished() const;
     std::size_t wanted() const;
 
   private:
     struct Done {
-        std::vector<char> rounds;  // of them, in any session
-        std::vector<char> again;   // of a baseline: to be timed in this session, too
+        std::vector<char> rounds;  // which rounds were done, in any session
+        std::vector<char> again;   // for a baseline: rounds to be timed in this session, too
         bool drawn = false, failed = false;
     };
 
-    // Of one visit, not yet on the disk.
+    // The measurements of one visit, before they are written to disk.
     struct Measured {
         std::optional<Image> picture;
         std::vector<nlohmann::ordered_json> records;
@@ -91,8 +93,8 @@ class StudyRunner {
     std::vector<Done> done_;
     DataStore data_;
     ReferenceStore references_;
-    std::map<std::string, bool> kept_references_;  // as they were found, by id
-    std::map<std::size_t, StudyFrames> frames_;    // that are kept for the next round
+    std::map<std::string, bool> kept_references_;  // whether each was intact, by id
+    std::map<std::size_t, StudyFrames> frames_;    // frames that are kept for the next round
     DrawContexts contexts_;
 };
 

@@ -11,13 +11,12 @@
 
 namespace lamina::study {
 
-// Keys of a scene with the values that a run gives them, by name; null is as if the scene did not
-// have the key.
+// Keys of a scene, by name, with the values that a run gives them. null removes the key.
 using Settings = std::vector<std::pair<std::string, nlohmann::json>>;
 
 const nlohmann::json* find_setting(const Settings& settings, const std::string& key);
 
-constexpr std::uint64_t most_runs = 100000;  // of a study
+constexpr std::uint64_t most_runs = 100000;  // runs of a study
 
 // All values of one key.
 struct SweepAxis {
@@ -25,7 +24,7 @@ struct SweepAxis {
     std::vector<nlohmann::json> values;  // at least one
 };
 
-// Every value of every axis with every one of the others.
+// All combinations of the values of its axes.
 struct SweepGrid {
     std::vector<SweepAxis> axes;  // at least one
 
@@ -33,17 +32,17 @@ struct SweepGrid {
     Settings settings(std::uint64_t n) const;  // the n-th; the last axis changes first
 };
 
-// Of a study file: `sweep`, a grid {key: values, ...} or a list of them. Values: a list, one value,
-// or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs
+// Reads `sweep` of a study file: a grid {key: values, ...} or a list of grids. Values are a list,
+// one value, or {"factorizations": N, "levels": k}. Throws KeyError, also for more than most_runs
 // factorizations in all.
 std::vector<SweepGrid> read_sweep(JsonReader& study);
 
-// All lists of factors of at least 2 with the product `of`, ordered, at most `levels` long; the
-// short ones first. of >= 2. Where there are more than most_runs, only some more than those.
+// All ordered lists of factors >= 2 with the product `of` >= 2 and at most `levels` factors; short
+// lists come first. Where there are more than most_runs, it stops soon after that number.
 std::vector<std::vector<int>> factorizations(int of, int levels);
 
-// As a name and as a table's cell: "32x32" of a list of whole numbers, words without quotes, else
-// JSON.
+// A setting as a name and for a cell of a table: a list of whole numbers as "32x32", words without
+// quotes, everything else as JSON.
 std::string setting_text(const nlohmann::json& value);
 
 }  // namespace lamina::study

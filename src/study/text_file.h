@@ -8,14 +8,14 @@
 
 namespace lamina::study {
 
-// The whole file at once, through AtomicFile. Throws Error.
+// Writes the whole file at once, through AtomicFile. Throws Error.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-// Numbers in columns: a line of names, then one line a row.
+// A table in CSV: a line of names, then one line for each row.
 class CsvTable {
   public:
     explicit CsvTable(const std::vector<std::string>& columns);
-    // As many cells as columns, as text.
+    // Adds a row with as many cells as columns, as text.
     void add_row(const std::vector<std::string>& cells);
     const std::string& text() const { return text_; }
 
@@ -24,7 +24,7 @@ class CsvTable {
     std::string text_;
 };
 
-// Objects of the same keys and plain values, one a row; null is an empty cell.
+// A CSV table of objects with the same keys and plain values, one row each; null is an empty cell.
 std::string csv_of_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace lamina::study

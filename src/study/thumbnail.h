@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures inside a page.
+// Small pictures for a page.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace lamina::study {
 
-// By what sides are divided so that none has more than `largest` pixels.
+// The divisor of the sides after which neither has more than `largest` pixels.
 int reduction(int width, int height, int largest = 256);
 
-// Means of squares of `step` x `step` pixels.
+// The means of squares of `step` x `step` pixels.
 Image reduced(const Image& image, int step);
-// Of each square the pixel with the largest |e|: no error is averaged away.
+// The pixel with the largest |e| of each square, so that no error is averaged away.
 Difference reduced(const Difference& difference, int step);
 
-// "data:image/png;base64,...", of an RGB picture of 8 bits.
+// An RGB picture of 8 bits as "data:image/png;base64,...".
 std::string data_uri(const CodedImage& image);
 
 }  // namespace lamina::study

@@ -13,8 +13,8 @@
 
 namespace lamina::study {
 
-// A tetrahedral mesh for sessions, and the tracer's pictures of it; what scenes say of their mesh
-// is not read.
+// A tetrahedral mesh for sessions, and the tracer's pictures of it. The mesh that a scene names is
+// ignored.
 class TracedMesh {
   public:
     explicit TracedMesh(SceneMesh mesh);
@@ -23,7 +23,7 @@ class TracedMesh {
     const std::shared_ptr<const SceneMesh>& data() const { return mesh_; }
 
     MeshTraceResult trace(const Scene& scene) const;
-    // The tracer's picture, made once for a transfer function, camera and size.
+    // The tracer's picture, made once for each transfer function, camera and size.
     const PreciseImage& exact(const Scene& scene);
 
   private:

@@ -10,15 +10,16 @@ namespace lamina::study {
 
 constexpr const char* factors_key = "render.slice.tree.factors";
 
-// Bifurcation factors of a run, from the root to the leaves; none: no tree is swept, or it failed.
+// The bifurcation factors of a run, from the root to the leaves. Empty where no tree is swept or
+// the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result);
 
-// Largest factor to smallest: 1 of a regular tree.
+// The largest factor over the smallest: 1 for a regular tree.
 double irregularity(const std::vector<int>& factors);
 
-// Of runs of one scene with trees: L2 error and frame time over the tree's height and over its
-// irregularity (LaMar 2004, section 6.3, asks for both), a series for whatever else is swept. The
-// report's `plots`; empty where no run has a tree.
+// The report's `plots` for runs of one scene with trees: L2 error and frame time over the tree's
+// height and over its irregularity (LaMar 2004, section 6.3, asks for both). There is one series
+// for each setting of the other swept keys. Empty where no run has a tree.
 nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const RunResult*>& runs);
 
 }  // namespace lamina::study

@@ -20,9 +20,9 @@ std::unique_ptr<Generator> make_marschner_lobb(const GridSize& size);
 // A smooth sum of Gaussians of several widths, divided by its maximum.
 std::unique_ptr<Generator> make_gaussians(const GridSize& size);
 
-// Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. One sheet of one sample and one of
-// two samples perpendicular to z; two oblique ones that take two samples along z each, and one that
-// takes two samples along x.
+// Thin dense sheets, as in LaMar's tests: 1 inside, 0 outside. Two sheets are perpendicular to z,
+// of one sample and of two samples. Two are oblique and take two samples along z each. One takes
+// two samples along x.
 std::unique_ptr<Generator> make_sheets(const GridSize& size);
 
 }  // namespace lamina

@@ -25,7 +25,7 @@ Grid generated_grid(const GeneratorRequest& request);
 // Generate values over the type's whole range: 0..255, 0..65535, 0..1. Parallel, with progress.
 // Both throw Error.
 Volume generate(const GeneratorRequest& request);  // in memory
-void generate_nrrd(AtomicFile& file,
-                   const GeneratorRequest& request);  // slab by slab: below 200 MB at any size
+// Works slab by slab, in less than 200 MB of memory at any size.
+void generate_nrrd(AtomicFile& file, const GeneratorRequest& request);
 
 }  // namespace lamina
