@@ -9,6 +9,7 @@
 #include "facts/drawn_range.h"
 #include "mesh/scalar_range.h"
 #include "scene/camera.h"
+#include "scene/coloring.h"
 
 namespace lamina {
 namespace {
@@ -18,11 +19,6 @@ void measure_edges(const TetMesh& mesh, MeshFacts& facts) {
     facts.shortest_edge = lengths.shortest;
     facts.longest_edge = lengths.longest;
     facts.diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
-}
-
-// Between points of a tet, or along a segment, whatever their extinction.
-bool mixes_colors(Coloring coloring) {
-    return coloring == Coloring::vertex || coloring == Coloring::attenuation;
 }
 
 void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,

@@ -11,13 +11,14 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "facts/drawn_range.h"
+#include "facts/world_unit.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
-#include "facts/drawn_range.h"
 #include "plan/tree_check.h"
-#include "facts/world_unit.h"
+#include "scene/coloring.h"
 
 namespace lamina {
 namespace {
@@ -98,9 +99,8 @@ class ProjectPlanner {
         // which belong to no depth.
         if (settings_.coloring == Coloring::vertex) plan_.interpolation = Interpolation::linear;
         // What is interpolated between the vertices of a fan, a silhouette cannot carry.
-        const bool fan = settings_.interpolation == Interpolation::linear ||
-                         settings_.coloring == Coloring::vertex ||
-                         settings_.coloring == Coloring::attenuation;
+        const bool fan =
+            settings_.interpolation == Interpolation::linear || mixes_colors(settings_.coloring);
         plan_.geometry = settings_.geometry;
         if (plan_.geometry == ProjectGeometry::automatic)
             plan_.geometry = fan ? ProjectGeometry::triangles : ProjectGeometry::silhouette;
@@ -187,13 +187,24 @@ class ProjectPlanner {
         plan_.single_color =
             leave_out(facts_.single_color, "color",
                       "one colour in all that can be seen: only extinction is looked up");
-        if (settings_.coloring == Coloring::vertex) {
-            plan_.source = SegmentSource::vertices;
-        } else if (settings_.coloring == Coloring::attenuation) {
-            plan_.source = SegmentSource::mean;
-        } else if (leave_out(facts_.constant && facts_.non_finite == 0, "scalars",
-                             "the transfer function is constant over the mesh: opacity has a "
-                             "closed form of the length alone")) {
+        switch (settings_.coloring) {
+            case Coloring::vertex:
+                plan_.source = SegmentSource::vertices;
+                break;
+            case Coloring::attenuation:
+                plan_.source = SegmentSource::mean;
+                break;
+            case Coloring::preintegrated:
+            case Coloring::analytic:
+                choose_integral();
+                break;
+        }
+    }
+
+    void choose_integral() {
+        if (leave_out(facts_.constant && facts_.non_finite == 0, "scalars",
+                      "the transfer function is constant over the mesh: opacity has a "
+                      "closed form of the length alone")) {
             plan_.source = SegmentSource::constant;
         } else if (settings_.coloring == Coloring::analytic) {
             plan_.source = SegmentSource::analytic;

@@ -2,6 +2,7 @@
 #include "plan/tree_check.h"
 
 #include "base/error.h"
+#include "scene/coloring.h"
 
 namespace lamina {
 namespace {
@@ -48,8 +49,7 @@ void check_project_tree(const Scene& scene, bool single_color) {
     }
     check_fixed_nodes(scene, single_color, "render.project.tree", "");
     if (project.geometry == ProjectGeometry::triangles ||
-        project.interpolation == Interpolation::linear ||
-        project.coloring == Coloring::attenuation || project.coloring == Coloring::vertex) {
+        project.interpolation == Interpolation::linear || mixes_colors(project.coloring)) {
         fail(
             "{}: render.project.tree: found geometry \"{}\", interpolation \"{}\" and coloring "
             "\"{}\", expected silhouettes, perspective and preintegrated or analytic",

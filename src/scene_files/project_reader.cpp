@@ -2,6 +2,7 @@
 #include "scene_files/project_reader.h"
 
 #include "base/enum_words.h"
+#include "scene/coloring.h"
 #include "scene_files/tree_reader.h"
 
 namespace lamina {
@@ -25,7 +26,7 @@ void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     if (project.geometry != ProjectGeometry::silhouette) return;
     if (project.interpolation == Interpolation::linear)
         reader.reject("geometry", "\"triangles\" for linear interpolation, or \"auto\"");
-    if (project.coloring == Coloring::vertex || project.coloring == Coloring::attenuation) {
+    if (mixes_colors(project.coloring)) {
         reader.reject("geometry", fmt::format("\"triangles\" for the coloring \"{}\", or \"auto\"",
                                               name_of(project.coloring)));
     }

@@ -192,6 +192,10 @@ def main():
         print("skipped: nm or c++filt is missing")
         return 77
     check_itself()
+    missing = [archive for archive in options.archives if not pathlib.Path(archive).exists()]
+    if missing:
+        print(f"not built, build all rooms first: {', '.join(missing)}")
+        return 1
     symbols = [symbol for archive in options.archives for symbol in symbols_of(options.nm, archive)]
     headers = []
     for folder in ("include", "src"):

@@ -7,6 +7,7 @@
 
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 #include "base/file_bytes.h"
@@ -83,6 +84,41 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<TableStore>(), "mean_extinction opacity");
     EXPECT_EQ(words_of<TableFormat>(), "fixed16 fixed8 float16 float32");
     EXPECT_EQ(words_of<TableConstruction>(), "exact incremental");
+}
+
+// Every list of words in a part of the schema, with a space between words.
+std::set<std::string> lists_in(const nlohmann::json& schema) {
+    std::set<std::string> lists;
+    if (schema.is_object() && schema.contains("enum")) {
+        std::string words;
+        for (const nlohmann::json& word : schema["enum"]) {
+            if (!word.is_string()) continue;
+            if (!words.empty()) words += ' ';
+            words += word.get<std::string>();
+        }
+        lists.insert(words);
+    }
+    for (const nlohmann::json& part : schema) {
+        if (part.is_structured()) lists.merge(lists_in(part));
+    }
+    return lists;
+}
+
+TEST(EnumWords, AreThoseOfTheSchema) {
+    const std::set<std::string> lists =
+        lists_in(load_json(LAMINA_SOURCE_DIR "/docs/scene.schema.json"));
+    for (const std::string& words : {words_of<Method>(),          words_of<Target>() + " auto",
+                                     words_of<TraceOf>(),         words_of<NanPolicy>(),
+                                     words_of<Projection>(),      words_of<Classification>(),
+                                     words_of<Order>(),           words_of<Filter>(),
+                                     words_of<NodeArithmetic>(),  words_of<NodeCode>(),
+                                     words_of<AlphaRounding>(),   words_of<OverRounding>(),
+                                     words_of<Coloring>(),        words_of<Interpolation>(),
+                                     words_of<Thickness>(),       words_of<ProjectOrder>(),
+                                     words_of<ProjectGeometry>(), words_of<ProjectDither>(),
+                                     words_of<LengthMapping>(),   words_of<TableStore>(),
+                                     words_of<TableFormat>(),     words_of<TableConstruction>()})
+        EXPECT_TRUE(lists.contains(words)) << words;
 }
 
 TEST(EnumWords, AreFoundAndListedForMessages) {
