@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// Of the last picture of a session.
+// What the last picture of a session took.
 struct FrameStatistics {
     std::string drawn_by;                     // the renderer, and its threads where they are known
     double draw_ms = 0;                       // all of draw()

@@ -12,9 +12,11 @@ struct MeshSettings {
     // Every sample of the volume becomes a point, with six tets a cell (the Kuhn split). Otherwise
     // the mesh has as few tets as the tolerance allows.
     bool kuhn = false;
+
+    friend bool operator==(const MeshSettings&, const MeshSettings&) = default;
 };
 
-// What is known of the mesh that was made.
+// Describes the mesh that was made.
 struct MeshReport {
     std::int64_t points = 0;
     std::int64_t tets = 0;

@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// What runs for a picture, in short.
+// A short account of what runs for a picture.
 struct PlanSummary {
     // Something that the scene does not need, and why it may be left out.
     struct LeftOut {

@@ -21,7 +21,7 @@ namespace lamina {
 
 enum class Method { slice, project, trace };
 enum class Target { float32, float16, fixed16, fixed8, emulated };
-// What the method "trace" draws.
+// The data that the method "trace" draws.
 enum class TraceOf { volume, mesh };
 enum class NanPolicy { error, transparent };
 

@@ -85,7 +85,7 @@ class LAMINA_API Session {
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
 
     const FrameStatistics& statistics() const;
-    // What is noteworthy in the data and shows in no picture; each is given once.
+    // The warnings since the last call: what is noteworthy in the data and shows in no picture.
     std::vector<std::string> take_warnings();
 
   private:

@@ -19,6 +19,7 @@ struct OpticalProperties {
 struct TransferKnot {
     double value = 0;  // scalar, in the volume's own units
     OpticalProperties optics;
+    bool operator==(const TransferKnot&) const = default;
 };
 
 // Maps a scalar value to colour and extinction, linearly between knots and constant outside them.
@@ -39,6 +40,7 @@ class LAMINA_API TransferFunction {
     // The same function with all extinctions times `factor`; they are clamped to the largest finite
     // number.
     TransferFunction attenuated(double factor) const;
+    bool operator==(const TransferFunction&) const = default;
 
     // The following are about the closed interval [lo, hi]; both sides of steps in it count.
     // Largest extinction:

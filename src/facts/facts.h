@@ -35,7 +35,7 @@ struct DepthRange {
 DepthRange depth_range(const Grid& grid, const View& view);
 DepthRange depth_range(const Grid& grid, const IndexBox& box, const View& view);
 
-// What the data and the view really contain. Facts are measured, not taken from headers.
+// Facts say what the data and the view really contain: they are measured, not taken from headers.
 struct Facts {
     Grid grid;
     SampleType type = SampleType::uint8;

@@ -13,7 +13,7 @@
 
 namespace lamina {
 
-// What a mesh and the view really contain. Facts are measured, not taken from files.
+// Facts say what a mesh and the view really contain: they are measured, not taken from files.
 struct MeshFacts {
     std::int64_t points = 0;
     std::int64_t tets = 0;

@@ -3,8 +3,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
-#include "image/exr.h"
-#include "image/png.h"
+#include "image/picture.h"
 
 namespace lamina {
 
@@ -14,10 +13,7 @@ void save_picture(const Image& picture, const std::filesystem::path& file,
     if (suffix != ".png" && suffix != ".exr")
         fail("{}: found the suffix \"{}\", expected .png or .exr", file.string(), suffix);
     AtomicFile output(file);
-    if (suffix == ".png")
-        write_png(output, picture, background);
-    else
-        write_exr(output, picture, {});
+    write_picture(output, picture, background, {});
     output.commit();
 }
 

@@ -6,24 +6,10 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "library/session_parts.h"
-#include "scene/camera.h"
 
 namespace lamina {
-namespace {
-
-// What scene files are checked for when they are read (docs/scene.md).
-void check(const Scene& scene) {
-    if (scene.width < 1 || scene.height < 1) {
-        fail("image: found {} x {} pixels, expected 1 x 1 or more", scene.width, scene.height);
-    }
-    View(scene.camera, scene.width, scene.height);
-}
-
-}  // namespace
-
-Session::Session(Scene scene, SessionOptions options) {
-    check(scene);
-    parts_ = std::make_unique<Parts>(std::move(scene), options);
+Session::Session(Scene scene, SessionOptions options)
+    : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->run([&] {
         if (parts_->scene.draws_mesh())
             parts_->mesh_data();
@@ -32,15 +18,13 @@ Session::Session(Scene scene, SessionOptions options) {
     });
 }
 
-Session::Session(Scene scene, Volume volume, SessionOptions options) {
-    check(scene);
-    parts_ = std::make_unique<Parts>(std::move(scene), options);
+Session::Session(Scene scene, Volume volume, SessionOptions options)
+    : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->run([&] { parts_->volume = std::make_shared<const VolumeData>(std::move(volume)); });
 }
 
-Session::Session(Scene scene, MeshData mesh, SessionOptions options) {
-    check(scene);
-    parts_ = std::make_unique<Parts>(std::move(scene), options);
+Session::Session(Scene scene, MeshData mesh, SessionOptions options)
+    : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->mesh_given = true;
     parts_->run([&] {
         parts_->mesh =
@@ -53,36 +37,31 @@ Session::Session(Session&& other) noexcept = default;
 Session& Session::operator=(Session&& other) noexcept = default;
 
 void Session::set_camera(const Camera& camera) {
-    View(camera, parts_->scene.width, parts_->scene.height);
+    check_view(camera, parts_->scene.width, parts_->scene.height);
     parts_->scene.camera = camera;
     if (parts_->drawn) parts_->drawn->set_camera(camera);
 }
 
 void Session::set_size(int width, int height) {
-    Scene scene = parts_->scene;
-    scene.width = width;
-    scene.height = height;
-    check(scene);
-    parts_->scene = std::move(scene);
+    check_view(parts_->scene.camera, width, height);
+    parts_->scene.width = width;
+    parts_->scene.height = height;
     if (parts_->drawn) parts_->drawn->set_size(width, height);
 }
 
 void Session::set_transfer_function(const TransferFunction& transfer_function) {
+    Scene scene = parts_->scene;
+    scene.transfer_function = transfer_function;
     parts_->run([&] {
-        parts_->scene.transfer_function = transfer_function;
-        parts_->forget_made_mesh();
+        parts_->take_scene(std::move(scene));
         if (parts_->drawn) parts_->drawn->set_transfer_function(transfer_function);
     });
 }
 
 void Session::set_scene(Scene scene) {
-    check(scene);
+    check_view(scene.camera, scene.width, scene.height);
     parts_->run([&] {
-        const Method before = parts_->scene.method;
-        parts_->forget_made_mesh();
-        parts_->scene = std::move(scene);
-        parts_->forget_made_mesh();
-        if (parts_->scene.method != before) parts_->forget_renderer();
+        parts_->take_scene(std::move(scene));
         if (parts_->drawn) parts_->drawn->set_scene(parts_->scene);
     });
 }
@@ -98,8 +77,7 @@ const Scene& Session::scene() const {
 const Scene& Session::resolved_scene() {
     if (parts_->scene.method == Method::trace) return parts_->scene;
     const Scene* resolved = nullptr;
-    parts_->open_context();
-    parts_->run([&] { resolved = &parts_->renderer().resolved_scene(); });
+    parts_->run_drawing([&] { resolved = &parts_->renderer().resolved_scene(); });
     return *resolved;
 }
 
@@ -114,8 +92,7 @@ void Session::save_resolved_scene(const std::filesystem::path& file) {
 
 PlanSummary Session::plan() {
     PlanSummary summary;
-    parts_->open_context();
-    parts_->run([&] {
+    parts_->run_drawing([&] {
         const Plan& plan = parts_->renderer().plan();
         summary.method = plan.method;
         if (plan.method == Method::slice) {
@@ -134,8 +111,7 @@ PlanSummary Session::plan() {
 
 std::string Session::explanation() {
     std::string text;
-    parts_->open_context();
-    parts_->run([&] { text = parts_->renderer().explanation(); });
+    parts_->run_drawing([&] { text = parts_->renderer().explanation(); });
     return text;
 }
 
@@ -146,8 +122,7 @@ const Image& Session::draw(std::stop_token stop, const ProgressCallback& progres
         parts_->statistics = {};
         parts_->statistics.drawn_by = "reference tracer";
     } else {
-        parts_->open_context();
-        parts_->run([&] { parts_->draw(); }, std::move(stop), progress);
+        parts_->run_drawing([&] { parts_->draw(); }, std::move(stop), progress);
     }
     parts_->statistics.draw_ms = 1e3 * watch.seconds();
     return parts_->picture;

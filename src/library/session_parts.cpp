@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/stage.h"
 #include "base/unreachable.h"
 #include "mesh/face_tree.h"
 #include "reference/mesh_tracer.h"
 #include "reference/volume_tracer.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
@@ -20,15 +20,23 @@ int arena_threads(int threads) {
 
 }  // namespace
 
+void check_view(const Camera& camera, int width, int height) {
+    if (width < 1 || height < 1)
+        fail("image: found {} x {} pixels, expected 1 x 1 or more", width, height);
+    View(camera, width, height);
+}
+
 Session::Parts::Parts(Scene first, const SessionOptions& options)
     : scene(std::move(first)),
       choice(options.context),
       threads(arena_threads(options.threads)),
-      warnings(scene.warnings) {}
+      warnings(scene.warnings) {
+    check_view(scene.camera, scene.width, scene.height);
+}
 
-// What OpenGL holds goes while its context is current.
+// A renderer of OpenGL ends while its context is current.
 Session::Parts::~Parts() {
-    if (drawn) run([&] { forget_renderer(); });
+    if (drawn) run([&] { drawn.reset(); });
 }
 
 void Session::Parts::keep_warning(const std::string& text) {
@@ -47,14 +55,9 @@ const VolumeData& Session::Parts::volume_data() {
 const SceneMesh& Session::Parts::mesh_data() {
     if (!mesh) {
         mesh = std::make_shared<const SceneMesh>(
-            makes_mesh() ? scene_mesh(scene, volume_data().volume) : load_mesh(scene));
+            scene.mesh_file.empty() ? scene_mesh(scene, volume_data().volume) : load_mesh(scene));
     }
     return *mesh;
-}
-
-void Session::Parts::open_context() {
-    if (context) return;
-    threads.execute([&] { context = std::make_unique<DrawContext>(choice); });
 }
 
 SceneRenderer& Session::Parts::renderer() {
@@ -99,14 +102,19 @@ void Session::Parts::trace() {
     }
 }
 
-void Session::Parts::forget_renderer() {
-    drawn.reset();
+// A mesh that is made from a volume follows the transfer function.
+bool Session::Parts::changes_mesh(const Scene& next) const {
+    if (mesh_given) return false;
+    const bool made = scene.mesh_file.empty(), makes = next.mesh_file.empty();
+    return made != makes || (makes && (next.mesh_request != scene.mesh_request ||
+                                       next.transfer_function != scene.transfer_function));
 }
 
-void Session::Parts::forget_made_mesh() {
-    if (!makes_mesh()) return;
-    mesh.reset();
-    if (scene.method == Method::project) forget_renderer();
+void Session::Parts::take_scene(Scene next) {
+    const bool other_method = next.method != scene.method, other_mesh = changes_mesh(next);
+    scene = std::move(next);
+    if (other_mesh) mesh.reset();
+    if (other_method || (other_mesh && scene.method == Method::project)) drawn.reset();
 }
 
 }  // namespace lamina

@@ -17,8 +17,11 @@
 
 namespace lamina {
 
-// What a session holds: the data of its scene, as far as a method has asked for them, and the
-// renderer of the method that was drawn last.
+// Throws Error where there is no such view: scene files are checked for that when they are read.
+void check_view(const Camera& camera, int width, int height);
+
+// A session holds the data of its scene, as far as a method has asked for them, and the renderer of
+// the method that was drawn last.
 struct Session::Parts {
     Parts(Scene first, const SessionOptions& options);
     ~Parts();
@@ -36,18 +39,24 @@ struct Session::Parts {
         });
     }
 
+    // The same where a context is needed.
+    template <typename Work>
+    void run_drawing(const Work& work, std::stop_token stop = {},
+                     const ProgressCallback& progress = {}) {
+        if (!context) threads.execute([&] { context = std::make_unique<DrawContext>(choice); });
+        run(work, std::move(stop), progress);
+    }
+
     void keep_warning(const std::string& text);
     const VolumeData& volume_data();
     const SceneMesh& mesh_data();
     SceneRenderer& renderer();  // of Method::slice or project
-    void open_context();
     void draw();
     void trace();
 
-    // A mesh that is made from a volume follows the transfer function.
-    bool makes_mesh() const { return !mesh_given && scene.mesh_file.empty(); }
-    void forget_made_mesh();
-    void forget_renderer();
+    // Replaces the scene, and forgets the mesh and the renderer where these are not of the next.
+    void take_scene(Scene next);
+    bool changes_mesh(const Scene& next) const;
 
     Scene scene;
     ContextChoice choice;

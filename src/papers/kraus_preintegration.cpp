@@ -47,8 +47,8 @@ std::vector<Variant> ways(const Scene& scene) {
 
 // Milliseconds to build the table that the scene asks for; null where it has none of its own.
 Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
-    SceneRenderer session(scene, mesh.data(), capabilities);
-    const Plan& plan = session.plan();
+    SceneRenderer frames(scene, mesh.data(), capabilities);
+    const Plan& plan = frames.plan();
     if (plan.project.source != SegmentSource::table) return nullptr;
     return build_segment_table(in_units(scene.transfer_function, plan.project.unit),
                                plan.project.table)

@@ -82,18 +82,18 @@ Scene scene_of(const TimedWay& technique) {
     return scene;
 }
 
-// The same of next to nothing in the picture is drawn by a session of its own: a change of the
+// The same of next to nothing in the picture is drawn by a renderer of its own: a change of the
 // camera would be part of the times.
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
                            const Scene& scene, const Capabilities& capabilities,
                            const OmissionSwitch& omissions) {
-    const auto session = std::make_shared<SceneRenderer>(scene, volume, capabilities, omissions);
+    const auto frames = std::make_shared<SceneRenderer>(scene, volume, capabilities, omissions);
     Scene far = scene;
     far.camera.height *= nearly_nothing;
-    const auto far_session = std::make_shared<SceneRenderer>(far, volume, capabilities, omissions);
-    session->set_up();
-    far_session->set_up();
-    return {name, [far_session] { far_session->draw(); }, [session] { session->draw(); }};
+    const auto far_frames = std::make_shared<SceneRenderer>(far, volume, capabilities, omissions);
+    frames->set_up();
+    far_frames->set_up();
+    return {name, [far_frames] { far_frames->draw(); }, [frames] { frames->draw(); }};
 }
 
 Json time_techniques(const std::shared_ptr<const VolumeData>& volume,

@@ -19,18 +19,18 @@ class MeshFrame {
     MeshFrame(std::string name, const study::TracedMesh& mesh, const Scene& scene,
               const Capabilities& capabilities)
         : name_(std::move(name)),
-          session_(std::make_unique<SceneRenderer>(scene, mesh.data(), capabilities)) {
-        session_->set_up();
+          frames_(std::make_unique<SceneRenderer>(scene, mesh.data(), capabilities)) {
+        frames_->set_up();
     }
 
     const std::string& name() const { return name_; }
     const ProjectRenderer& renderer() const {
-        return dynamic_cast<const ProjectRenderer&>(session_->renderer());
+        return dynamic_cast<const ProjectRenderer&>(frames_->renderer());
     }
-    Image picture() const { return session_->picture(); }
+    Image picture() const { return frames_->picture(); }
     // Draws a whole frame: order, geometry and fragments.
     void draw() {
-        session_->draw();
+        frames_->draw();
         drawn_ = true;
     }
     void warm_up() {
@@ -39,7 +39,7 @@ class MeshFrame {
 
   private:
     std::string name_;
-    std::unique_ptr<SceneRenderer> session_;
+    std::unique_ptr<SceneRenderer> frames_;
     bool drawn_ = false;
 };
 

@@ -25,8 +25,8 @@ class FrameRenderer {
     // by step_count() in all.
     virtual void draw(const View& view, Progress* progress = nullptr) = 0;
     virtual int step_count() const = 0;
-    // The last frame: associated, linear, before the background. The first takes no memory where
-    // `image` has its size.
+    // The last frame: associated, linear, before the background. The one that is given `image`
+    // takes no memory where that has the frame's size.
     virtual void read(Image& image) const = 0;
     Image read() const {
         Image image;

@@ -9,8 +9,9 @@
 
 namespace lamina {
 
-// How a session measures, plans and makes renderers: slicing and projection implement this, each in
-// its own way. Between calls the scene changes only in what the session was told to change.
+// How a SceneRenderer measures, plans and makes renderers: slicing and projection implement this,
+// each in its own way. Between calls the scene changes only in what the renderer was told to
+// change.
 class Drawing {
   public:
     virtual ~Drawing() = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session draws one scene and its data, from the first picture to the last. All pictures except
-// those of the reference tracers are drawn by a session.
+// Draws one scene and its data, from the first picture to the last: all pictures but those of the
+// reference tracers are drawn by a SceneRenderer.
 #pragma once
 
 #include <map>
@@ -19,7 +19,7 @@
 namespace lamina {
 
 // Draws a scene of method slice or project again and again while the scene changes. When a picture
-// or a plan is next asked for, the session does again only what the changes make necessary:
+// or a plan is next asked for, it does again only what the changes make necessary:
 //
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
 //                       needs no other: no bricks, tables, uploads or programs
@@ -32,7 +32,7 @@ namespace lamina {
 //
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
 // (A table grows where a view has longer segments than it knows.) A picture is, bit for bit on the
-// native engine, that of a new session with that scene.
+// native engine, that of a new renderer with that scene.
 class SceneRenderer {
   public:
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
@@ -53,7 +53,7 @@ class SceneRenderer {
     void choose_again();
 
     // The scene as it was asked for, with "auto"; and the scene with what was chosen instead, which
-    // save_scene() (scene_files/scene_json.h) can write.
+    // save_scene() can write.
     const Scene& scene() const { return asked_; }
     const Scene& resolved_scene();
     // Throws Error where the data cannot be drawn as the scene asks, or the context cannot do it.
@@ -66,8 +66,8 @@ class SceneRenderer {
     // Draws a frame, which is complete on return. Throws Interrupted once a stop is requested; the
     // next frame is then drawn from the start.
     void draw(std::stop_token stop = {});
-    // The last frame: associated, linear, before the background. The second one takes no memory
-    // where `picture` has its size.
+    // The last frame: associated, linear, before the background. read() takes no memory where
+    // `picture` has the frame's size.
     Image picture() const;
     void read(Image& picture) const;
     Image draw_picture() {

@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// A volume that sessions draw, with its min/max bricks, which are measured once.
+// A volume that is drawn, with its min/max bricks, which are measured once.
 struct VolumeData {
     explicit VolumeData(Volume read) : volume(std::move(read)), bricks(measure_bricks(volume)) {}
 

@@ -3,9 +3,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "base/json_text.h"
-
 namespace lamina {
 namespace {
 
@@ -135,12 +132,6 @@ Json scene_json(const Scene& scene) {
                      {"background", vector_json(scene.background)}};
     json["render"] = render_json(scene);
     return json;
-}
-
-void save_scene(const Scene& scene, const std::filesystem::path& file) {
-    AtomicFile output(file);
-    output.write(json_text(scene_json(scene), 1) + "\n");
-    output.commit();
 }
 
 }  // namespace lamina

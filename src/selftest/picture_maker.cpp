@@ -25,8 +25,8 @@ PreciseImage PictureMaker::draw(const Scene& scene, const Volume& volume) const 
     const View view(scene.camera, scene.width, scene.height);
     if (scene.method == Method::trace)
         return trace_volume(volume, scene.transfer_function, view, {scene.trace_tolerance}).image;
-    SceneRenderer session(scene, std::make_shared<const VolumeData>(volume), capabilities_);
-    return to_precise(session.draw_picture());
+    SceneRenderer frames(scene, std::make_shared<const VolumeData>(volume), capabilities_);
+    return to_precise(frames.draw_picture());
 }
 
 PreciseImage PictureMaker::draw(const Scene& scene, const SceneMesh& mesh,
@@ -37,12 +37,12 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneMesh& mesh,
         return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function, view)
             .image;
     }
-    // The mesh is the caller's, and outlives the session.
-    SceneRenderer session(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
-                          capabilities_);
-    session.draw();
-    if (order) *order = dynamic_cast<const ProjectRenderer&>(session.renderer()).order_report();
-    return to_precise(session.picture());
+    // The mesh is the caller's, and outlives the renderer.
+    SceneRenderer frames(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
+                         capabilities_);
+    frames.draw();
+    if (order) *order = dynamic_cast<const ProjectRenderer&>(frames.renderer()).order_report();
+    return to_precise(frames.picture());
 }
 
 }  // namespace lamina::selftest

@@ -6,8 +6,8 @@
 namespace lamina::study {
 namespace {
 
-std::unique_ptr<SceneRenderer> session_of(const Scene& scene, DataStore& data,
-                                          const Capabilities& capabilities) {
+std::unique_ptr<SceneRenderer> frames_of(const Scene& scene, DataStore& data,
+                                         const Capabilities& capabilities) {
     if (scene.method == Method::project)
         return std::make_unique<SceneRenderer>(scene, data.mesh(scene).data.data(), capabilities);
     return std::make_unique<SceneRenderer>(scene, data.volume(scene).data, capabilities);
@@ -16,23 +16,23 @@ std::unique_ptr<SceneRenderer> session_of(const Scene& scene, DataStore& data,
 }  // namespace
 
 StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities)
-    : camera_(scene.camera), session_(session_of(scene, data, capabilities)) {
+    : camera_(scene.camera), frames_(frames_of(scene, data, capabilities)) {
     const std::int64_t before = gl::bytes_allocated();
-    session_->draw();
-    set_up_ms_ = session_->stages_ms().at("set_up");
+    frames_->draw();
+    set_up_ms_ = frames_->stages_ms().at("set_up");
     bytes_gpu_ = gl::bytes_allocated() - before;
 }
 
 void StudyFrames::draw() {
-    if (turned_) session_->set_camera(camera_);
+    if (turned_) frames_->set_camera(camera_);
     turned_ = false;
-    session_->draw();
+    frames_->draw();
 }
 
 void StudyFrames::draw_turned(double degrees) {
     turned_ = true;
-    session_->set_camera(turned(camera_, degrees));
-    session_->draw();
+    frames_->set_camera(turned(camera_, degrees));
+    frames_->draw();
 }
 
 }  // namespace lamina::study

@@ -19,11 +19,11 @@ class StudyFrames {
     // Draws a frame with the scene's eye turned about its centre.
     void draw_turned(double degrees);
 
-    const Scene& scene() const { return session_->scene(); }
-    const FrameRenderer& renderer() const { return session_->renderer(); }
-    Image picture() const { return session_->picture(); }
+    const Scene& scene() const { return frames_->scene(); }
+    const FrameRenderer& renderer() const { return frames_->renderer(); }
+    Image picture() const { return frames_->picture(); }
     double set_up_ms() const { return set_up_ms_; }
-    bool on_tiles() const { return session_->capabilities().tiles; }
+    bool on_tiles() const { return frames_->capabilities().tiles; }
     // Bytes of OpenGL memory after the first frame.
     std::int64_t bytes_gpu() const { return bytes_gpu_; }
     std::int64_t bytes_host() const { return renderer().byte_count(); }
@@ -31,7 +31,7 @@ class StudyFrames {
 
   private:
     Camera camera_;  // the scene's own
-    std::unique_ptr<SceneRenderer> session_;
+    std::unique_ptr<SceneRenderer> frames_;
     bool turned_ = false;
     double set_up_ms_ = 0;
     std::int64_t bytes_gpu_ = 0;

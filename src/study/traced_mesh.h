@@ -13,7 +13,7 @@
 
 namespace lamina::study {
 
-// A tetrahedral mesh for sessions, and the tracer's pictures of it. The mesh that a scene names is
+// A tetrahedral mesh that is drawn, and the tracer's pictures of it. The mesh that a scene names is
 // ignored.
 class TracedMesh {
   public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session that changes against `lamina render` of the scenes that it saves: bit for bit.
+// A renderer whose scene changes against `lamina render` of the scenes that it saves: bit for bit.
 #include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +24,9 @@ using test::knot;
 
 class SceneRendererAndProgram : public testing::Test {
   protected:
-    void expect_the_programs(SceneRenderer& session, const std::string& what) {
-        const Image drawn = session.draw_picture();
-        save_scene(session.resolved_scene(), folder / "resolved.json");
+    void expect_the_programs(SceneRenderer& frames, const std::string& what) {
+        const Image drawn = frames.draw_picture();
+        save_scene(frames.resolved_scene(), folder / "resolved.json");
         const ProgramResult result = lamina_run(
             {"render", folder / "resolved.json", "-o", folder / "fresh.exr", "--context", "cpu"});
         ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -34,11 +34,11 @@ class SceneRendererAndProgram : public testing::Test {
         EXPECT_EQ(drawn.rgba, fresh.rgba) << what;
     }
 
-    static void turn(SceneRenderer& session, double degrees) {
+    static void turn(SceneRenderer& frames, double degrees) {
         const double angle = degrees * std::numbers::pi / 180;
-        Camera camera = session.scene().camera;
+        Camera camera = frames.scene().camera;
         camera.eye = camera.center + glm::dvec3(2 * std::sin(angle), .7, 2 * std::cos(angle));
-        session.set_camera(camera);
+        frames.set_camera(camera);
     }
 
     Scene scene_of(nlohmann::json document) { return read_scene(document, folder / "scene.json"); }
@@ -51,24 +51,24 @@ TEST_F(SceneRendererAndProgram, DrawSlabsAlike) {
     document["render"]["slice"]["classification"] = "preintegrated";
     document["render"]["slice"]["samples"] = "auto";
     const Scene scene = scene_of(document);
-    SceneRenderer session(scene, std::make_shared<const VolumeData>(load_volume(scene)),
-                          tile_capabilities());
-    expect_the_programs(session, "the first picture");
+    SceneRenderer frames(scene, std::make_shared<const VolumeData>(load_volume(scene)),
+                         tile_capabilities());
+    expect_the_programs(frames, "the first picture");
     int changes = 0;
     for (int degrees = 18; degrees < 360; degrees += 18) {
-        turn(session, degrees);
+        turn(frames, degrees);
         if (degrees % 54 == 0) {
-            session.set_transfer_function(TransferFunction::linear(
+            frames.set_transfer_function(TransferFunction::linear(
                 {knot(20, {1, .2, 0}, 0), knot(90. + degrees / 5., {1, 1, 0}, degrees / 9.),
                  knot(255, {0, .3, 1}, 2)}));
         } else if (degrees % 72 == 0) {
-            Scene other = session.scene();
+            Scene other = frames.scene();
             other.automatic_target = changes++ % 2 == 0;
             other.target = Target::fixed16;
             other.max_error = 2;
-            session.set_scene(other);
+            frames.set_scene(other);
         }
-        expect_the_programs(session, "turned by " + std::to_string(degrees));
+        expect_the_programs(frames, "turned by " + std::to_string(degrees));
     }
 }
 
@@ -78,11 +78,11 @@ TEST_F(SceneRendererAndProgram, DrawTetsAlike) {
     document["render"]["method"] = "project";
     document["render"]["target"] = "auto";
     const Scene scene = scene_of(document);
-    SceneRenderer session(scene, std::make_shared<const SceneMesh>(load_mesh(scene)),
-                          tile_capabilities());
+    SceneRenderer frames(scene, std::make_shared<const SceneMesh>(load_mesh(scene)),
+                         tile_capabilities());
     for (int degrees = 0; degrees < 360; degrees += 72) {
-        turn(session, degrees);
-        expect_the_programs(session, "turned by " + std::to_string(degrees));
+        turn(frames, degrees);
+        expect_the_programs(frames, "turned by " + std::to_string(degrees));
     }
 }
 

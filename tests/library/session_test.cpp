@@ -8,7 +8,6 @@
 
 #include "lamina/error.h"
 #include "lamina/error_norms.h"
-#include "support/allocation_count.h"
 #include "support/expect_error.h"
 #include "support/split_box.h"
 #include "support/temporary_folder.h"

@@ -77,12 +77,12 @@ TransferFunction one_colored(double extinction) {
         {test::knot(0, {.1, .2, .6}, 0), test::knot(255, {.1, .2, .6}, extinction)});
 }
 
-auto textures_of(SceneRenderer& session) {
-    return dynamic_cast<const GlSliceRenderer&>(session.renderer()).volume();
+auto textures_of(SceneRenderer& frames) {
+    return dynamic_cast<const GlSliceRenderer&>(frames.renderer()).volume();
 }
 
-const GlProjectRenderer& gl_renderer(SceneRenderer& session) {
-    return dynamic_cast<const GlProjectRenderer&>(session.renderer());
+const GlProjectRenderer& gl_renderer(SceneRenderer& frames) {
+    return dynamic_cast<const GlProjectRenderer&>(frames.renderer());
 }
 
 // With a context that is current.
@@ -106,9 +106,9 @@ std::ostream& operator<<(std::ostream& out, const Done& done) {
 }
 
 template <typename Data>
-void expect_fresh(SceneRenderer& session, const Data& data, const Image& drawn,
+void expect_fresh(SceneRenderer& frames, const Data& data, const Image& drawn,
                   const std::string& what) {
-    SceneRenderer other(session.resolved_scene(), data, session.capabilities());
+    SceneRenderer other(frames.resolved_scene(), data, frames.capabilities());
     EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
 }
 
@@ -134,18 +134,18 @@ TEST_F(OpenGlSession, CamerasUploadAndCompileNothing) {
     for (VolumeCase& one : volume_cases()) {
         // Segments are short: a table of one layer, in any view.
         one.scene.transfer_function = one.transfer_function(1);
-        SceneRenderer session(one.scene, data, capabilities());
-        session.draw();
-        session.set_camera(orbit(40));
-        session.draw();
-        const int renderers = session.counts().renderers;
+        SceneRenderer frames(one.scene, data, capabilities());
+        frames.draw();
+        frames.set_camera(orbit(40));
+        frames.draw();
+        const int renderers = frames.counts().renderers;
         for (int degrees = 50; degrees < 400; degrees += 30) {
             const Done before;
-            session.set_camera(orbit(degrees));
-            const Image drawn = session.draw_picture();
+            frames.set_camera(orbit(degrees));
+            const Image drawn = frames.draw_picture();
             EXPECT_EQ(Done(), before);
-            EXPECT_EQ(session.counts().renderers, renderers);
-            expect_fresh(session, data, drawn, std::to_string(degrees));
+            EXPECT_EQ(frames.counts().renderers, renderers);
+            expect_fresh(frames, data, drawn, std::to_string(degrees));
         }
     }
 }
@@ -159,15 +159,15 @@ TEST_F(OpenGlSession, CamerasOfOtherKindsKeepTheVolume) {
     Camera away = orbit(30);
     away.center = 2. * away.eye;
     for (const VolumeCase& one : volume_cases()) {
-        SceneRenderer session(one.scene, data, capabilities());
-        session.draw();
-        const auto textures = textures_of(session);
+        SceneRenderer frames(one.scene, data, capabilities());
+        frames.draw();
+        const auto textures = textures_of(frames);
         for (const Camera& camera :
              {parallel, orbit(71), away, orbit(20, .6), orbit(200, .05), parallel, orbit(20)}) {
-            session.set_camera(camera);
-            const Image drawn = session.draw_picture();
-            EXPECT_EQ(textures_of(session), textures);
-            expect_fresh(session, data, drawn, "");
+            frames.set_camera(camera);
+            const Image drawn = frames.draw_picture();
+            EXPECT_EQ(textures_of(frames), textures);
+            expect_fresh(frames, data, drawn, "");
         }
     }
 }
@@ -177,23 +177,23 @@ TEST_F(OpenGlSession, TransferFunctionsOfOneKindUploadNoVolumeAndCompileNothing)
     for (VolumeCase& one : volume_cases()) {
         // Tables have these sizes whatever their errors are, and programs know sizes.
         one.scene.slice.table = SliceTableSettings{256, 4, 2};
-        SceneRenderer session(one.scene, data, capabilities());
-        session.draw();
-        const auto textures = textures_of(session);
+        SceneRenderer frames(one.scene, data, capabilities());
+        frames.draw();
+        const auto textures = textures_of(frames);
         const Done before;
         for (const double extinction : {7., 8., 5.}) {
-            session.set_transfer_function(one.transfer_function(extinction));
-            session.draw();
-            EXPECT_EQ(textures_of(session), textures);
-            EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
+            frames.set_transfer_function(one.transfer_function(extinction));
+            frames.draw();
+            EXPECT_EQ(textures_of(frames), textures);
+            EXPECT_EQ(frames.renderer().stages_ms().at("upload"), 0);
             EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
-            expect_fresh(session, data, session.picture(), std::to_string(extinction));
+            expect_fresh(frames, data, frames.picture(), std::to_string(extinction));
         }
-        session.set_size(53, 21);
-        const Image drawn = session.draw_picture();
-        EXPECT_EQ(textures_of(session), textures);
+        frames.set_size(53, 21);
+        const Image drawn = frames.draw_picture();
+        EXPECT_EQ(textures_of(frames), textures);
         EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
-        expect_fresh(session, data, drawn, "another size");
+        expect_fresh(frames, data, drawn, "another size");
     }
 }
 
@@ -207,9 +207,9 @@ TEST_F(OpenGlSession, TwoTakeTurnsWithTheSamePrograms) {
         others.transfer_function = one.transfer_function(3);
         SceneRenderer second(others, data, capabilities());
         for (int degrees = 0; degrees < 90; degrees += 30) {
-            for (SceneRenderer* const session : {&first, &second}) {
-                session->set_camera(orbit(degrees));
-                session->draw();
+            for (SceneRenderer* const frames : {&first, &second}) {
+                frames->set_camera(orbit(degrees));
+                frames->draw();
             }
             expect_fresh(second, data, second.picture(), std::to_string(degrees));
             expect_fresh(first, data, first.picture(), std::to_string(degrees));
@@ -223,44 +223,44 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
          {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
-        SceneRenderer session(scene, data, capabilities());
-        session.draw();
+        SceneRenderer frames(scene, data, capabilities());
+        frames.draw();
         for (int degrees = 30; degrees < 360; degrees += 30) {
             const Done before;
-            session.set_camera(orbit(degrees));
-            session.draw();
+            frames.set_camera(orbit(degrees));
+            frames.draw();
             EXPECT_EQ(Done(), before);
-            EXPECT_EQ(session.counts().renderers, 1);
-            expect_fresh(session, data, session.picture(), std::to_string(degrees));
+            EXPECT_EQ(frames.counts().renderers, 1);
+            expect_fresh(frames, data, frames.picture(), std::to_string(degrees));
         }
         const Done before;
-        const auto order = gl_renderer(session).order();
-        const auto stream = gl_renderer(session).stream();
-        session.set_transfer_function(
+        const auto order = gl_renderer(frames).order();
+        const auto stream = gl_renderer(frames).stream();
+        frames.set_transfer_function(
             TransferFunction::linear({test::knot(0, {1, .2, 0}, .2), test::knot(.4, {1, 1, .5}, 2),
                                       test::knot(1, {0, .3, 1}, 5)}));
-        session.draw();
-        EXPECT_EQ(session.counts().renderers, 2);
-        EXPECT_EQ(gl_renderer(session).order(), order);
-        EXPECT_EQ(gl_renderer(session).stream(), stream);
+        frames.draw();
+        EXPECT_EQ(frames.counts().renderers, 2);
+        EXPECT_EQ(gl_renderer(frames).order(), order);
+        EXPECT_EQ(gl_renderer(frames).stream(), stream);
         EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
-        expect_fresh(session, data, session.picture(), "another transfer function");
+        expect_fresh(frames, data, frames.picture(), "another transfer function");
     }
 }
 
 TEST(SessionOfTheNativeEngine, KeepsAMeshsOrder) {
     const auto data = split_box();
-    SceneRenderer session(mesh_scene(), data, tile_capabilities());
+    SceneRenderer frames(mesh_scene(), data, tile_capabilities());
     const auto order = [&] {
-        return dynamic_cast<const ProjectRenderer&>(session.renderer()).order();
+        return dynamic_cast<const ProjectRenderer&>(frames.renderer()).order();
     };
-    session.draw();
+    frames.draw();
     const auto first = order();
-    session.set_transfer_function(
+    frames.set_transfer_function(
         TransferFunction::linear({test::knot(0, {1, 1, 1}, 0), test::knot(1, {1, .5, 0}, 5)}));
-    session.draw();
+    frames.draw();
     EXPECT_EQ(order(), first);
-    expect_fresh(session, data, session.picture(), "another transfer function");
+    expect_fresh(frames, data, frames.picture(), "another transfer function");
 }
 
 TEST(OpenGlSessions, TheNativeEngineNeedsNothingCurrent) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session that changes draws what a new one draws of its resolved scene, bit for bit on the
-// native engine, and does again only what a change makes necessary.
+// A renderer whose scene changes draws what a new one draws of its resolved scene, bit for bit on
+// the native engine, and does again only what a change makes necessary.
 #include "render/scene_renderer.h"
 
 #include <gtest/gtest.h>
@@ -20,53 +20,53 @@ namespace {
 using test::knot;
 
 // One that is given all that the other has chosen.
-Image fresh(SceneRenderer& session, const std::shared_ptr<const VolumeData>& data) {
-    return SceneRenderer(session.resolved_scene(), data, session.capabilities()).draw_picture();
+Image fresh(SceneRenderer& frames, const std::shared_ptr<const VolumeData>& data) {
+    return SceneRenderer(frames.resolved_scene(), data, frames.capabilities()).draw_picture();
 }
 
 TEST(SceneRenderer, DrawsEveryFrameAsANewOne) {
     const auto data = blobs();
-    SceneRenderer session(volume_scene(), data, tile_capabilities());
+    SceneRenderer frames(volume_scene(), data, tile_capabilities());
     const auto expect_fresh = [&](const std::string& what) {
-        const Image drawn = session.draw_picture();
-        EXPECT_EQ(drawn.rgba, fresh(session, data).rgba) << what;
+        const Image drawn = frames.draw_picture();
+        EXPECT_EQ(drawn.rgba, fresh(frames, data).rgba) << what;
     };
     expect_fresh("the first picture");
     for (int degrees = 0; degrees < 360; degrees += 15) {
-        session.set_camera(orbit(degrees));
+        frames.set_camera(orbit(degrees));
         expect_fresh("turned by " + std::to_string(degrees));
     }
     // In and out of the box, and past it: nothing is to be seen there.
     for (const double distance : {1.2, .6, .3, .05, 1e-3, .3, 40., 2.}) {
-        session.set_camera(orbit(200, distance));
+        frames.set_camera(orbit(200, distance));
         expect_fresh("from " + std::to_string(distance));
     }
     Camera away = orbit(30);
     away.center = 2. * away.eye;
-    session.set_camera(away);
+    frames.set_camera(away);
     expect_fresh("seen from behind");
-    session.set_camera(orbit(30));
+    frames.set_camera(orbit(30));
     expect_fresh("and again from the front");
     Camera parallel = orbit(70);
     parallel.projection = Projection::orthographic;
     parallel.height = 1.5;
     for (const Camera& camera : {parallel, orbit(71), parallel}) {
-        session.set_camera(camera);
+        frames.set_camera(camera);
         expect_fresh("orthographic and perspective in turn");
     }
     for (const double extinction : {.5, 20., 300., 4.}) {
-        session.set_transfer_function(smooth(extinction));
+        frames.set_transfer_function(smooth(extinction));
         expect_fresh("extinction " + std::to_string(extinction));
-        session.set_camera(orbit(extinction));
+        frames.set_camera(orbit(extinction));
         expect_fresh("turned, extinction " + std::to_string(extinction));
     }
-    session.set_size(53, 21);
+    frames.set_size(53, 21);
     expect_fresh("another size");
 }
 
 TEST(SceneRenderer, SettingsAreChosenAgain) {
     const auto data = blobs();
-    SceneRenderer session(volume_scene(), data, tile_capabilities());
+    SceneRenderer frames(volume_scene(), data, tile_capabilities());
     for (const Target target : {Target::fixed8, Target::float16, Target::float32}) {
         for (const bool automatic : {false, true}) {
             Scene scene = volume_scene();
@@ -76,11 +76,11 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
             if (target == Target::fixed8 && !automatic)
                 scene.slice.tree = TreeSettings{.automatic = true, .factors = {}};
             scene.slice.samples.reset();
-            session.set_scene(scene);
-            const Image drawn = session.draw_picture();
-            EXPECT_EQ(drawn.rgba, fresh(session, data).rgba)
+            frames.set_scene(scene);
+            const Image drawn = frames.draw_picture();
+            EXPECT_EQ(drawn.rgba, fresh(frames, data).rgba)
                 << name_of(target) << (automatic ? " or another" : "");
-            const Scene& resolved = session.resolved_scene();
+            const Scene& resolved = frames.resolved_scene();
             EXPECT_TRUE(resolved.slice.samples);
             EXPECT_FALSE(resolved.automatic_target);
             EXPECT_FALSE(resolved.slice.tree && resolved.slice.tree->automatic);
@@ -91,53 +91,53 @@ TEST(SceneRenderer, SettingsAreChosenAgain) {
 TEST(SceneRenderer, DoesAgainWhatAChangeNeeds) {
     Scene scene = volume_scene();
     scene.transfer_function = smooth(1);  // segments are short: a table of one layer, in any view
-    SceneRenderer session(scene, blobs(), tile_capabilities());
-    session.draw();
+    SceneRenderer frames(scene, blobs(), tile_capabilities());
+    frames.draw();
     SceneRenderer::Counts expected{1, 1, 1, 1, 1};
-    EXPECT_EQ(session.counts(), expected);
-    session.draw();
-    EXPECT_EQ(session.counts(), expected);
-    session.set_camera(orbit(40));
-    session.draw();
+    EXPECT_EQ(frames.counts(), expected);
+    frames.draw();
+    EXPECT_EQ(frames.counts(), expected);
+    frames.set_camera(orbit(40));
+    frames.draw();
     ++expected.views;
     ++expected.plans;
-    const int renderers = session.counts().renderers;
+    const int renderers = frames.counts().renderers;
     EXPECT_LE(renderers, 2);  // a table of longer segments serves all views
     expected.renderers = renderers;
-    EXPECT_EQ(session.counts(), expected);
+    EXPECT_EQ(frames.counts(), expected);
     for (int degrees = 50; degrees < 400; degrees += 30) {
-        session.set_camera(orbit(degrees));
-        session.draw();
+        frames.set_camera(orbit(degrees));
+        frames.draw();
         ++expected.views;
         ++expected.plans;
-        EXPECT_EQ(session.counts(), expected) << degrees;
+        EXPECT_EQ(frames.counts(), expected) << degrees;
     }
-    session.set_transfer_function(smooth(2));
-    session.draw();
+    frames.set_transfer_function(smooth(2));
+    frames.draw();
     ++expected.data;
     ++expected.views;
     ++expected.plans;
     ++expected.renderers;
-    EXPECT_EQ(session.counts(), expected);
-    session.choose_again();
-    session.draw();
+    EXPECT_EQ(frames.counts(), expected);
+    frames.choose_again();
+    frames.draw();
     ++expected.views;
     ++expected.trials;
     ++expected.plans;
-    EXPECT_LE(session.counts().renderers, expected.renderers + 1);
-    expected.renderers = session.counts().renderers;
-    EXPECT_EQ(session.counts(), expected);
+    EXPECT_LE(frames.counts().renderers, expected.renderers + 1);
+    expected.renderers = frames.counts().renderers;
+    EXPECT_EQ(frames.counts(), expected);
 }
 
 TEST(SceneRenderer, CopiesOfTheVolumeAreTakenOver) {
-    SceneRenderer session(volume_scene(), blobs(), tile_capabilities());
-    session.draw();
-    session.set_transfer_function(smooth(3));
-    session.draw();
-    EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
-    session.set_size(20, 10);
-    session.draw();
-    EXPECT_EQ(session.renderer().stages_ms().at("upload"), 0);
+    SceneRenderer frames(volume_scene(), blobs(), tile_capabilities());
+    frames.draw();
+    frames.set_transfer_function(smooth(3));
+    frames.draw();
+    EXPECT_EQ(frames.renderer().stages_ms().at("upload"), 0);
+    frames.set_size(20, 10);
+    frames.draw();
+    EXPECT_EQ(frames.renderer().stages_ms().at("upload"), 0);
 }
 
 TEST(SceneRenderer, MeshesLikewise) {
@@ -146,31 +146,31 @@ TEST(SceneRenderer, MeshesLikewise) {
          {ProjectGeometry::automatic, ProjectGeometry::triangles}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
-        SceneRenderer session(scene, mesh, tile_capabilities());
+        SceneRenderer frames(scene, mesh, tile_capabilities());
         const auto expect_fresh = [&](const std::string& what) {
-            const Image drawn = session.draw_picture();
-            SceneRenderer other(session.resolved_scene(), mesh, tile_capabilities());
+            const Image drawn = frames.draw_picture();
+            SceneRenderer other(frames.resolved_scene(), mesh, tile_capabilities());
             EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << what;
         };
         for (int degrees = 0; degrees < 360; degrees += 30) {
-            session.set_camera(orbit(degrees));
+            frames.set_camera(orbit(degrees));
             expect_fresh("turned by " + std::to_string(degrees));
         }
         for (const double distance : {.6, .2, 2.}) {
-            session.set_camera(orbit(200, distance));
+            frames.set_camera(orbit(200, distance));
             expect_fresh("from " + std::to_string(distance));
         }
         Camera parallel = orbit(70);
         parallel.projection = Projection::orthographic;
         parallel.height = 1.5;
         for (const Camera& camera : {parallel, orbit(71)}) {
-            session.set_camera(camera);
+            frames.set_camera(camera);
             expect_fresh("orthographic and perspective in turn");
         }
-        session.set_transfer_function(
+        frames.set_transfer_function(
             TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(1, {1, .5, 0}, 5)}));
         expect_fresh("another transfer function");
-        EXPECT_EQ(session.counts().trials, 1);
+        EXPECT_EQ(frames.counts().trials, 1);
     }
 }
 
@@ -183,13 +183,13 @@ std::int64_t bytes_in_use() {
 // A picture has 1.9 MB, the copy of the volume .05: of 48 further frames a tenth of that is
 // allowed.
 TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
-    SceneRenderer session(volume_scene(), blobs(), tile_capabilities());
-    session.set_size(400, 300);
+    SceneRenderer frames(volume_scene(), blobs(), tile_capabilities());
+    frames.set_size(400, 300);
     const auto round = [&] {
         for (int degrees = 0; degrees < 360; degrees += 15) {
-            session.set_camera(orbit(degrees));
-            if (degrees % 90 == 0) session.set_transfer_function(smooth(1 + degrees / 90));
-            session.draw_picture();
+            frames.set_camera(orbit(degrees));
+            if (degrees % 90 == 0) frames.set_transfer_function(smooth(1 + degrees / 90));
+            frames.draw_picture();
         }
     };
     round();
@@ -201,22 +201,22 @@ TEST(SceneRenderer, MemoryDoesNotGrowAfterTheFirstRound) {
 
 TEST(SceneRenderer, AStopEndsAFrameAndTheNextIsWhole) {
     const auto data = blobs();
-    SceneRenderer session(volume_scene(), data, tile_capabilities());
-    const Image whole = session.draw_picture();
+    SceneRenderer frames(volume_scene(), data, tile_capabilities());
+    const Image whole = frames.draw_picture();
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW(session.draw(stop.get_token()), Interrupted);
-    EXPECT_EQ(session.draw_picture().rgba, whole.rgba);
+    EXPECT_THROW(frames.draw(stop.get_token()), Interrupted);
+    EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
     // What is measured and tried is not lost either.
-    session.choose_again();
-    EXPECT_THROW(session.draw(stop.get_token()), Interrupted);
-    EXPECT_EQ(session.draw_picture().rgba, whole.rgba);
+    frames.choose_again();
+    EXPECT_THROW(frames.draw(stop.get_token()), Interrupted);
+    EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
 }
 
-void turn(SceneRenderer& session) {
+void turn(SceneRenderer& frames) {
     for (int degrees = 40; degrees < 200; degrees += 40) {
-        session.set_camera(orbit(degrees));
-        session.draw();
+        frames.set_camera(orbit(degrees));
+        frames.draw();
     }
 }
 

@@ -20,9 +20,9 @@ Plan FrameJob::plan(RenderStats& stats) {
     stats.renderer = context_->capabilities().renderer;
     stats.context = renderer_and_threads(context_->capabilities());
     stats.on_tiles = context_->capabilities().tiles;
-    session_ = method_->open(context_->capabilities());
-    Plan plan = session_->plan();
-    const auto& took = session_->stages_ms();
+    frames_ = method_->open(context_->capabilities());
+    Plan plan = frames_->plan();
+    const auto& took = frames_->stages_ms();
     stats.stages_ms["measure"] += took.at("facts") + took.at("trials");
     stats.stages_ms["plan"] = took.at("plan");
     method_->report_plan(plan, stats);
@@ -30,21 +30,21 @@ Plan FrameJob::plan(RenderStats& stats) {
 }
 
 std::string FrameJob::explanation(const Plan& /*plan*/) const {
-    return session_->explanation();
+    return frames_->explanation();
 }
 
 void FrameJob::draw(const Plan& plan, RenderStats& stats) {
     count_clamped_colors(request_, stats);
-    session_->set_up();
-    stats.stages_ms["set_up"] = session_->stages_ms().at("set_up");
+    frames_->set_up();
+    stats.stages_ms["set_up"] = frames_->stages_ms().at("set_up");
     Stage frame("frame");
     frame.count("frame", 0);
     draw_first(stats);
     stats.frames_ms = {frame.end()};
     Stage reading("read");
-    image_.emplace(session_->picture());
+    image_.emplace(frames_->picture());
     stats.stages_ms["read"] = reading.end();
-    const FrameRenderer& renderer = session_->renderer();
+    const FrameRenderer& renderer = frames_->renderer();
     stats.bytes_gpu = gl::bytes_allocated();
     stats.bytes_host = renderer.byte_count();
     stats.stages_ms.merge(renderer.stages_ms());
@@ -54,20 +54,20 @@ void FrameJob::draw(const Plan& plan, RenderStats& stats) {
 // Where somebody will read them, with its fragments.
 void FrameJob::draw_first(RenderStats& stats) {
     if (!request_.count_fragments || context_->capabilities().tiles) {
-        session_->draw();
-        stats.fragments = static_cast<std::uint64_t>(session_->renderer().fragments());
+        frames_->draw();
+        stats.fragments = static_cast<std::uint64_t>(frames_->renderer().fragments());
         return;
     }
     gl::Query query(gl::Query::Kind::samples_passed);
     query.begin();
-    session_->draw();
+    frames_->draw();
     query.end();
     stats.fragments = query.result();
 }
 
 void FrameJob::draw_frame(const Camera& camera) {
-    session_->set_camera(camera);
-    session_->draw();
+    frames_->set_camera(camera);
+    frames_->draw();
 }
 
 std::size_t FrameJob::write(PictureFile& picture, const PictureAttributes& attributes) {

@@ -24,7 +24,7 @@ class FrameMethod {
                               RenderStats& stats) const = 0;
 };
 
-// Draws frames with a session.
+// Draws frames with a SceneRenderer.
 class FrameJob : public RenderJob {
   public:
     FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> method);
@@ -42,7 +42,7 @@ class FrameJob : public RenderJob {
     std::unique_ptr<FrameMethod> method_;
     std::optional<DrawContext> context_;
     std::unique_ptr<gl::CurrentContext> current_;
-    std::unique_ptr<SceneRenderer> session_;
+    std::unique_ptr<SceneRenderer> frames_;
     std::optional<Image> image_;
 };
 

@@ -14,11 +14,11 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
+#include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 #include "scene_files.h"
 #include "scene_files/json_reader.h"
-#include "scene_files/scene_reader.h"
 #include "verbs.h"
 #include "volume/volume_file.h"
 
@@ -97,7 +97,7 @@ MeshTask load(const MeshOptions& options, const MeshOutput& output) {
         expect_different_files(files_of_volume(options.input), output.paths());
         return {read_volume(options.input), {}, {}};
     }
-    const Scene scene = read_scene(load_json(options.input), options.input);
+    const Scene scene = load_scene(options.input);
     expect_different_files(files_of(scene), output.paths());
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) print_message("lamina: {}\n", warning);

@@ -20,12 +20,12 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
+#include "lamina/scene.h"
 #include "mesh/mesh_shape.h"
 #include "mesh_files/mesh_file.h"
 #include "reference/order_pixels.h"
 #include "scene/scene_mesh.h"
 #include "scene_files/json_reader.h"
-#include "scene_files/scene_reader.h"
 #include "verbs.h"
 #include "visibility/order_check.h"
 #include "visibility/visibility_order.h"
@@ -78,7 +78,7 @@ Input load(const std::string& file) {
             "(.json)",
             file);
     }
-    const Scene scene = read_scene(load_json(file), file);
+    const Scene scene = load_scene(file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
     return {load_mesh(scene).mesh, scene.camera};
 }

@@ -2,9 +2,8 @@
 #include "picture_file.h"
 
 #include "base/error.h"
-#include "image/exr.h"
 #include "image/npy.h"
-#include "image/png.h"
+#include "image/picture.h"
 
 namespace lamina {
 namespace {
@@ -31,11 +30,7 @@ PictureFile::PictureFile(const std::filesystem::path& path, bool precise)
 
 std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
                                const PictureAttributes& attributes) {
-    std::size_t clamped = 0;
-    if (suffix_ == ".png")
-        clamped = write_png(file_, image, background);
-    else
-        write_exr(file_, image, attributes);
+    const std::size_t clamped = write_picture(file_, image, background, attributes);
     file_.commit();
     return clamped;
 }

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "base/atomic_file.h"
 #include "base/json_text.h"
 #include "lamina/scene.h"
+#include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
 
 Scene load_scene(const std::filesystem::path& file) {
     return read_scene(load_json(file), file);
+}
+
+void save_scene(const Scene& scene, const std::filesystem::path& file) {
+    AtomicFile output(file);
+    output.write(json_text(scene_json(scene), 1) + "\n");
+    output.commit();
 }
 
 }  // namespace lamina

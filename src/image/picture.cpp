@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/picture.h"
+
+#include "image/exr.h"
+#include "image/png.h"
+
+namespace lamina {
+
+std::size_t write_picture(AtomicFile& file, const Image& image, const glm::dvec3& background,
+                          const std::map<std::string, std::string>& attributes) {
+    if (file.path().extension() == ".png") return write_png(file, image, background);
+    write_exr(file, image, attributes);
+    return 0;
+}
+
+}  // namespace lamina
