@@ -43,7 +43,7 @@ function(lamina_room name)
 endfunction()
 
 # lamina_join_sources(TARGET): its sources are compiled eight at a time. Each of them alone spends most of its time on
-# headers and templates (JSON, command lines) that the others use too. Helpers of two files must not share a name then,
+# headers and templates that the others use too. Helpers of two files must not share a name then,
 # although namespaces without names hide them. Debug builds compile each source alone: only so is an include missed that
 # the file before it has.
 function(lamina_join_sources target)

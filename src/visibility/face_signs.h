@@ -12,6 +12,9 @@
 
 namespace lamina {
 
+// So many tets are looked at in one task.
+inline constexpr std::int64_t tets_per_task = 4096;
+
 // On which side of a tet's faces the eye is. Bit f: the eye is on the outer side of face f, so the
 // tet across that face is nearer to the eye. Bit 4 + f: the eye is on the inner side, so the tet
 // across is farther. A face that is seen edge-on has neither bit and hides nothing.

@@ -12,7 +12,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t grain = 256;             // faces that are looked at in one task
+constexpr std::int64_t faces_per_task = 256;
 constexpr std::size_t faces_per_run = 32;       // exits whose pairs are one task
 constexpr std::size_t most_pairs = 10'000'000;  // some seconds, and 200 MB with the order's lists
 constexpr std::size_t most_looks = 200'000'000;
@@ -47,7 +47,7 @@ OpenFaceConstraints::OpenFaceConstraints(const TetMesh& mesh, std::vector<std::i
 
 void OpenFaceConstraints::look_from(const Eye& eye) {
     const SeenBoxes seen_boxes(eye, 0.5 * bounds_.min + 0.5 * bounds_.max);
-    parallel_for(static_cast<std::int64_t>(seen_.size()), grain, [&](std::int64_t index) {
+    parallel_for(static_cast<std::int64_t>(seen_.size()), faces_per_task, [&](std::int64_t index) {
         const auto face = static_cast<std::size_t>(index);
         seen_[face] = SeenTriangle(eye, triangles_[face]);
         seen_boxes_[face] = seen_boxes.of(triangles_[face]);

@@ -11,8 +11,6 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t grain = 4096;  // tets a task
-
 std::vector<std::int32_t> places_in(std::span<const std::int32_t> order, std::size_t tets) {
     if (order.size() != tets)
         fail("an order has {} tets, expected the mesh's {}", order.size(), tets);
@@ -34,7 +32,7 @@ std::int64_t face_violations(const TetMesh& mesh, const Eye& eye,
     const std::vector<std::int32_t> places = places_in(order, mesh.tets().size());
     const FaceSigner signer(mesh, eye);
     std::atomic<std::int64_t> violations{0};
-    parallel_for(static_cast<std::int64_t>(order.size()), grain, [&](std::int64_t index) {
+    parallel_for(static_cast<std::int64_t>(order.size()), tets_per_task, [&](std::int64_t index) {
         const auto tet = static_cast<std::size_t>(index);
         const FaceSigns signs = signer.signs(tet);
         for (std::size_t face = 0; face < 4; ++face) {

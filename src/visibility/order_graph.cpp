@@ -7,12 +7,6 @@
 #include "visibility/seen_area.h"
 
 namespace lamina {
-namespace {
-
-constexpr std::int64_t grain = 4096;  // tets a task
-
-}  // namespace
-
 OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps)
     : mesh_(mesh), signs_(mesh.tets().size()), farther_counts_(mesh.tets().size()) {
     if (!across_gaps) return;
@@ -31,7 +25,7 @@ void OrderGraph::look_from(const Eye& eye) {
 void OrderGraph::find_signs() {
     const FaceSigner signer(mesh_, eye_);
     const auto neighbors = mesh_.neighbors();
-    parallel_for(static_cast<std::int64_t>(signs_.size()), grain, [&](std::int64_t index) {
+    parallel_for(static_cast<std::int64_t>(signs_.size()), tets_per_task, [&](std::int64_t index) {
         const auto tet = static_cast<std::size_t>(index);
         FaceSigns shared = 0;
         for (std::size_t face = 0; face < 4; ++face) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "visibility/face_signs.h"
 #include "mesh/predicates.h"
+#include "visibility/face_signs.h"
 
 namespace lamina {
 namespace {

@@ -11,12 +11,6 @@
 #include "visibility/view_distance.h"
 
 namespace lamina {
-namespace {
-
-constexpr std::int64_t grain = 4096;  // tets a task
-
-}  // namespace
-
 const char* name_of(OrderMethod method) {
     switch (method) {
         case OrderMethod::mpvo:
@@ -63,7 +57,7 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
 // the distance from the eye is the better guess there, and needs no axis.
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
-    parallel_for(static_cast<std::int64_t>(order_.size()), grain, [&](std::int64_t index) {
+    parallel_for(static_cast<std::int64_t>(order_.size()), tets_per_task, [&](std::int64_t index) {
         glm::dvec3 sum(0);
         for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(index)])
             sum += points[static_cast<std::size_t>(corner)];
