@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-enum class Classification { post, preintegrated };
+enum class Classification { post, preintegrated, exact };
 enum class Filter { exact, hardware, automatic };
 
 struct DitherSettings {

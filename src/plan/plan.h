@@ -91,6 +91,10 @@ struct SlicePlan : CompositingPlan {
     bool integrates_runs() const {
         return classification == Classification::preintegrated && sampling != VolumeSampling::none;
     }
+    // Whether rays are integrated cell by cell.
+    bool integrates_cells() const {
+        return classification == Classification::exact && sampling != VolumeSampling::none;
+    }
     bool uses_table() const { return integrates_runs() && !linear; }
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;

@@ -57,6 +57,9 @@ double passes_of(const SlicePlan& plan) {
     return plan.tree->nodes == NodeArithmetic::fixed ? all + plan.slabs : all;
 }
 
+// Cells that a ray crosses on the way of one voxel's edge: 1 along an axis, 1.7 along a diagonal.
+constexpr double cells_per_voxel = 1.5;
+
 double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
     const bool early = plan.ends_early();
     const double in_one_step = !plan.constant_regions ? 0.0
@@ -70,9 +73,9 @@ double share_of_rays(const SlicePlan& plan, const RayShares& shares) {
 // Where one program marches many slabs, a scalar between two of them is that of both.
 double fetches_per_segment(const SlicePlan& plan) {
     if (plan.sampling == VolumeSampling::none) return 0;
-    const double scalars = plan.classification == Classification::post ? 1
-                           : plan.has_tree(NodeArithmetic::shader)     ? 2
-                                                                       : 3;
+    const double scalars = plan.classification != Classification::preintegrated ? 1
+                           : plan.has_tree(NodeArithmetic::shader)              ? 2
+                                                                                : 3;
     return plan.sampling == VolumeSampling::fetch ? 8 * scalars : scalars;
 }
 
@@ -92,7 +95,9 @@ Work planned_work(const SlicePlan& plan, const Facts& facts, const Scene& scene,
     work.bytes = volume_bytes(plan, facts, tiles) +
                  pixels_of(scene) * (tiles ? 16 : bytes_per_pixel(plan.target));
     if (plan.nothing_visible) return work;
-    work.segments = pixels_of(scene) * plan.slabs * share_of_rays(plan, facts.ray_shares);
+    const double on_a_ray = plan.integrates_cells() ? cells_per_voxel * facts.voxels_along_view
+                                                    : static_cast<double>(plan.slabs);
+    work.segments = pixels_of(scene) * on_a_ray * share_of_rays(plan, facts.ray_shares);
     if (!tiles) work.fetches = work.segments * fetches_per_segment(plan);
     work.passes = passes_of(plan);
     if (plan.uses_table()) work.bytes += table_bytes(plan.table);

@@ -56,7 +56,7 @@ class SlicePlanner {
         SlicePlan& slice = plan_.slice;
         slice.unit = world_unit(box_diagonal(facts_.grid));
         slice.target = scene_.target;
-        slice.classification = scene_.slice.classification;
+        choose_classification();
         slice.order = scene_.slice.order;
         slice.batches = capabilities_.software ? software_batches : 1;
         slice.nan_transparent = facts_.non_finite > 0;
@@ -83,10 +83,30 @@ class SlicePlanner {
         return true;
     }
 
+    void choose_classification() {
+        plan_.slice.classification = scene_.slice.classification;
+        if (plan_.slice.classification != Classification::exact) return;
+        if (!capabilities_.tiles) {
+            fail("{}: render.slice.classification: \"exact\" needs the native engine, expected "
+                 "--context cpu or another classification: {}",
+                 scene_.file.string(), capabilities_.renderer);
+        }
+        if (scene_.slice.filter == Filter::hardware) {
+            fail("{}: render.slice.filter: found \"hardware\", expected \"exact\" with "
+                 "classification \"exact\"",
+                 scene_.file.string());
+        }
+    }
+
+    // Of exact segments one is as good as many.
     void choose_slabs() {
         SlicePlan& slice = plan_.slice;
         if (scene_.slice.samples) {
             slice.slabs = *scene_.slice.samples;
+            return;
+        }
+        if (slice.classification == Classification::exact) {
+            slice.slabs = 1;
             return;
         }
         const SlabTrial chosen = chosen_slabs(facts_, trials_);
@@ -169,8 +189,10 @@ class SlicePlanner {
     // regions are takes longer than they do.
     void choose_constant_regions() {
         SlicePlan& slice = plan_.slice;
-        if (slice.nothing_visible || !slice.has_tree(NodeArithmetic::shader)) return;
-        if (slice.sampling == VolumeSampling::none || !capabilities_.tiles) return;
+        if (slice.nothing_visible || slice.sampling == VolumeSampling::none) return;
+        if (!slice.integrates_cells() &&
+            !(slice.has_tree(NodeArithmetic::shader) && capabilities_.tiles))
+            return;
         const ConstantBricks& constant = facts_.constant_bricks;
         slice.constant_regions = leave_out(
             !constant.kinds.empty(), "constant_regions",

@@ -61,6 +61,8 @@ const char* name_of(Classification classification) {
             return "post";
         case Classification::preintegrated:
             return "preintegrated";
+        case Classification::exact:
+            return "exact";
     }
     return nullptr;
 }

@@ -257,6 +257,7 @@ SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxB
                          const Facts& facts, const Capabilities& capabilities) {
     SampleTrials trials;
     if (scene.method != Method::slice || !shows_something(facts)) return trials;
+    if (scene.slice.classification == Classification::exact) return trials;
     if (!scene.slice.samples) trials.exact = try_numbers(scene, volume, bricks, facts);
     if (!may_filter(scene, facts, capabilities)) return trials;
     SlabTrials filtered(scene, volume, bricks, facts, filter_rays, true);

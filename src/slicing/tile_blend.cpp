@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "slicing/tile_exact-inl.h"
 #include "slicing/tile_precise-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/lane_pixels-inl.h"
@@ -30,7 +31,8 @@ class SlabBlender {
           depth_scale_(depth_scale),
           opacity_only_(opacity_only),
           behind_(target.order == Order::front_to_back),
-          as_codes_(plan_.emulation || plan_.dither) {
+          as_codes_(plan_.emulation || plan_.dither),
+          cells_(slabs, !plan_.single_color && !opacity_only) {
         const FloatTag d;
         if (!plan_.single_color || opacity_only_) return;
         for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -70,8 +72,13 @@ class SlabBlender {
     HWY_INLINE void composite_packet(const TileBrickView& brick, const PacketRays& rays,
                                      Pixel& pixel) {
         const bool colored = !plan_.single_color && !opacity_only_;
-        segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
-                               : set_segments(slabs_, brick, rays, colored, block_);
+        if (plan_.integrates_cells()) {
+            segments_ += set_exact_segments(brick, rays, colored, cells_, block_);
+            if (as_codes_) set_precise_depths(block_);
+        } else {
+            segments_ += as_codes_ ? set_precise_segments(slabs_, brick, rays, colored, block_)
+                                   : set_segments(slabs_, brick, rays, colored, block_);
+        }
         composite_block(pixel);
     }
 
@@ -209,6 +216,7 @@ class SlabBlender {
     std::int64_t segments_ = 0;
     GroupRays rays_;
     SlabBlock block_;
+    CellIntegrator cells_;
 };
 
 std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "slicing/tile_exact-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/node_code-inl.h"
 #include "tiles/target_pixels-inl.h"
@@ -27,7 +28,8 @@ class Marcher {
           plan_(*slabs.plan),
           shape_(shape),
           single_color_(plan_.single_color),
-          area_(area) {}
+          area_(area),
+          cells_(slabs, !plan_.single_color) {}
 
     // The root of the tree for each packet, before it is written.
     void evaluate(std::size_t group, NodeSum* sums) {
@@ -37,7 +39,7 @@ class Marcher {
         evaluate(0, shape_.root(), sums);
     }
 
-    std::int64_t segments() const { return segments_; }
+    std::int64_t segments() const { return segments_ + cells_.parts(); }
 
   private:
     void evaluate(int level, const SampleSpan& node, NodeSum* sums) {
@@ -127,6 +129,10 @@ class Marcher {
         for (const TileBrickView& brick : slabs_.bricks) {
             if (slabs_.bricks.size() > 1) rays_.set_pixels(slabs_.rays, brick, area_, group_);
             rays_.set_slabs(slabs_, leaf.first, leaf.end());
+            if (plan_.integrates_cells()) {
+                march_cells(brick, leaf, leaves);
+                continue;
+            }
             const int blocks_end =
                 (rays_.end_slab - leaf.first + tile_block_slabs - 1) / tile_block_slabs;
             for (int number = (rays_.first_slab - leaf.first) / tile_block_slabs;
@@ -147,6 +153,21 @@ class Marcher {
             sums[p].depth = to_floats(FloatTag(), leaves[p].depth);
             for (int channel = 0; channel < 3; ++channel)
                 sums[p].color[channel] = to_floats(FloatTag(), leaves[p].color[channel]);
+        }
+    }
+
+    // The leaf's part of each ray, cell by cell. A ray that became opaque ends with the cells that
+    // are integrated together.
+    void march_cells(const TileBrickView& brick, const SampleSpan& leaf, LeafSum* leaves) {
+        for (std::size_t p = 0; p < group_packets; ++p) {
+            const PacketRays& rays = rays_.packets[p];
+            if (rays.first_slab >= rays.end_slab) continue;
+            cells_.begin(brick, rays, leaf.first);
+            if (plan_.ends_early()) cells_.end_where(leaves[p].depth, plan_.opaque_depth);
+            while (!cells_.done()) {
+                put_behind(cells_.next(), leaves[p]);
+                if (plan_.ends_early()) cells_.end_where(leaves[p].depth, plan_.opaque_depth);
+            }
         }
     }
 
@@ -202,34 +223,38 @@ class Marcher {
             return;
         }
         const FloatTag d;
-        const DoubleTag dd;
-        const Floats one = hn::Set(d, 1.0f);
-        Floats red = hn::Zero(d), green = red, blue = red, opacity = red, sum = red;
+        PartSum sum = no_part();
         const auto put_slab_behind = [&](int i) HWY_ATTR {
-            const Floats segment = hn::Load(d, block_.depths + at(i));
-            const Floats weight = hn::Mul(hn::Sub(one, opacity), opacity_from_depth(d, segment));
-            red = mul_add(weight, hn::Load(d, block_.colors[0] + at(i)), red);
-            green = mul_add(weight, hn::Load(d, block_.colors[1] + at(i)), green);
-            blue = mul_add(weight, hn::Load(d, block_.colors[2] + at(i)), blue);
-            opacity = hn::Add(opacity, weight);
-            sum = hn::Add(sum, segment);
+            const Floats depth = hn::Load(d, block_.depths + at(i));
+            const Floats kept = hn::Sub(hn::Set(d, 1.0f), sum.opacity);
+            const Floats weight = hn::Mul(kept, opacity_from_depth(d, depth));
+            for (int channel = 0; channel < 3; ++channel)
+                sum.color[channel] = mul_add(weight, hn::Load(d, block_.colors[channel] + at(i)),
+                                             sum.color[channel]);
+            sum.opacity = hn::Add(sum.opacity, weight);
+            sum.depth = hn::Add(sum.depth, depth);
         };
         for_each_run(block_.wanted, [&](int first, int end) HWY_ATTR {
             for (int i = first; i < end; ++i) put_slab_behind(i);
         });
-        const auto behind = [](HalfDoubles transmittance, HalfDoubles part, HalfDoubles there)
-                                HWY_ATTR { return mul_add(transmittance, part, there); };
-        const Floats parts[3] = {red, green, blue};
+        put_behind(sum, leaf);
+    }
+
+    HWY_INLINE void put_behind(const PartSum& part, LeafSum& leaf) const {
+        const FloatTag d;
+        add(leaf.depth, part.depth);
+        if (single_color_) return;
+        const auto behind = [](HalfDoubles transmittance, HalfDoubles color, HalfDoubles there)
+                                HWY_ATTR { return mul_add(transmittance, color, there); };
         for (int channel = 0; channel < 3; ++channel) {
             leaf.color[channel] = each_half<FloatTag>(
-                behind, leaf.transmittance, to_doubles(d, parts[channel]), leaf.color[channel]);
+                behind, leaf.transmittance, to_doubles(d, part.color[channel]), leaf.color[channel]);
         }
-        const auto attenuate = [&](HalfDoubles transmittance, HalfDoubles hidden) HWY_ATTR {
-            return hn::Mul(transmittance, hn::Sub(hn::Set(dd, 1.0), hidden));
+        const auto attenuate = [](HalfDoubles transmittance, HalfDoubles hidden) HWY_ATTR {
+            return hn::Mul(transmittance, hn::Sub(hn::Set(DoubleTag(), 1.0), hidden));
         };
         leaf.transmittance =
-            each_half<FloatTag>(attenuate, leaf.transmittance, to_doubles(d, opacity));
-        add(leaf.depth, sum);
+            each_half<FloatTag>(attenuate, leaf.transmittance, to_doubles(d, part.opacity));
     }
 
     const TileSlabs& slabs_;
@@ -241,6 +266,7 @@ class Marcher {
     std::int64_t segments_ = 0;
     GroupRays rays_;
     SlabBlock block_;
+    CellIntegrator cells_;
 };
 
 std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,

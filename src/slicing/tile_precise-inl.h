@@ -99,6 +99,18 @@ HWY_INLINE void scale_precise_depth(const TwoDoubles& extinction, int slab, Slab
                   block.precise_depths + at(slab));
 }
 
+// Takes over optical depths that were computed in float.
+HWY_INLINE void set_precise_depths(int first, int end, SlabBlock& block) {
+    for (int i = first; i < end; ++i) {
+        store_doubles(to_doubles(FloatTag(), hn::Load(FloatTag(), block.depths + at(i))),
+                      block.precise_depths + at(i));
+    }
+}
+inline void set_precise_depths(SlabBlock& block) {
+    for_each_run(block.wanted,
+                 [&](int first, int end) HWY_ATTR { set_precise_depths(first, end, block); });
+}
+
 template <Lookup kind>
 HWY_INLINE void classify_precisely(const TileTransfer& transfer, bool colored, bool nan_transparent,
                                    SlabBlock& block) {
@@ -147,10 +159,7 @@ inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView&
         constexpr Lookup lookup = decltype(kind)::value;
         if (plan.integrates_runs()) {
             integrate_runs<lookup>(transfer, colored, plan, block);
-            for (int i = block.from; i < block.end; ++i) {
-                store_doubles(to_doubles(d, hn::Load(d, block.depths + at(i))),
-                              block.precise_depths + at(i));
-            }
+            set_precise_depths(block.from, block.end, block);
         } else {
             classify_precisely<lookup>(transfer, colored, plan.nan_transparent, block);
         }

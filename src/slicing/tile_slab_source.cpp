@@ -41,13 +41,12 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     slabs_.constant_extinction = std::min(constant.extinction, max_shader_extinction);
     slabs_.plan = &plan_;
     occupied_ = facts.occupied_bricks;
-    take_plan();
     if (plan_.constant_regions) {
         constant_ = facts.constant_bricks;
         for (OpticalProperties& kind : constant_.kinds)
             kind.extinction = std::min(kind.extinction / plan_.unit, max_shader_extinction);
-        slabs_.constant = &constant_;
     }
+    take_plan();
     slabs_.bricks.reserve(plan_.bricks.size());
     if (plan_.dither) {
         slabs_.alpha_ranks = dither_ranks(plan_.dither->period, plan_.dither->seed);
@@ -64,6 +63,17 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     Stage upload("upload");
     volume_ = std::make_shared<TileVolume>(volume, range, plan_, largest_copy);
     upload_ms_ = upload.end();
+}
+
+void TileSlabSource::take_plan() {
+    slabs_.occupied = plan_.occupied_only ? &occupied_ : nullptr;
+    slabs_.constant = plan_.constant_regions ? &constant_ : nullptr;
+    if (!plan_.integrates_cells()) return;
+    cells_ = make_cell_map(slabs_.occupied,
+                           slabs_.constant != nullptr ? &slabs_.constant->varied : nullptr);
+    slabs_.cells = &cells_;
+    slabs_.occupied = nullptr;
+    slabs_.constant = nullptr;
 }
 
 void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
@@ -123,7 +133,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
 
 std::int64_t TileSlabSource::byte_count() const {
     return static_cast<std::int64_t>(occupied_.distance.size() + constant_.kind.size() +
-                                     constant_.varied.distance.size()) +
+                                     constant_.varied.distance.size() + cells_.kinds.size()) +
            (transfer_ ? transfer_->byte_count() : 0) + (volume_ ? volume_->byte_count() : 0);
 }
 

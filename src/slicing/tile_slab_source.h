@@ -22,7 +22,7 @@ class TileSlabSource {
     TileSlabSource& operator=(const TileSlabSource&) = delete;
 
     // Must be called after the plan changed in what belongs to a view.
-    void take_plan() { slabs_.occupied = plan_.occupied_only ? &occupied_ : nullptr; }
+    void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
 
@@ -40,6 +40,7 @@ class TileSlabSource {
     Grid grid_;
     OccupiedBricks occupied_;
     ConstantBricks constant_;
+    CellMap cells_;
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
     TileSlabs slabs_;

@@ -10,6 +10,7 @@
 #include "executors/tile_transfer.h"
 #include "facts/facts.h"
 #include "plan/plan.h"
+#include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"
 #include "slicing/tile_volume.h"
 
@@ -48,6 +49,8 @@ struct TileSlabs {
     const TileTransfer* transfer = nullptr;    // null where no scalar is fetched
     const OccupiedBricks* occupied = nullptr;  // null where all slabs are evaluated
     const ConstantBricks* constant = nullptr;  // null where constant bricks are not used
+    // In place of both, where rays are integrated cell by cell; otherwise null.
+    const CellMap* cells = nullptr;
     TileRays rays;
     std::vector<TileBrickView> bricks;  // bricks that show something, in the plan's order
     std::array<float, 3> single_color{};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "facts/constant_bricks.h"
+#include "facts/occupied_bricks.h"
+
+namespace lamina {
+
+// How rays that walk from cell to cell pass the bricks of a volume (MinMaxBricks). Kind 0: cell by
+// cell. Kind r from 1 to 127: the cube of 2 r - 1 bricks around this one shows nothing, and rays
+// cross it in one step. Kind constant + r: the cube has one colour and one extinction.
+struct CellMap {
+    static constexpr int constant = 128, farthest = 127;
+
+    std::array<std::int64_t, 3> count{};  // bricks along each axis
+    // One byte a brick, x fastest, and three more, because vectors read four at a time. Empty where
+    // all bricks are of kind 0.
+    std::vector<std::uint8_t> kinds;
+};
+
+// `occupied`, `varied` (ConstantBricks): of the same bricks; null where they are not used.
+CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* varied);
+
+}  // namespace lamina

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exact segments: rays are walked through the cells of the grid and integrated cell by cell
+// (docs/numerics.md, section 9). The result does not depend on where slabs begin.
+#if defined(LAMINA_SLICING_TILE_EXACT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_TILE_EXACT_INL_H_
+#undef LAMINA_SLICING_TILE_EXACT_INL_H_
+#else
+#define LAMINA_SLICING_TILE_EXACT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "slicing/tile_block-inl.h"
+#include "slicing/tile_cell_walk-inl.h"
+#include "slicing/tile_cut_parts-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+// The associated colour, opacity and optical depth of a part of each ray.
+struct PartSum {
+    Floats color[3];
+    Floats opacity, depth;
+};
+
+HWY_INLINE PartSum no_part() {
+    const Floats zero = hn::Zero(FloatTag());
+    return {{zero, zero, zero}, zero, zero};
+}
+
+HWY_INLINE void put_behind(const PartSum& part, PartSum& sum) {
+    const FloatTag d;
+    const Floats kept = hn::Sub(hn::Set(d, 1.0f), sum.opacity);
+    for (int channel = 0; channel < 3; ++channel)
+        sum.color[channel] = mul_add(kept, part.color[channel], sum.color[channel]);
+    sum.opacity = mul_add(kept, part.opacity, sum.opacity);
+    sum.depth = hn::Add(sum.depth, part.depth);
+}
+
+// Integrates the rays of a packet through one brick.
+class CellIntegrator {
+  public:
+    // `colored`: colours are wanted, too.
+    CellIntegrator(const TileSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
+
+    // Begins at the front of slab `slab`, where the rays are in what is drawn, and ends where they
+    // leave it.
+    void begin(const TileBrickView& view, const PacketRays& rays, int slab) {
+        const auto later = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Max(a, b); };
+        const auto earlier = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Min(a, b); };
+        view_ = &view;
+        rays_ = &rays;
+        const auto front = hn::Set(DoubleTag(), slab * slabs_.rays.slab_thickness);
+        const auto behind = [&](HalfDoubles a) HWY_ATTR { return hn::Max(a, front); };
+        span_.enter = each_half<FloatTag>(
+            behind, each_half<FloatTag>(later, rays.enter, rays.drawn.enter));
+        span_.leave = each_half<FloatTag>(earlier, rays.leave, rays.drawn.leave);
+        span_.leave = each_half<FloatTag>(later, span_.enter, span_.leave);
+        walk_.begin(*slabs_.cells, view, rays, span_);
+    }
+    // Ends at the front of slab `slab`, which lies behind what was integrated.
+    void set_end(int slab) {
+        const auto depth = hn::Set(DoubleTag(), slab * slabs_.rays.slab_thickness);
+        const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
+                               HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
+        walk_.set_end(each_half<FloatTag>(clamp, span_.enter, span_.leave));
+    }
+    void end_where(const TwoDoubles& depths, double limit) { walk_.end_where(depths, limit); }
+    bool done() const { return walk_.done(); }
+
+    // The sum over the next few cells of each ray.
+    PartSum next() {
+        walk_.run(parts_);
+        count_ += static_cast<std::int64_t>(parts_.count);
+        if (parts_.count == 0) return no_part();
+        set_cubics();
+        with_lookup(*slabs_.transfer, [&](auto kind) HWY_ATTR {
+            integrate<decltype(kind)::value>(*slabs_.transfer);
+        });
+        return colored_ ? sum_of_parts<true>() : sum_of_parts<false>();
+    }
+
+    std::int64_t parts() const { return count_; }
+
+  private:
+    void set_cubics() {
+        const TileBrick& brick = view_->brick;
+        switch (brick.layout) {
+            case TileLayout::quads:
+                return set_cubics_of_quads(brick);
+            case TileLayout::bytes:
+                return set_cubics_of<TileLayout::bytes>(brick);
+            case TileLayout::words:
+                return set_cubics_of<TileLayout::words>(brick);
+            case TileLayout::floats:
+                return set_cubics_of<TileLayout::floats>(brick);
+        }
+        unreachable_enum();
+    }
+
+    void set_cubics_of_quads(const TileBrick& brick) {
+        const WordTag du;
+        const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
+        // Indices behind the last part are those of parts before: they may be fetched.
+        fetch_words(near, near + brick.slice, parts_.index, parts_.count, quads_[0], quads_[1]);
+        for_each_vector([&](std::size_t i) HWY_ATTR {
+            const Corners corners =
+                unpack_quads(hn::Load(du, quads_[0] + i), hn::Load(du, quads_[1] + i));
+            set_cubic(brick, brick.scale, corners, i);
+        });
+    }
+
+    template <TileLayout layout>
+    void set_cubics_of(const TileBrick& brick) {
+        const float scale = layout == TileLayout::floats ? 1.0f : brick.scale;
+        for_each_vector([&](std::size_t i) HWY_ATTR {
+            const Ints index = hn::Load(IntTag(), parts_.index + i);
+            const auto stored = hn::RebindMask(IntTag(), members_from(i));
+            set_cubic(brick, scale,
+                      fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)), i);
+        });
+    }
+
+    HWY_INLINE void set_cubic(const TileBrick& brick, float scale, const Corners& corners,
+                              std::size_t i) {
+        const Number place[3] = {load_number(parts_.place[0] + i), load_number(parts_.place[1] + i),
+                                 load_number(parts_.place[2] + i)};
+        const Number change[3] = {load_number(parts_.change[0] + i),
+                                  load_number(parts_.change[1] + i),
+                                  load_number(parts_.change[2] + i)};
+        CubicLanes cubic = cubic_along(corners, place, change);
+        if (scale != 1 || brick.offset != 0) {
+            for (Number& c : cubic.c) c = c * Number(scale);
+            cubic.c[0] = cubic.c[0] + Number(brick.offset);
+        }
+        if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
+        for (std::size_t power = 0; power < 4; ++power)
+            store_number(cubic.c[power], parts_.cubic[power] + i);
+    }
+
+    // Cells with a corner that is not finite.
+    HWY_INLINE void set_transparent(const Corners& corners, CubicLanes& cubic, std::size_t i) {
+        Number sum(0);
+        for (int corner = 0; corner < 4; ++corner)
+            sum = sum + (Number(corners.lower[corner]) + Number(corners.upper[corner]));
+        const FloatMask finite = sum == sum;
+        for (Number& c : cubic.c) c = zero_unless(finite, c);
+        store_number(zero_unless(finite, load_number(parts_.length + i)), parts_.length + i);
+    }
+
+    // Parts in one interval of the transfer function are integrated by one rule; the others are
+    // cut.
+    template <Lookup kind>
+    void integrate(const TileTransfer& transfer) {
+        const FloatTag d;
+        cut_.clear();
+        for_each_vector([&](std::size_t i) HWY_ATTR {
+            const CubicLanes cubic{
+                {load_number(parts_.cubic[0] + i), load_number(parts_.cubic[1] + i),
+                 load_number(parts_.cubic[2] + i), load_number(parts_.cubic[3] + i)}};
+            const RangeLanes range = range_of(cubic);
+            const Floats lowest = clamp01(d, range.lo.v);
+            const IntervalLanes<kind> interval{transfer, find_interval<kind>(transfer, lowest)};
+            const FloatMask crosses = range.hi > interval.right_end();
+            const Number length = load_number(parts_.length + i);
+            const LinearPart part{interval.share_along(cubic), interval.left(3) * length,
+                                  interval.change(3) * length};
+            const Number depth = part.depth();
+            const FloatMask stored = members_from(i);
+            FloatMask hard = crosses;
+            if (!hn::AllFalse(d, crosses))
+                hard = hn::And(crosses, shows_something<kind>(transfer, lowest, clamp01(d, range.hi.v)));
+            const Number shown_depth = zero_unless(hn::Not(crosses), depth);
+            if (colored_) hard = hn::Or(hard, shown_depth > Number(largest_part_depth));
+            hard = hn::And(stored, hard);
+            store_number(shown_depth, parts_.depth + i);
+            if (!hn::AllFalse(d, hard)) add_cuts(hard, i);
+            if (colored_) set_colors(interval, part, shown_depth, i);
+        });
+        if (!cut_.empty()) cut_.run<kind>(transfer, colored_, parts_);
+    }
+
+    void add_cuts(FloatMask hard, std::size_t i) {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(FloatTag(), hard, bits);
+        for (unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8; set != 0; set &= set - 1)
+            cut_.add(i + static_cast<std::size_t>(std::countr_zero(set)));
+    }
+
+    template <Lookup kind>
+    HWY_INLINE void set_colors(const IntervalLanes<kind>& interval, const LinearPart& part,
+                               Number depth, std::size_t i) {
+        const FloatTag d;
+        const FloatMask seen = depth > Number(0);
+        if (hn::AllFalse(d, seen)) {
+            for (auto& channel : parts_.color) store_number(Number(0), channel + i);
+            store_number(Number(0), parts_.opacity + i);
+            return;
+        }
+        const Number opacity = opacity_from_depth(d, depth.v);
+        const Number share = mean_share(part);
+        store_number(opacity, parts_.opacity + i);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const Number color = interval.left(channel) + share * interval.change(channel);
+            store_number(opacity * color, parts_.color[channel] + i);
+        }
+    }
+
+    // Composites each ray's parts front to back.
+    template <bool colored>
+    PartSum sum_of_parts() const {
+        PartSum sum = no_part();
+        std::size_t from = 0;
+        for (int i = 0; i < parts_.steps; ++i) {
+            const StoredLanes& lanes = parts_.lanes[i];
+            if (lanes.set == 0) continue;
+            PartSum part = no_part();
+            part.depth = load_members(parts_.depth + from, lanes);
+            if constexpr (colored) {
+                part.opacity = load_members(parts_.opacity + from, lanes);
+                for (int channel = 0; channel < 3; ++channel)
+                    part.color[channel] = load_members(parts_.color[channel] + from, lanes);
+                put_behind(part, sum);
+            } else {
+                sum.depth = hn::Add(sum.depth, part.depth);
+            }
+            from += static_cast<std::size_t>(std::popcount(lanes.set));
+        }
+        return sum;
+    }
+
+    template <class Body>
+    HWY_INLINE void for_each_vector(const Body& body) {
+        for (std::size_t i = 0; i < parts_.count; i += hn::Lanes(FloatTag())) body(i);
+    }
+
+    // The lanes that hold a part, of the vector from part i on.
+    HWY_INLINE FloatMask members_from(std::size_t i) const {
+        return hn::FirstN(FloatTag(), parts_.count - i);
+    }
+
+    const TileSlabs& slabs_;
+    bool colored_;
+    const TileBrickView* view_ = nullptr;
+    const PacketRays* rays_ = nullptr;
+    DepthSpan span_;
+    CellWalk walk_;
+    CellParts parts_;
+    CutParts cut_;
+    alignas(64) std::uint32_t quads_[2][CellParts::capacity] = {};
+    std::int64_t count_ = 0;
+};
+
+// Sets optical depths and colours of the slabs of a block that are wanted.
+inline std::int64_t set_exact_segments(const TileBrickView& brick, const PacketRays& packet,
+                                       bool colored, CellIntegrator& cells, SlabBlock& block) {
+    const FloatTag d;
+    const std::int64_t before = cells.parts();
+    for_each_run(block.wanted, [&](int first, int end) HWY_ATTR {
+        cells.begin(brick, packet, block.first_slab + first);
+        for (int i = first; i < end; ++i) {
+            cells.set_end(block.first_slab + i + 1);
+            PartSum sum = no_part();
+            while (!cells.done()) put_behind(cells.next(), sum);
+            hn::Store(sum.depth, d, block.depths + at(i));
+            if (!colored) continue;
+            const Floats opacity = hn::Max(sum.opacity, hn::Set(d, 1e-37f));
+            for (int channel = 0; channel < 3; ++channel)
+                hn::Store(hn::Div(sum.color[channel], opacity), d, block.colors[channel] + at(i));
+        }
+    });
+    return cells.parts() - before;
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
