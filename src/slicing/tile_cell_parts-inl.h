@@ -50,11 +50,13 @@ HWY_INLINE StoredLanes stored_lanes(FloatMask members) {
     return lanes;
 }
 
-// Some steps of the rays of a packet. In each step a ray crosses one cell, or several that show
-// nothing or are constant.
+// Some steps of the rays of a few packets. In each step a ray crosses one cell, or several that
+// show nothing or are constant.
 struct CellParts {
+    // Packets side by side: each waits for its own results.
+    static constexpr std::size_t most_packets = 2;
     static constexpr int most_steps = 16;
-    static constexpr std::size_t capacity = (most_steps + 1) * most_lanes;
+    static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
 
     // Where the ray enters the cell, from 0 to 1, and how far it goes in it.
     alignas(64) float place[3][capacity];
@@ -68,7 +70,7 @@ struct CellParts {
     alignas(64) float opacity[capacity];
     alignas(64) float depth[capacity];
 
-    StoredLanes lanes[most_steps];  // rays that have a part in this step
+    StoredLanes lanes[most_steps][most_packets];  // rays that have a part in this step
     int steps;
     std::size_t count;
 

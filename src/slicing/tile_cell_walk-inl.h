@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells along the rays of a packet, front to back (Amanatides and Woo 1987). Every crossing of
-// a plane is computed from the plane itself and in double precision, so that errors do not
-// accumulate: reference/cell_walk.h in vectors, with steps over bricks that show nothing.
+// The cells along the rays of a packet, front to back (Amanatides and Woo 1987), with steps over
+// bricks that show nothing. Every crossing of a plane is computed from the plane itself, in floats
+// that begin anew every few cells from double precision, so that errors do not accumulate.
 #if defined(LAMINA_SLICING_TILE_CELL_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
 #undef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
@@ -35,12 +35,28 @@ class CellWalk {
     // The rays between the depths of `span`, inside the box of a brick.
     void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
                const DepthSpan& span) {
-        map_ = &map;
+        const FloatTag d;
+        map_ = map.kinds.empty() ? nullptr : &map;
         view_ = &view;
         rays_ = &rays;
         depth_ = span.enter;
         end_ = span.leave;
-        for (int axis = 0; axis < 3; ++axis) begin_axis(axis);
+        const DoubleTag dd;
+        const auto least = hn::Set(dd, 1e-20);  // a ray along a plane never crosses it
+        const auto at_least = [&](HalfDoubles v) HWY_ATTR {
+            return hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
+        };
+        const auto inverse = [&](HalfDoubles v) HWY_ATTR { return hn::Div(hn::Set(dd, 1.0), v); };
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            direction_[i] = each_half<FloatTag>(at_least, rays.direction[axis]);
+            slope_[i] = to_floats(d, direction_[i]);
+            inverse_[i] = to_floats(d, each_half<FloatTag>(inverse, direction_[i]));
+            forward_[i] = hn::Gt(slope_[i].v, hn::Zero(d));
+            last_[i] = static_cast<std::int32_t>(view.brick.last_sample[i]);
+            first_[i] = static_cast<std::int32_t>(view.first[axis]);
+            cell_[i] = first_cell(axis);
+        }
     }
 
     // Where the walk ends; not in front of where it is.
@@ -59,11 +75,65 @@ class CellWalk {
                hn::AllFalse(dd, hn::Lt(depth_.high, end_.high));
     }
 
-    // Steps until the parts are full or all rays have ended. A ray's steps do not depend on the
-    // rays beside it.
-    void run(CellParts& parts) {
-        parts.clear();
-        while (parts.steps < CellParts::most_steps && !done()) step(parts);
+    // Within a run of a few steps depths and places are floats relative to its beginning. A ray's
+    // steps do not depend on the rays beside it.
+    HWY_INLINE void begin_run() {
+        const FloatTag d;
+        const auto place = [](HalfDoubles depth, HalfDoubles direction, HalfDoubles origin)
+                               HWY_ATTR { return hn::Add(origin, hn::Mul(depth, direction)); };
+        const auto minus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Sub(a, b); };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const TwoDoubles there = each_half<FloatTag>(place, depth_, direction_[axis],
+                                                         rays_->origin[static_cast<int>(axis)]);
+            place_[axis] = to_floats(d, each_half<FloatTag>(minus, there, doubles_of(cell_[axis])));
+            passed_[axis] = Number(0);
+        }
+        at_ = Number(0);
+        run_end_ = to_floats(d, each_half<FloatTag>(minus, end_, depth_));
+    }
+
+    HWY_INLINE bool run_done() const { return hn::AllFalse(FloatTag(), at_ < run_end_); }
+
+    HWY_INLINE void end_run() {
+        const TwoDoubles gone = to_doubles(FloatTag(), at_.v);
+        const TwoDoubles all = to_doubles(FloatTag(), run_end_.v);
+        const auto behind = [](HalfDoubles depth, HalfDoubles end, HalfDoubles way, HalfDoubles whole)
+                                HWY_ATTR {
+            return hn::IfThenElse(hn::Ge(way, whole), hn::Max(depth, end), hn::Add(depth, way));
+        };
+        depth_ = {behind(depth_.low, end_.low, gone.low, all.low),
+                  behind(depth_.high, end_.high, gone.high, all.high)};
+        for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
+    }
+
+    // Takes a step, and stores the rays' parts; returns which rays have one.
+    HWY_INLINE StoredLanes step(CellParts& parts) {
+        const FloatTag d;
+        const Ints cells[3] = {cell_at(0), cell_at(1), cell_at(2)};
+        Number planes[3];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            planes[axis] = passed_[axis] + zero_unless(forward_[axis], Number(1));
+        const FloatMask none = hn::FirstN(d, 0);
+        Leaps leaps{false, none, none, hn::Zero(IntTag())};
+        if (map_ != nullptr) {
+            const Ints bricks[3] = {brick_of(0, cells[0]), brick_of(1, cells[1]),
+                                    brick_of(2, cells[2])};
+            leaps = leaps_here(bricks);
+            for (std::size_t axis = 0; leaps.some && axis < 3; ++axis) {
+                planes[axis] = select(leaps.lanes, leap_plane(axis, bricks[axis], leaps.reach),
+                                      planes[axis]);
+            }
+        }
+        Number crossings[3];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            crossings[axis] = (planes[axis] - place_[axis]) * inverse_[axis];
+        const Number to =
+            max(min(min(crossings[0], crossings[1]), min(crossings[2], run_end_)), at_);
+        const StoredLanes lanes = store(cells, leaps, to - at_, parts);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            advance(axis, leaps, planes[axis], crossings[axis], to);
+        at_ = to;
+        return lanes;
     }
 
   private:
@@ -75,54 +145,35 @@ class CellWalk {
         Ints reach;
     };
 
-    HWY_INLINE void begin_axis(int axis) {
+    // The cell in which the rays begin. On a plane between two cells a ray belongs to the cell that
+    // it enters.
+    HWY_INLINE Ints first_cell(int axis) const {
         const DoubleTag dd;
-        const auto least = hn::Set(dd, 1e-20);  // a ray along a plane never crosses it
-        const double first = std::floor(view_->box.min[axis]);
-        const double last = std::ceil(view_->box.max[axis]) - 1;
-        const auto begin = [&](HalfDoubles origin, HalfDoubles there, HalfDoubles depth,
-                               HalfDoubles& direction, HalfDoubles& inverse) HWY_ATTR {
-            direction = hn::IfThenElse(hn::Lt(hn::Abs(there), least), least, there);
-            inverse = hn::Div(hn::Set(dd, 1.0), direction);
+        const auto least = hn::Set(dd, std::floor(view_->box.min[axis]));
+        const auto most = hn::Set(dd, std::ceil(view_->box.max[axis]) - 1);
+        const auto cell = [&](HalfDoubles origin, HalfDoubles direction, HalfDoubles depth)
+                              HWY_ATTR {
             const auto place = hn::Add(origin, hn::Mul(depth, direction));
             const auto backward = hn::Sub(hn::Ceil(place), hn::Set(dd, 1.0));
-            const auto cell =
+            const auto there =
                 hn::IfThenElse(hn::Lt(direction, hn::Zero(dd)), backward, hn::Floor(place));
-            return hn::Min(hn::Max(cell, hn::Set(dd, first)), hn::Set(dd, last));
+            return hn::Min(hn::Max(there, least), most);
         };
-        origin_[axis] = rays_->origin[axis];
-        const TwoDoubles& there = rays_->direction[axis];
-        const TwoDoubles cell{begin(origin_[axis].low, there.low, depth_.low, direction_[axis].low,
-                                    inverse_[axis].low),
-                              begin(origin_[axis].high, there.high, depth_.high,
-                                    direction_[axis].high, inverse_[axis].high)};
-        cell_[axis] = ints_of(cell);
-        const IntTag di;
-        const FloatTag d;
-        const auto forward = hn::Gt(to_floats(d, direction_[axis]), hn::Zero(d));
-        forward_[axis] = hn::IfThenElseZero(hn::RebindMask(di, forward), hn::Set(di, 1));
-        last_[axis] = static_cast<std::int32_t>(view_->brick.last_sample[static_cast<std::size_t>(axis)]);
+        return ints_of(each_half<FloatTag>(cell, rays_->origin[axis],
+                                           direction_[static_cast<std::size_t>(axis)], depth_));
     }
 
-    // The brick of the map that holds the cell, on one axis.
-    HWY_INLINE Ints brick_on(int axis) const {
-        const IntTag di;
-        const auto first = static_cast<std::int32_t>(view_->first[axis]);
-        const auto last = static_cast<std::int32_t>(map_->count[static_cast<std::size_t>(axis)]) - 1;
-        const Ints brick = hn::ShiftRight<2>(hn::Add(cell_[axis], hn::Set(di, first)));
-        return hn::Min(hn::Max(brick, hn::Zero(di)), hn::Set(di, last));
+    HWY_INLINE Ints cell_at(std::size_t axis) const {
+        return hn::Add(cell_[axis], hn::ConvertTo(IntTag(), passed_[axis].v));
     }
 
-    HWY_INLINE Leaps leaps_here() const {
-        static_assert(MinMaxBricks::edge == 4);
+    HWY_INLINE Leaps leaps_here(const Ints (&bricks)[3]) const {
         const FloatTag d;
         const IntTag di;
-        const FloatMask none = hn::FirstN(d, 0);
-        if (map_->kinds.empty()) return {false, none, none, hn::Zero(di)};
         const auto row = static_cast<std::int32_t>(map_->count[0]);
         const auto slice = static_cast<std::int32_t>(map_->count[0] * map_->count[1]);
-        const Ints place = hn::Add(hn::Add(brick_on(0), hn::Mul(brick_on(1), hn::Set(di, row))),
-                                   hn::Mul(brick_on(2), hn::Set(di, slice)));
+        const Ints place = hn::Add(hn::Add(bricks[0], hn::Mul(bricks[1], hn::Set(di, row))),
+                                   hn::Mul(bricks[2], hn::Set(di, slice)));
         const auto* const words = reinterpret_cast<const std::int32_t*>(map_->kinds.data());
         const Ints kind = hn::And(hn::GatherOffset(di, words, place), hn::Set(di, 255));
         const auto lanes = hn::Gt(kind, hn::Zero(di));
@@ -132,122 +183,104 @@ class CellWalk {
                 hn::And(kind, hn::Set(di, CellMap::farthest))};
     }
 
-    // The plane at which a step ends on one axis. Cubes at the volume's border go on beyond it.
-    HWY_INLINE Ints plane_on(int axis, const Leaps& leaps) const {
+    // The brick of the map that holds a cell, on one axis.
+    HWY_INLINE Ints brick_of(std::size_t axis, Ints cell) const {
+        static_assert(MinMaxBricks::edge == 4);
         const IntTag di;
-        const Ints next = hn::Add(cell_[axis], forward_[axis]);
-        if (!leaps.some) return next;
-        const auto count = static_cast<std::int32_t>(map_->count[static_cast<std::size_t>(axis)]);
-        const auto first = static_cast<std::int32_t>(view_->first[axis]);
-        const Ints brick = brick_on(axis), one = hn::Set(di, 1), beyond = hn::Set(di, 2);
-        const auto forward = hn::Gt(forward_[axis], hn::Zero(di));
-        Ints upper = hn::Add(brick, leaps.reach);
+        const auto last = static_cast<std::int32_t>(map_->count[axis]) - 1;
+        const Ints brick = hn::ShiftRight<2>(hn::Add(cell, hn::Set(di, first_[axis])));
+        return hn::Min(hn::Max(brick, hn::Zero(di)), hn::Set(di, last));
+    }
+
+    // The plane at which a leap ends on one axis, counted from the run's first cell. Cubes at the
+    // volume's border go on beyond it.
+    HWY_INLINE Number leap_plane(std::size_t axis, Ints brick, Ints reach) const {
+        const IntTag di;
+        const auto count = static_cast<std::int32_t>(map_->count[axis]);
+        const Ints beyond = hn::Set(di, 2);
+        Ints upper = hn::Add(brick, reach);
         upper = hn::Add(upper, hn::IfThenElseZero(hn::Gt(upper, hn::Set(di, count - 1)), beyond));
-        Ints lower = hn::Add(hn::Sub(brick, leaps.reach), one);
+        Ints lower = hn::Add(hn::Sub(brick, reach), hn::Set(di, 1));
         lower = hn::Sub(lower, hn::IfThenElseZero(hn::Lt(lower, hn::Set(di, 1)), beyond));
-        const Ints side = hn::ShiftLeft<2>(hn::IfThenElse(forward, upper, lower));
-        return hn::IfThenElse(hn::RebindMask(di, leaps.lanes), hn::Sub(side, hn::Set(di, first)),
-                              next);
+        const Ints side = hn::ShiftLeft<2>(
+            hn::IfThenElse(hn::RebindMask(di, forward_[axis]), upper, lower));
+        const Ints plane = hn::Sub(side, hn::Add(cell_[axis], hn::Set(di, first_[axis])));
+        return to_number(plane);
     }
 
-    HWY_INLINE void step(CellParts& parts) {
-        const Leaps leaps = leaps_here();
-        Ints planes[3];
-        TwoDoubles crossings[3];
-        TwoDoubles to = end_;
-        for (int axis = 0; axis < 3; ++axis) {
-            planes[axis] = plane_on(axis, leaps);
-            const TwoDoubles plane = doubles_of(planes[axis]);
-            const auto cross = [](HalfDoubles at, HalfDoubles origin, HalfDoubles inverse)
-                                   HWY_ATTR { return hn::Mul(hn::Sub(at, origin), inverse); };
-            crossings[axis] = each_half<FloatTag>(cross, plane, origin_[axis], inverse_[axis]);
-            to.low = hn::Min(to.low, crossings[axis].low);
-            to.high = hn::Min(to.high, crossings[axis].high);
-        }
-        to.low = hn::Max(to.low, depth_.low);
-        to.high = hn::Max(to.high, depth_.high);
-        const auto minus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Sub(a, b); };
-        const Floats thickness = to_floats(FloatTag(), each_half<FloatTag>(minus, to, depth_));
-        store(leaps, thickness, parts);
-        for (int axis = 0; axis < 3; ++axis) advance(axis, leaps, planes[axis], crossings[axis], to);
-        depth_ = to;
-    }
+    static HWY_INLINE Number to_number(Ints v) { return hn::ConvertTo(FloatTag(), v); }
 
-    HWY_INLINE void store(const Leaps& leaps, Floats thickness, CellParts& parts) const {
-        const FloatTag d;
-        const FloatMask shown =
-            hn::AndNot(leaps.empty, hn::Gt(thickness, hn::Zero(d)));
-        StoredLanes& lanes = parts.lanes[parts.steps++];
-        lanes = stored_lanes(shown);
-        if (lanes.set == 0) return;
+    HWY_INLINE StoredLanes store(const Ints (&cells)[3], const Leaps& leaps, Number thickness,
+                                 CellParts& parts) const {
+        const FloatMask shown = hn::AndNot(leaps.empty, thickness > Number(0));
+        const StoredLanes lanes = stored_lanes(shown);
+        if (lanes.set == 0) return lanes;
         const IntTag di;
         const std::size_t at = parts.count;
         const std::int32_t steps[3] = {1, view_->brick.row, view_->brick.slice};
         Ints index = hn::Zero(di);
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             // Beyond the first and the last sample the border value repeats.
-            const Ints last = hn::Set(di, last_[axis]);
+            const Ints cell = cells[axis], last = hn::Set(di, last_[axis]);
             const Ints most = hn::Set(di, std::max(last_[axis] - 1, 0));
-            const Ints sample = hn::Min(hn::Max(cell_[axis], hn::Zero(di)), most);
-            const auto between =
-                hn::And(hn::Gt(cell_[axis], hn::Set(di, -1)), hn::Lt(cell_[axis], last));
+            const Ints sample = hn::Min(hn::Max(cell, hn::Zero(di)), most);
+            const auto between = hn::And(hn::Gt(cell, hn::Set(di, -1)), hn::Lt(cell, last));
             index = hn::Add(index, hn::Mul(sample, hn::Set(di, steps[axis])));
-            const auto from_sample = [](HalfDoubles there, HalfDoubles place)
-                                         HWY_ATTR { return hn::Sub(place, there); };
-            const auto along = [](HalfDoubles depth, HalfDoubles direction, HalfDoubles origin)
-                                   HWY_ATTR { return hn::Add(origin, hn::Mul(depth, direction)); };
-            const TwoDoubles place =
-                each_half<FloatTag>(along, depth_, direction_[axis], origin_[axis]);
-            const Floats share =
-                to_floats(d, each_half<FloatTag>(from_sample, doubles_of(sample), place));
-            const float largest = last_[axis] > 0 ? 1.0f : 0.0f;
-            store_members(hn::Min(hn::Max(share, hn::Zero(d)), hn::Set(d, largest)), shown,
-                          parts.place[axis] + at);
-            const FloatMask moves = hn::AndNot(leaps.lanes, hn::RebindMask(d, between));
-            store_members(hn::IfThenElseZero(moves, hn::Mul(thickness, rays_->direction_float[axis])),
-                          shown, parts.change[axis] + at);
+            const Number largest(last_[axis] > 0 ? 1.0f : 0.0f);
+            const Number in_cell = (place_[axis] - passed_[axis]) + at_ * slope_[axis];
+            const Number share = in_cell + to_number(hn::Sub(cell, sample));
+            store_members(min(max(share, Number(0)), largest).v, shown, parts.place[axis] + at);
+            const FloatMask moves = hn::AndNot(leaps.lanes, hn::RebindMask(FloatTag(), between));
+            store_members(zero_unless(moves, thickness * slope_[axis]).v, shown,
+                          parts.change[axis] + at);
         }
         store_members(index, shown, parts.index + at);
-        store_members(hn::Mul(thickness, rays_->length_float), shown, parts.length + at);
+        store_members((thickness * Number(rays_->length_float)).v, shown, parts.length + at);
         parts.count += static_cast<std::size_t>(std::popcount(lanes.set));
+        prefetch(parts, at);
+        return lanes;
+    }
+
+    // Parts beside each other mostly lie in the same lines of the cache.
+    HWY_INLINE void prefetch(const CellParts& parts, std::size_t from) const {
+        if (view_->brick.layout != TileLayout::quads) return;
+        const auto* const words = static_cast<const std::uint32_t*>(view_->brick.samples);
+        for (std::size_t i = from; i < parts.count; i += TileGrid::block) {
+            __builtin_prefetch(words + parts.index[i]);
+            __builtin_prefetch(words + parts.index[i] + view_->brick.slice);
+        }
     }
 
     // Enters the next cell on one axis. After a leap that is where the ray is then; it lies in the
     // cube that was crossed, or behind the plane at which the ray leaves it.
-    HWY_INLINE void advance(int axis, const Leaps& leaps, Ints plane, const TwoDoubles& crossing,
-                            const TwoDoubles& to) {
-        const FloatTag d;
-        const IntTag di;
-        const auto minus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Sub(a, b); };
-        const Floats ahead = to_floats(d, each_half<FloatTag>(minus, crossing, to));
-        const auto crossed = hn::RebindMask(di, hn::Le(ahead, hn::Zero(d)));
-        const Ints one = hn::Set(di, 1);
-        const Ints behind = hn::Sub(hn::Add(plane, forward_[axis]), one);
+    HWY_INLINE void advance(std::size_t axis, const Leaps& leaps, Number plane, Number crossing,
+                            Number to) {
+        const FloatMask forward = forward_[axis];
         if (leaps.some) {
-            const auto floor_along = [](HalfDoubles depth, HalfDoubles direction,
-                                        HalfDoubles origin) HWY_ATTR {
-                return hn::Floor(hn::Add(origin, hn::Mul(depth, direction)));
-            };
-            const Ints there =
-                ints_of(each_half<FloatTag>(floor_along, to, direction_[axis], origin_[axis]));
-            const auto forward = hn::Gt(forward_[axis], hn::Zero(di));
-            const Ints limit = hn::Sub(plane, forward_[axis]);  // the cube's last cell
-            const Ints on = hn::Min(hn::Max(there, cell_[axis]), limit);
-            const Ints back = hn::Max(hn::Min(there, cell_[axis]), limit);
-            cell_[axis] = hn::IfThenElse(hn::RebindMask(di, leaps.lanes),
-                                         hn::IfThenElse(forward, on, back), cell_[axis]);
+            const Number there = hn::Floor((place_[axis] + to * slope_[axis]).v);
+            const Number last = plane - zero_unless(forward, Number(1));  // of the cube
+            const Number on = min(max(there, passed_[axis]), last);
+            const Number back = max(min(there, passed_[axis]), last);
+            passed_[axis] = select(leaps.lanes, select(forward, on, back), passed_[axis]);
         }
-        cell_[axis] = hn::IfThenElse(crossed, behind, cell_[axis]);
+        const Number behind = plane - zero_unless(hn::Not(forward), Number(1));
+        passed_[axis] = select(crossing <= to, behind, passed_[axis]);
     }
 
-    const CellMap* map_ = nullptr;
+    const CellMap* map_ = nullptr;  // null where all rays go cell by cell
     const TileBrickView* view_ = nullptr;
     const PacketRays* rays_ = nullptr;
+    std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     TwoDoubles depth_, end_;
-    TwoDoubles origin_[3], direction_[3], inverse_[3];
+    TwoDoubles direction_[3];
+    Number slope_[3], inverse_[3];  // the directions in float
+    FloatMask forward_[3];          // towards larger indices
+    // At the beginning of a run: the cell, and where the ray is in it.
     Ints cell_[3];
-    Ints forward_[3];  // 1 where the ray goes towards larger indices, else 0
-    std::int32_t last_[3];  // last samples
+    Number place_[3];
+    // Since then: cells passed, as whole numbers, and the depth.
+    Number passed_[3];
+    Number at_, run_end_;
 };
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -86,32 +86,45 @@ HWY_INLINE Turns turns_of(const CubicLanes& cubic) {
     return {min(one, other), max(one, other)};
 }
 
-// The place between `from` and `to` where the cubic, which is monotone there, has `value`: Newton's
-// method in a bracket. Lanes outside `wanted` get any place.
-HWY_INLINE Number solve_monotone(const CubicLanes& cubic, Number value, Number from, Number to,
-                                 Number at_from, Number at_to, FloatMask wanted) {
-    constexpr int most_steps = 30;
-    // Newton's next step is this step squared times half of the curvature over the slope.
-    const Number small = Number(1e-5f);
-    const FloatMask rising = at_to >= at_from;
-    Number low = from, high = to;
-    const Number share = (value - at_from) / (at_to - at_from);
-    Number t = from + (to - from) * min(max(share, Number(0)), Number(1));
-    FloatMask active = wanted;
-    for (int i = 0; i < most_steps && !hn::AllFalse(FloatTag(), active); ++i) {
-        const Number rest = cubic.at(t) - value;
-        const FloatMask before = hn::Not(hn::Xor(rest < Number(0), rising));
-        low = select(before, t, low);
-        high = select(before, high, t);
-        const Number newton = t - rest / cubic.slope(t);
-        const FloatMask inside = hn::And(newton >= low, newton <= high);
-        const Number next = select(inside, newton, Number(0.5f) * (low + high));
-        const Number step = hn::Abs((next - t).v);
-        t = select(active, next, t);
-        active = hn::And(active, step > small);
+// The place where a cubic, which is monotone between two places, has a value: Halley's method, which
+// converges with the third order, in a bracket.
+struct RootLanes {
+    Number t;
+
+    // The cubic is `at_from` and `at_to` at its two places. Lanes outside `wanted` get any place.
+    HWY_INLINE void begin(Number value, Number from, Number to, Number at_from, Number at_to,
+                          FloatMask wanted) {
+        value_ = value;
+        low_ = from;
+        high_ = to;
+        rising_ = at_to >= at_from;
+        active_ = wanted;
+        const Number share = (value - at_from) / (at_to - at_from);
+        t = from + (to - from) * min(max(share, Number(0)), Number(1));
     }
-    return t;
-}
+
+    HWY_INLINE bool found() const { return hn::AllFalse(FloatTag(), active_); }
+
+    HWY_INLINE void refine(const CubicLanes& cubic) {
+        // The next step would be of the order of this one to the third power.
+        const Number small = Number(3e-4f);
+        const Number rest = cubic.at(t) - value_;
+        const FloatMask before = hn::Not(hn::Xor(rest < Number(0), rising_));
+        low_ = select(before, t, low_);
+        high_ = select(before, high_, t);
+        const Number slope = cubic.slope(t), bend = cubic.c[2] + Number(3) * cubic.c[3] * t;
+        const Number nearer = t - rest * slope / (slope * slope - rest * bend);
+        const FloatMask inside = hn::And(nearer >= low_, nearer <= high_);
+        const Number next = select(inside, nearer, Number(0.5f) * (low_ + high_));
+        const Number step = hn::Abs((next - t).v);
+        t = select(active_, next, t);
+        active_ = hn::And(active_, step > small);
+    }
+
+  private:
+    Number value_, low_, high_;
+    FloatMask rising_, active_;
+};
 
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of rays that cross points of the transfer function, or that are too deep for one rule. They
 // are cut, and their pieces composited front to back. Parts need different numbers of steps: a lane
-// that has finished one takes the next.
+// that has finished one takes the next. Two vectors of lanes go side by side, because each step waits
+// for its own results.
 #if defined(LAMINA_SLICING_TILE_CUT_PARTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
 #undef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
@@ -26,21 +27,19 @@ class CutParts {
     // Sets colour, opacity and depth of the parts that were added.
     template <Lookup kind>
     void run(const TileTransfer& transfer, bool colored, CellParts& parts) {
-        const std::size_t lanes = hn::Lanes(FloatTag());
         next_ = 0;
-        busy_ = 0;
-        for (std::size_t lane = 0; lane < lanes; ++lane) take(parts, lane);
-        while (busy_ > 0) {
-            const FloatMask done = step<kind>(transfer, colored);
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(FloatTag(), done, bits);
-            for (unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8; set != 0;
-                 set &= set - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(set));
-                if (part_[lane] < 0) continue;
-                put(lane, parts);
-                --busy_;
-                take(parts, lane);
+        static_assert(vectors == 2);
+        for (Lanes& lanes : lanes_) {
+            for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane)
+                take(parts, lanes, lane);
+        }
+        while (lanes_[0].busy + lanes_[1].busy > 0) {
+            std::uint8_t done[vectors][8] = {};
+            step<kind>(transfer, colored, done);
+            for (std::size_t i = 0; i < vectors; ++i) {
+                for (unsigned set = done[i][0] | static_cast<unsigned>(done[i][1]) << 8; set != 0;
+                     set &= set - 1)
+                    finish(lanes_[i], static_cast<std::size_t>(std::countr_zero(set)), parts);
             }
         }
     }
@@ -51,45 +50,99 @@ class CutParts {
     // A part this short has one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
 
-    void take(const CellParts& parts, std::size_t lane) {
-        part_[lane] = -1;
-        at_[lane] = 1;
-        length_[lane] = 0;
+    static constexpr std::size_t vectors = 2;
+
+    // The parts of a vector of lanes, and what is composited of them.
+    struct Lanes {
+        alignas(64) float cubic[4][most_lanes] = {};
+        alignas(64) float length[most_lanes] = {};
+        alignas(64) float fresh[most_lanes] = {};     // 1 before the first step
+        alignas(64) float turns[2][most_lanes] = {};  // where the cubic turns
+        // How far it is done: place, scalar, interval.
+        alignas(64) float at[most_lanes] = {};
+        alignas(64) float scalar[most_lanes] = {};
+        alignas(64) std::int32_t interval[most_lanes] = {};
+        alignas(64) float color[3][most_lanes] = {};
+        alignas(64) float opacity[most_lanes] = {};
+        alignas(64) float depth[most_lanes] = {};
+        alignas(64) float transmittance[most_lanes] = {};
+        std::int32_t part[most_lanes] = {};  // -1: none
+        int busy = 0;                        // lanes with a part
+    };
+
+    // The next monotone stretch of each part, as far as it stays in one interval.
+    struct Stretch {
+        CubicLanes cubic;
+        Ints number;  // of the interval
+        Number at, scalar, end, at_end, knot;
+        FloatMask rising, crosses;
+        RootLanes root;
+    };
+
+    void take(const CellParts& parts, Lanes& lanes, std::size_t lane) {
+        lanes.part[lane] = -1;
+        lanes.at[lane] = 1;
+        lanes.length[lane] = 0;
         if (next_ == count_) return;
         const std::int32_t part = waiting_[next_++];
         const auto from = static_cast<std::size_t>(part);
-        part_[lane] = part;
-        ++busy_;
-        for (std::size_t i = 0; i < 4; ++i) cubic_[i][lane] = parts.cubic[i][from];
-        length_[lane] = parts.length[from];
-        at_[lane] = 0;
-        scalar_[lane] = parts.cubic[0][from];
-        fresh_[lane] = 1;
-        depth_[lane] = 0;
-        transmittance_[lane] = 1;
-        opacity_[lane] = 0;
-        for (auto& channel : color_) channel[lane] = 0;
+        ++lanes.busy;
+        lanes.part[lane] = part;
+        for (std::size_t i = 0; i < 4; ++i) lanes.cubic[i][lane] = parts.cubic[i][from];
+        lanes.length[lane] = parts.length[from];
+        lanes.fresh[lane] = 1;
+        lanes.at[lane] = 0;
+        lanes.scalar[lane] = parts.cubic[0][from];
+        for (auto& channel : lanes.color) channel[lane] = 0;
+        lanes.opacity[lane] = 0;
+        lanes.depth[lane] = 0;
+        lanes.transmittance[lane] = 1;
     }
 
-    void put(std::size_t lane, CellParts& parts) const {
-        const auto to = static_cast<std::size_t>(part_[lane]);
-        parts.depth[to] = depth_[lane];
-        parts.opacity[to] = opacity_[lane];
+    void finish(Lanes& lanes, std::size_t lane, CellParts& parts) {
+        if (lanes.part[lane] < 0) return;
+        const auto to = static_cast<std::size_t>(lanes.part[lane]);
+        parts.depth[to] = lanes.depth[lane];
+        parts.opacity[to] = lanes.opacity[lane];
         for (std::size_t channel = 0; channel < 3; ++channel)
-            parts.color[channel][to] = color_[channel][lane];
+            parts.color[channel][to] = lanes.color[channel][lane];
+        --lanes.busy;
+        take(parts, lanes, lane);
+    }
+
+    // Composites the next piece of each lane, and finds the lanes that have reached the end.
+    template <Lookup kind>
+    HWY_INLINE void step(const TileTransfer& transfer, bool colored,
+                         std::uint8_t (&done)[vectors][8]) {
+        constexpr int usual_steps = 2, most_steps = 30;
+        Stretch stretches[vectors];
+        // Parts are taken from the first vector on.
+        const std::size_t used = lanes_[1].busy > 0 ? vectors : 1;
+        for (std::size_t i = 0; i < used; ++i)
+            stretches[i] = next_stretch<kind>(transfer, lanes_[i]);
+        const auto found = [&] HWY_ATTR {
+            return stretches[0].root.found() && (used == 1 || stretches[1].root.found());
+        };
+        for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
+            for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(stretches[j].cubic);
+        }
+        for (std::size_t i = 0; i < used; ++i) {
+            const FloatMask ended = add_piece<kind>(transfer, colored, stretches[i], lanes_[i]);
+            hn::StoreMaskBits(FloatTag(), ended, done[i]);
+        }
     }
 
     // The lanes that took a part since the last step: where it turns, and in which interval it
     // begins. At an end of an interval it begins on the side to which it goes.
     template <Lookup kind>
-    HWY_INLINE void begin(const TileTransfer& transfer, const CubicLanes& cubic, Ints& interval) {
+    HWY_INLINE void begin(const TileTransfer& transfer, const CubicLanes& cubic, Lanes& lanes) {
         const FloatTag d;
         const IntTag di;
-        const FloatMask fresh = load_number(fresh_) > Number(0);
+        const FloatMask fresh = load_number(lanes.fresh) > Number(0);
         if (hn::AllFalse(d, fresh)) return;
         const Turns turns = turns_of(cubic);
-        store_number(select(fresh, turns.first, load_number(turns_[0])), turns_[0]);
-        store_number(select(fresh, turns.second, load_number(turns_[1])), turns_[1]);
+        store_number(select(fresh, turns.first, load_number(lanes.turns[0])), lanes.turns[0]);
+        store_number(select(fresh, turns.second, load_number(lanes.turns[1])), lanes.turns[1]);
         const Number start = cubic.c[0];
         const FloatMask falling = cubic.at(turns.first) < start;
         Ints first = find_interval<kind>(transfer, clamp01(d, start.v));
@@ -97,67 +150,72 @@ class CutParts {
         const auto below = hn::And(hn::RebindMask(di, hn::And(falling, at_end)),
                                    hn::Gt(first, hn::Zero(di)));
         first = hn::Sub(first, hn::IfThenElseZero(below, hn::Set(di, 1)));
-        interval = hn::IfThenElse(hn::RebindMask(di, fresh), first, interval);
-        store_number(Number(0), fresh_);
+        const Ints before = hn::Load(di, lanes.interval);
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, fresh), first, before), di, lanes.interval);
+        store_number(Number(0), lanes.fresh);
     }
 
-    // Composites the next piece of each lane. Returns the lanes that have reached the end.
     template <Lookup kind>
-    HWY_INLINE FloatMask step(const TileTransfer& transfer, bool colored) {
+    HWY_INLINE Stretch next_stretch(const TileTransfer& transfer, Lanes& lanes) {
         const FloatTag d;
         const IntTag di;
-        const CubicLanes cubic{{load_number(cubic_[0]), load_number(cubic_[1]),
-                                load_number(cubic_[2]), load_number(cubic_[3])}};
-        Ints number = hn::Load(di, interval_);
-        begin<kind>(transfer, cubic, number);
-        const IntervalLanes<kind> interval{transfer, number};
-        const Number at = load_number(at_), scalar = load_number(scalar_);
-        const Number turn[2] = {load_number(turns_[0]), load_number(turns_[1])};
-        // A monotone stretch, and the end of the interval where that is on it.
-        const Number stretch_end =
-            select(at < turn[0], turn[0], select(at < turn[1], turn[1], Number(1)));
-        const Number at_stretch_end = cubic.at(stretch_end);
-        const FloatMask rising = at_stretch_end >= scalar;
-        const FloatMask first =
-            hn::RebindMask(d, hn::Eq(number, hn::Zero(di)));
+        Stretch next;
+        for (std::size_t i = 0; i < 4; ++i) next.cubic.c[i] = load_number(lanes.cubic[i]);
+        begin<kind>(transfer, next.cubic, lanes);
+        next.number = hn::Load(di, lanes.interval);
+        next.at = load_number(lanes.at);
+        next.scalar = load_number(lanes.scalar);
+        const Number turn[2] = {load_number(lanes.turns[0]), load_number(lanes.turns[1])};
+        next.end = select(next.at < turn[0], turn[0], select(next.at < turn[1], turn[1], Number(1)));
+        next.at_end = next.cubic.at(next.end);
+        next.rising = next.at_end >= next.scalar;
+        const IntervalLanes<kind> interval{transfer, next.number};
+        const FloatMask first = hn::RebindMask(d, hn::Eq(next.number, hn::Zero(di)));
         const Number left_end = select(first, Number(-3e38f), interval.left_end());
-        const Number knot = select(rising, interval.right_end(), left_end);
-        const FloatMask crosses =
-            hn::Or(hn::And(rising, knot < at_stretch_end),
-                   hn::AndNot(rising, knot > at_stretch_end));
-        const Number crossing =
-            solve_monotone(cubic, knot, at, stretch_end, scalar, at_stretch_end, crosses);
-        const Number to = select(crosses, crossing, stretch_end);
-        const Number at_to = select(crosses, knot, at_stretch_end);
-
-        Number extent = max(to - at, Number(0));
-        LinearPart part = part_in<kind>(interval, cubic, at, extent, scalar, at_to);
-        const FloatMask whole = shorten(part, extent);
-        const Number depth = part.depth();
-        composite<kind>(interval, part, depth, colored);
-
-        const Number place = select(whole, to, max(at + extent, at + Number(6e-8f)));
-        store_number(place, at_);
-        store_number(select(whole, at_to, cubic.at(place)), scalar_);
-        const Ints one = hn::Set(di, 1), next =
-            hn::IfThenElse(hn::RebindMask(di, rising), hn::Add(number, one), hn::Sub(number, one));
-        const auto leaves = hn::RebindMask(di, hn::And(whole, crosses));
-        hn::Store(hn::IfThenElse(leaves, next, number), di, interval_);
-        return hn::Or(place >= Number(1),
-                      load_number(transmittance_) < Number(least_transmittance));
+        next.knot = select(next.rising, interval.right_end(), left_end);
+        next.crosses = hn::Or(hn::And(next.rising, next.knot < next.at_end),
+                              hn::AndNot(next.rising, next.knot > next.at_end));
+        next.root.begin(next.knot, next.at, next.end, next.scalar, next.at_end, next.crosses);
+        return next;
     }
 
-    // The piece of `extent` from `at` on, with the given scalars at its ends.
+    // Returns the lanes that have reached the end.
     template <Lookup kind>
-    HWY_INLINE LinearPart part_in(const IntervalLanes<kind>& interval, const CubicLanes& cubic,
-                                  Number at, Number extent, Number scalar, Number at_to) const {
+    HWY_INLINE FloatMask add_piece(const TileTransfer& transfer, bool colored,
+                                   const Stretch& stretch, Lanes& lanes) {
+        const IntTag di;
+        const IntervalLanes<kind> interval{transfer, stretch.number};
+        const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
+        const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
+        Number extent = max(to - stretch.at, Number(0));
+        LinearPart part = part_of<kind>(interval, stretch, extent, at_to,
+                                        load_number(lanes.length) * extent);
+        const FloatMask whole = shorten(part, extent);
+        composite<kind>(interval, part, colored, lanes);
+
+        const Number shortened = max(stretch.at + extent, stretch.at + Number(6e-8f));
+        const Number place = select(whole, to, shortened);
+        store_number(place, lanes.at);
+        store_number(select(whole, at_to, stretch.cubic.at(place)), lanes.scalar);
+        const Ints number = stretch.number, one = hn::Set(di, 1);
+        const Ints next = hn::IfThenElse(hn::RebindMask(di, stretch.rising), hn::Add(number, one),
+                                         hn::Sub(number, one));
+        const auto leaves = hn::RebindMask(di, hn::And(whole, stretch.crosses));
+        hn::Store(hn::IfThenElse(leaves, next, number), di, lanes.interval);
+        return hn::Or(place >= Number(1),
+                      load_number(lanes.transmittance) < Number(least_transmittance));
+    }
+
+    // The piece of a stretch of `extent` from its beginning, up to where the scalar is `at_to`.
+    template <Lookup kind>
+    HWY_INLINE LinearPart part_of(const IntervalLanes<kind>& interval, const Stretch& stretch,
+                                  Number extent, Number at_to, Number length) const {
+        const CubicLanes& cubic = stretch.cubic;
         CubicLanes piece;
-        piece.c[0] = scalar;
-        piece.c[1] = cubic.slope(at) * extent;
-        piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * at) * extent * extent;
+        piece.c[0] = stretch.scalar;
+        piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * stretch.at) * extent * extent;
         piece.c[3] = cubic.c[3] * extent * extent * extent;
-        piece.c[1] = (at_to - scalar) - (piece.c[2] + piece.c[3]);
-        const Number length = load_number(length_) * extent;
+        piece.c[1] = (at_to - stretch.scalar) - (piece.c[2] + piece.c[3]);
         return {interval.share_along(piece), interval.left(3) * length,
                 interval.change(3) * length};
     }
@@ -190,33 +248,24 @@ class CutParts {
 
     template <Lookup kind>
     HWY_INLINE void composite(const IntervalLanes<kind>& interval, const LinearPart& part,
-                              Number depth, bool colored) {
-        const Number transmittance = load_number(transmittance_);
+                              bool colored, Lanes& lanes) {
+        const Number depth = part.depth(), transmittance = load_number(lanes.transmittance);
         const Number weight = transmittance * Number(opacity_from_depth(FloatTag(), depth.v));
-        store_number(load_number(depth_) + depth, depth_);
-        store_number(transmittance - weight, transmittance_);
+        store_number(load_number(lanes.depth) + depth, lanes.depth);
+        store_number(transmittance - weight, lanes.transmittance);
         // Summed up by itself, so that parts of small opacity keep their digits.
-        store_number(load_number(opacity_) + weight, opacity_);
+        store_number(load_number(lanes.opacity) + weight, lanes.opacity);
         if (!colored) return;
         const Number share = mean_share(part);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const Number color = interval.left(channel) + share * interval.change(channel);
-            store_number(load_number(color_[channel]) + weight * color, color_[channel]);
+            store_number(load_number(lanes.color[channel]) + weight * color, lanes.color[channel]);
         }
     }
 
     std::int32_t waiting_[CellParts::capacity];
-    std::size_t count_ = 0, next_ = 0, busy_ = 0;
-    // The lanes.
-    alignas(64) float cubic_[4][most_lanes] = {};
-    alignas(64) float turns_[2][most_lanes] = {};
-    alignas(64) float at_[most_lanes] = {}, scalar_[most_lanes] = {};
-    alignas(64) float length_[most_lanes] = {}, fresh_[most_lanes] = {};
-    alignas(64) float color_[3][most_lanes] = {};
-    alignas(64) float depth_[most_lanes] = {}, opacity_[most_lanes] = {};
-    alignas(64) float transmittance_[most_lanes] = {};
-    alignas(64) std::int32_t interval_[most_lanes] = {};
-    std::int32_t part_[most_lanes] = {};  // -1: the lane has none
+    std::size_t count_ = 0, next_ = 0;
+    Lanes lanes_[vectors];
 };
 
 }  // namespace lamina::HWY_NAMESPACE

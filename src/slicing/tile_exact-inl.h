@@ -37,52 +37,94 @@ HWY_INLINE void put_behind(const PartSum& part, PartSum& sum) {
     sum.depth = hn::Add(sum.depth, part.depth);
 }
 
-// Integrates the rays of a packet through one brick.
+// Integrates the rays of some packets through one brick.
 class CellIntegrator {
   public:
+    static constexpr std::size_t most_packets = CellParts::most_packets;
+
     // `colored`: colours are wanted, too.
     CellIntegrator(const TileSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
     // Begins at the front of slab `slab`, where the rays are in what is drawn, and ends where they
-    // leave it.
-    void begin(const TileBrickView& view, const PacketRays& rays, int slab) {
-        const auto later = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Max(a, b); };
-        const auto earlier = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Min(a, b); };
+    // leave it. `packets`: up to most_packets of them.
+    void begin(const TileBrickView& view, const PacketRays* packets, std::size_t count, int slab) {
         view_ = &view;
-        rays_ = &rays;
-        const auto front = hn::Set(DoubleTag(), slab * slabs_.rays.slab_thickness);
-        const auto behind = [&](HalfDoubles a) HWY_ATTR { return hn::Max(a, front); };
-        span_.enter = each_half<FloatTag>(
-            behind, each_half<FloatTag>(later, rays.enter, rays.drawn.enter));
-        span_.leave = each_half<FloatTag>(earlier, rays.leave, rays.drawn.leave);
-        span_.leave = each_half<FloatTag>(later, span_.enter, span_.leave);
-        walk_.begin(*slabs_.cells, view, rays, span_);
+        packets_ = count;
+        for (std::size_t i = 0; i < count; ++i) {
+            spans_[i] = span_from(packets[i], slab);
+            walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i]);
+        }
     }
     // Ends at the front of slab `slab`, which lies behind what was integrated.
     void set_end(int slab) {
         const auto depth = hn::Set(DoubleTag(), slab * slabs_.rays.slab_thickness);
         const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
                                HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
-        walk_.set_end(each_half<FloatTag>(clamp, span_.enter, span_.leave));
+        for (std::size_t i = 0; i < packets_; ++i) {
+            const DepthSpan& span = spans_[i];
+            walks_[i].set_end(each_half<FloatTag>(clamp, span.enter, span.leave));
+        }
     }
-    void end_where(const TwoDoubles& depths, double limit) { walk_.end_where(depths, limit); }
-    bool done() const { return walk_.done(); }
+    // Ends the rays of a packet of which `depths` has reached a limit.
+    void end_where(std::size_t packet, const TwoDoubles& depths, double limit) {
+        walks_[packet].end_where(depths, limit);
+    }
+    bool done() const {
+        for (std::size_t i = 0; i < packets_; ++i) {
+            if (!walks_[i].done()) return false;
+        }
+        return true;
+    }
 
-    // The sum over the next few cells of each ray.
-    PartSum next() {
-        walk_.run(parts_);
+    // The sums over the next few cells of each ray, for each packet.
+    void next(PartSum* sums) {
+        walk();
         count_ += static_cast<std::int64_t>(parts_.count);
-        if (parts_.count == 0) return no_part();
-        set_cubics();
-        with_lookup(*slabs_.transfer, [&](auto kind) HWY_ATTR {
-            integrate<decltype(kind)::value>(*slabs_.transfer);
-        });
-        return colored_ ? sum_of_parts<true>() : sum_of_parts<false>();
+        if (parts_.count > 0) {
+            set_cubics();
+            with_lookup(*slabs_.transfer, [&](auto kind) HWY_ATTR {
+                integrate<decltype(kind)::value>(*slabs_.transfer);
+            });
+        }
+        if (colored_) {
+            sum_parts<true>(sums);
+        } else {
+            sum_parts<false>(sums);
+        }
     }
 
     std::int64_t parts() const { return count_; }
 
   private:
+    DepthSpan span_from(const PacketRays& rays, int slab) const {
+        const auto later = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Max(a, b); };
+        const auto earlier = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Min(a, b); };
+        const TwoDoubles front = all(slab * slabs_.rays.slab_thickness);
+        const TwoDoubles enter = each_half<FloatTag>(later, rays.enter, rays.drawn.enter);
+        const TwoDoubles leave = each_half<FloatTag>(earlier, rays.leave, rays.drawn.leave);
+        DepthSpan span;
+        span.enter = each_half<FloatTag>(later, front, enter);
+        span.leave = each_half<FloatTag>(later, span.enter, leave);
+        return span;
+    }
+
+    void walk() {
+        parts_.clear();
+        for (std::size_t i = 0; i < packets_; ++i) walks_[i].begin_run();
+        for (bool some = true; some && parts_.steps < CellParts::most_steps;) {
+            some = false;
+            for (std::size_t i = 0; i < packets_; ++i) {
+                StoredLanes& lanes = parts_.lanes[parts_.steps][i];
+                lanes.set = 0;
+                if (walks_[i].run_done()) continue;
+                lanes = walks_[i].step(parts_);
+                some = true;
+            }
+            parts_.steps += some;
+        }
+        for (std::size_t i = 0; i < packets_; ++i) walks_[i].end_run();
+    }
+
     void set_cubics() {
         const TileBrick& brick = view_->brick;
         switch (brick.layout) {
@@ -208,25 +250,30 @@ class CellIntegrator {
 
     // Composites each ray's parts front to back.
     template <bool colored>
-    PartSum sum_of_parts() const {
-        PartSum sum = no_part();
+    void sum_parts(PartSum* sums) const {
+        for (std::size_t packet = 0; packet < packets_; ++packet) sums[packet] = no_part();
         std::size_t from = 0;
         for (int i = 0; i < parts_.steps; ++i) {
-            const StoredLanes& lanes = parts_.lanes[i];
-            if (lanes.set == 0) continue;
-            PartSum part = no_part();
-            part.depth = load_members(parts_.depth + from, lanes);
-            if constexpr (colored) {
-                part.opacity = load_members(parts_.opacity + from, lanes);
-                for (int channel = 0; channel < 3; ++channel)
-                    part.color[channel] = load_members(parts_.color[channel] + from, lanes);
-                put_behind(part, sum);
-            } else {
-                sum.depth = hn::Add(sum.depth, part.depth);
+            for (std::size_t packet = 0; packet < packets_; ++packet) {
+                const StoredLanes& lanes = parts_.lanes[i][packet];
+                if (lanes.set == 0) continue;
+                add_parts<colored>(lanes, from, sums[packet]);
+                from += static_cast<std::size_t>(std::popcount(lanes.set));
             }
-            from += static_cast<std::size_t>(std::popcount(lanes.set));
         }
-        return sum;
+    }
+    template <bool colored>
+    HWY_INLINE void add_parts(const StoredLanes& lanes, std::size_t from, PartSum& sum) const {
+        PartSum part = no_part();
+        part.depth = load_members(parts_.depth + from, lanes);
+        if constexpr (colored) {
+            part.opacity = load_members(parts_.opacity + from, lanes);
+            for (int channel = 0; channel < 3; ++channel)
+                part.color[channel] = load_members(parts_.color[channel] + from, lanes);
+            put_behind(part, sum);
+        } else {
+            sum.depth = hn::Add(sum.depth, part.depth);
+        }
     }
 
     template <class Body>
@@ -242,9 +289,9 @@ class CellIntegrator {
     const TileSlabs& slabs_;
     bool colored_;
     const TileBrickView* view_ = nullptr;
-    const PacketRays* rays_ = nullptr;
-    DepthSpan span_;
-    CellWalk walk_;
+    std::size_t packets_ = 0;
+    DepthSpan spans_[most_packets];
+    CellWalk walks_[most_packets];
     CellParts parts_;
     CutParts cut_;
     alignas(64) std::uint32_t quads_[2][CellParts::capacity] = {};
@@ -257,11 +304,15 @@ inline std::int64_t set_exact_segments(const TileBrickView& brick, const PacketR
     const FloatTag d;
     const std::int64_t before = cells.parts();
     for_each_run(block.wanted, [&](int first, int end) HWY_ATTR {
-        cells.begin(brick, packet, block.first_slab + first);
+        cells.begin(brick, &packet, 1, block.first_slab + first);
         for (int i = first; i < end; ++i) {
             cells.set_end(block.first_slab + i + 1);
             PartSum sum = no_part();
-            while (!cells.done()) put_behind(cells.next(), sum);
+            while (!cells.done()) {
+                PartSum part;
+                cells.next(&part);
+                put_behind(part, sum);
+            }
             hn::Store(sum.depth, d, block.depths + at(i));
             if (!colored) continue;
             const Floats opacity = hn::Max(sum.opacity, hn::Set(d, 1e-37f));

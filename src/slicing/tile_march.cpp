@@ -159,16 +159,24 @@ class Marcher {
     // The leaf's part of each ray, cell by cell. A ray that became opaque ends with the cells that
     // are integrated together.
     void march_cells(const TileBrickView& brick, const SampleSpan& leaf, LeafSum* leaves) {
-        for (std::size_t p = 0; p < group_packets; ++p) {
-            const PacketRays& rays = rays_.packets[p];
-            if (rays.first_slab >= rays.end_slab) continue;
-            cells_.begin(brick, rays, leaf.first);
-            if (plan_.ends_early()) cells_.end_where(leaves[p].depth, plan_.opaque_depth);
+        constexpr std::size_t together = CellIntegrator::most_packets;
+        static_assert(group_packets % together == 0);
+        for (std::size_t p = 0; p < group_packets; p += together) {
+            cells_.begin(brick, rays_.packets + p, together, leaf.first);
+            end_opaque(leaves + p);
             while (!cells_.done()) {
-                put_behind(cells_.next(), leaves[p]);
-                if (plan_.ends_early()) cells_.end_where(leaves[p].depth, plan_.opaque_depth);
+                PartSum sums[together];
+                cells_.next(sums);
+                for (std::size_t i = 0; i < together; ++i) put_behind(sums[i], leaves[p + i]);
+                end_opaque(leaves + p);
             }
         }
+    }
+
+    void end_opaque(const LeafSum* leaves) {
+        if (!plan_.ends_early()) return;
+        for (std::size_t i = 0; i < CellIntegrator::most_packets; ++i)
+            cells_.end_where(i, leaves[i].depth, plan_.opaque_depth);
     }
 
     void set_block(const TileBrickView& brick, std::size_t packet, int number) {
