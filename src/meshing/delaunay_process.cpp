@@ -77,6 +77,12 @@ class Messages {
     std::string text_;
 };
 
+bool is_ended_by_user(int status) {
+    if (!WIFSIGNALED(status)) return false;
+    const int signal = WTERMSIG(status);
+    return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+}
+
 // A child that does not outlive this, nor this process: see tetrahedralize_parent_option.
 class Child {
   public:
@@ -115,7 +121,10 @@ class Child {
             messages.collect();  // also afterwards: a full pipe would stop it
             if (ended == id_) {
                 id_ = -1;
-                check_interrupt();  // Ctrl-C ends the child as well: that is no failure of its own
+                // Ctrl-C ends the child as well, which is no failure of its own. It may do so
+                // before this process's signal has reached the stop token.
+                if (is_ended_by_user(status)) std::this_thread::sleep_for(100ms);
+                check_interrupt();
                 return status;
             }
             if (ended < 0 && errno != EINTR) fail("waitpid: {}", std::strerror(errno));
