@@ -9,7 +9,7 @@
 #include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
-#include "reference/volume_tracer.h"
+#include "reference/scene_tracer.h"
 #include "scene_files/json_reader.h"
 #include "study/picture_key.h"
 #include "study/text_file.h"
@@ -31,16 +31,14 @@ std::string key_of(const Scene& scene, TraceOf of, DataStore& data) {
     return hash.hex();
 }
 
-Reference trace(const Scene& scene, TraceOf of, DataStore& data) {
+Reference traced(const Scene& scene, TraceOf of, DataStore& data) {
     const Stopwatch watch;
     const auto made = [&](auto result) {
         return Reference{
             {}, of, units * result.error_estimate, watch.milliseconds(), std::move(result.image)};
     };
     if (of == TraceOf::mesh) return made(data.mesh(scene).data.trace(scene));
-    return made(trace_volume(data.volume(scene).data->volume, scene.transfer_function,
-                             View(scene.camera, scene.width, scene.height),
-                             {scene.trace_tolerance}));
+    return made(trace(scene, data.volume(scene).data->volume));
 }
 
 std::string content_of(const PreciseImage& image) {
@@ -102,7 +100,7 @@ Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceO
                                DataStore& data) const {
     std::optional<AtomicFile> picture;  // first: a file that cannot be written fails at once
     if (!folder_.empty()) picture.emplace(folder_ / (id + ".npy"));
-    Reference reference = trace(scene, of, data);
+    Reference reference = traced(scene, of, data);
     reference.id = id;
     if (!picture) return reference;
     // The picture before the facts: what has its .json is complete.
