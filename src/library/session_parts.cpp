@@ -32,7 +32,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
     check_view(scene.camera, scene.width, scene.height);
 }
 
-// A renderer of OpenGL ends while its context is current.
+// The context must be current when a renderer of OpenGL is destroyed.
 Session::Parts::~Parts() {
     if (drawn) run([&] { drawn.reset(); });
 }
@@ -91,7 +91,7 @@ void Session::Parts::trace() {
                                : lamina::trace(scene, volume_data().volume).image;
 }
 
-// A mesh that is made from a volume follows the transfer function.
+// A mesh that is made from a volume depends on the transfer function.
 bool Session::Parts::changes_mesh(const Scene& next) const {
     if (mesh_given) return false;
     const bool made = scene.mesh_file.empty(), makes = next.mesh_file.empty();

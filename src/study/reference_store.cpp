@@ -48,7 +48,7 @@ std::string content_of(const PreciseImage& image) {
     return hash.hex();
 }
 
-// All but the picture, and what names the picture.
+// Loads all but the picture, and returns what names the picture.
 std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder,
                                              const std::string& id) {
     const std::filesystem::path file = folder / (id + ".json");
@@ -80,7 +80,7 @@ double ReferenceStore::error_estimate(const std::filesystem::path& folder, const
     return load_facts(folder, id).first.error_estimate;
 }
 
-// Nothing where it cannot be read: that is said once.
+// Returns nothing where the reference cannot be read, which is said once.
 std::optional<Reference> ReferenceStore::find(const std::string& id) {
     if (lost_.contains(id)) return std::nullopt;
     try {
@@ -103,7 +103,7 @@ Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceO
     Reference reference = traced(scene, of, data);
     reference.id = id;
     if (!picture) return reference;
-    // The picture before the facts: what has its .json is complete.
+    // The picture is written before the facts, so that a reference with a .json is complete.
     write_npy(*picture, reference.image);
     picture->commit();
     const nlohmann::ordered_json facts{{"of", name_of(reference.of)},

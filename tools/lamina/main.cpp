@@ -25,7 +25,7 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-// Each once: a file may be read for many pictures.
+// Each warning is printed once, although a file may be read for many pictures.
 void print_warning(const std::string& text) {
     static std::set<std::string> printed;
     if (lamina::Progress::is_quiet() || !printed.insert(text).second) return;
@@ -34,7 +34,7 @@ void print_warning(const std::string& text) {
 
 constexpr const char* version = "lamina " LAMINA_VERSION;
 
-// A word that is no verb: CLI11 would only say that a subcommand is missing.
+// Names an unknown verb. CLI11 would only say that a subcommand is missing.
 void check_verb(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::string verbs;
@@ -78,7 +78,7 @@ int run_and_report(int argc, char** argv, const lamina::SignalStop& signals) {
     } catch (const lamina::Interrupted& interrupted) {
         return report(interrupted.what(), signals.exit_code());
     } catch (const std::bad_alloc&) {
-        std::fputs("lamina: out of memory\n", stderr);  // takes none
+        std::fputs("lamina: out of memory\n", stderr);  // needs no memory
         return 1;
     } catch (const std::exception& error) {
         return report(error.what(), 1);
