@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of compositing/codes.h. BITS: of a code. ALPHA_ROUNDING: how an opacity becomes one.
+// Twin of compositing/codes.h. A code has BITS bits. ALPHA_ROUNDING says how opacities are rounded to codes.
 #define LARGEST_CODE ((1u << BITS) - 1u)
 #define ROUND_TRUNCATE 0
 #define ROUND_NEAREST 1

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of compositing/node_code.h. NODE_CODE: which. A share is a node's part of its ray's samples.
+// Twin of compositing/node_code.h, for the code NODE_CODE. A share is a node's share of its ray's samples.
 #define CODE_MINIMAX 0
 #define CODE_PHI 1
 #define CODE_ALPHA 2
@@ -10,8 +10,8 @@ const float opaque_node_depth = 1e4;
 const float inverse_e = 0.36787944117144233;
 const float euler = 2.718281828459045;
 
-// -log(1 - value): GLSL's log is far off just below 1 (docs/numerics.md, section 1); below 1/4 by 2 artanh(value / (2 -
-// value)), whose first omitted term is 2e-8 of the result.
+// Returns -log(1 - value). GLSL's log is far off just below 1 (docs/numerics.md, section 1). Below 1/4 it is 2
+// artanh(value / (2 - value)), whose first omitted term is 2e-8 of the result.
 float depth_from_opacity(float value) {
     if (value >= 0.25) return -log(1.0 - value);
     float z = value / (2.0 - value);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compositing/over.glsl"
 
-// OVER computed by the program on the codes that the target holds: as code / STORED, in 8 or 16 bits a channel. The
-// pixel is read back by framebuffer fetch, or as a texture with a barrier between the slabs.
+// Computes OVER on the codes that the target holds as code / STORED, in 8 or 16 bits a channel. The pixel is read
+// back by framebuffer fetch, or as a texture with a barrier between the slabs.
 #define STORED (BITS > 8 ? 65535.0 : 255.0)
 
 #ifdef FRAMEBUFFER_FETCH
@@ -31,7 +31,7 @@ void composite(uvec3 color, uint alpha) {
     store_codes(result);
 }
 
-// Opacity alone, in the first channel.
+// Composites opacity alone, in the first channel.
 void composite_opacity(uint alpha) {
     uint there = stored_codes().r;
 #ifdef FRONT_TO_BACK

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450 core
 
-// Linear filtering of a 4x4x4 texture at positions that float32 represents exactly, so that every
-// difference from the exact trilinear value is the filter's own. src/gl/filter_probe.cpp computes
-// the same positions.
+// Filters a 4x4x4 texture linearly at positions that float32 represents exactly, so that every difference from the
+// exact trilinear value is the filter's own. src/gl/filter_probe.cpp computes the same positions.
 uniform sampler3D probe;
 layout(location = 0) out vec4 filtered;
 

@@ -7,17 +7,18 @@
 uniform vec3 single_color;
 #endif
 
-// Associated colour and opacity of a segment on which the scalar, normalised so that the intervals cover [0, 1], runs
-// straight from `front` to `back`: exactly, interval by interval of the transfer function (docs/numerics.md, section
-// 5). Twin of integrate_segment (optics/segment_integral.h) in float32; optical depth is a sum of terms >= 0.
-// Extinction times length is finite (executors/shader_intervals.h) for lengths up to 1e8.
+// Returns the associated colour and opacity of a segment on which the scalar is linear from `front` to `back`,
+// normalised so that the intervals cover [0, 1]. It integrates exactly, interval by interval of the transfer function
+// (docs/numerics.md, section 5). This is the twin of integrate_segment (optics/segment_integral.h) in float32.
+// Optical depth is a sum of terms >= 0. Extinction times length is finite (executors/shader_intervals.h) for lengths
+// up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
     front = clamp(front, 0.0, 1.0);
     back = clamp(back, 0.0, 1.0);
     int interval = find_interval(front);
     int last = find_interval(back);
     int step = interval <= last ? 1 : -1;
-    float end_share = step > 0 ? 1.0 : 0.0;  // where an interval is left
+    float end_share = step > 0 ? 1.0 : 0.0;  // at which an interval is left
     bool one_piece = interval == last;  // front and back may be equal
     float length_per_scalar = world_length / abs(back - front);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The linear intervals of the transfer function over scalars normalised to [0, 1]; layout: executors/shader_intervals.h.
+// The linear intervals of the transfer function over scalars normalised to [0, 1]. executors/shader_intervals.h
+// describes the layout.
 uniform sampler2D intervals;
 uniform sampler2D interval_starts;
 
-// The interval that holds `scalar`; at a step's very value the upper one (lamina/transfer_function.h).
+// Returns the interval that holds `scalar`. At the value of a step it is the upper one (lamina/transfer_function.h).
 int find_interval(float scalar) {
 #if INTERVALS == 1
     return 0;
@@ -15,8 +16,8 @@ int find_interval(float scalar) {
 #endif
 }
 
-// (left end, 1 / width, table node at the left end, table nodes to the right end)
+// Returns (left end, 1 / width, table node at the left end, table nodes to the right end).
 vec4 interval_place(int interval) { return texelFetch(intervals, ivec2(interval, 0), 0); }
 
-// Where in its interval a scalar lies, 0..1.
+// Returns the position of a scalar in its interval, 0..1.
 float share_of_interval(vec4 place, float scalar) { return clamp((scalar - place.x) * place.y, 0.0, 1.0); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// A segment on which colour and extinction are linear: opacity in closed form, colour by the weight of its front
-// (optics/front_weights.h), which for THIN segments is a polynomial.
+// A segment on which colour and extinction are linear. Opacity has a closed form; colour needs the weight of the
+// segment's front (optics/front_weights.h), which is a polynomial for THIN segments.
 #ifdef TABLE_COLORED
 #ifdef THIN
 float front_weight(float p, float q) {
@@ -19,7 +19,8 @@ uniform sampler2D front_weights;
 float front_weight(float p, float q) {
     p = min(p, 1e30);
     q = min(q, 1e30);
-    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) without a difference: faint segments keep their digits.
+    // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q) are written without a difference, so that faint segments keep their
+    // digits.
     float root = sqrt(1.0 + q);
     vec2 nodes = float(FRONT_WEIGHT_NODES - 1) * vec2(p, q / root) / (1.0 + vec2(p, root));
 #ifdef TABLE_FILTERED
@@ -36,7 +37,7 @@ float front_weight(float p, float q) {
 }
 #endif
 
-// Associated colour and opacity between two places, each given as colour and extinction.
+// Returns the associated colour and opacity between two places, each given as colour and extinction.
 vec4 integrate_linear(vec4 front, vec4 back, float world_length) {
     float p = front.a * world_length, q = back.a * world_length;
     float opacity = opacity_from_depth(0.5 * p + 0.5 * q);

@@ -2,8 +2,8 @@
 #include "optics/intervals.glsl"
 #include "optics/opacity.glsl"
 
-// Twin of PreintegrationTable::lookup (optics/preintegration_table.h). Texel (front node, back node): mean extinction in
-// the last component; with colour, emission in rgb and one layer a length.
+// Twin of PreintegrationTable::lookup (optics/preintegration_table.h). The texel (front node, back node) has the mean
+// extinction in its last component. With colour, it has emission in rgb, and each length is a layer.
 #ifdef TABLE_COLORED
 uniform sampler3D preintegration;
 uniform float layers_per_length;
@@ -11,7 +11,7 @@ uniform float layers_per_length;
 uniform sampler2D preintegration;
 #endif
 
-// Coordinate of a scalar in the table: whole numbers are nodes.
+// Returns the coordinate of a scalar in the table. Whole numbers are nodes.
 float table_node(vec4 place, float scalar) { return place.z + share_of_interval(place, scalar) * place.w; }
 
 #ifdef TABLE_COLORED
@@ -20,7 +20,7 @@ vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, ivec
 vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, node, 0).rrrr; }
 #endif
 
-// Bilinear in float32 between the four nodes around `nodes`.
+// Interpolates bilinearly, in float32, between the four nodes around `nodes`.
 vec4 table_layer(vec2 nodes, int layer) {
     ivec2 corner = min(ivec2(nodes), ivec2(TABLE_NODES - 2));
     vec2 share = nodes - vec2(corner);
@@ -31,7 +31,7 @@ vec4 table_layer(vec2 nodes, int layer) {
     return front + share.y * (back - front);
 }
 
-// Mean extinction at table nodes; it does not depend on length.
+// Returns the mean extinction at table nodes. It does not depend on length.
 float table_extinction(vec2 nodes) {
 #if defined(TABLE_FILTERED) && defined(TABLE_COLORED)
     return texture(preintegration, vec3((nodes + 0.5) / float(TABLE_NODES), 0.0)).a;
@@ -42,7 +42,7 @@ float table_extinction(vec2 nodes) {
 #endif
 }
 
-// Emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
+// Returns emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
 vec4 table_entry(vec2 nodes, float world_length) {
 #ifndef TABLE_COLORED
     return vec4(table_extinction(nodes));
@@ -61,7 +61,7 @@ vec4 table_entry(vec2 nodes, float world_length) {
 #endif
 }
 
-// Adds what lies behind `sum` (associated colour, optical depth in a): a run between two table nodes.
+// Adds a run between two table nodes behind `sum` (associated colour, optical depth in a).
 void add_run(inout vec4 sum, vec2 nodes, float world_length) {
     vec4 entry = table_entry(nodes, world_length);
     float depth = entry.a * world_length;
@@ -71,16 +71,17 @@ void add_run(inout vec4 sum, vec2 nodes, float world_length) {
     sum.a += depth;
 }
 
-// Whether a segment on which the scalar stays between two values shows nothing.
+// Returns whether a segment on which the scalar stays between two values is transparent.
 bool is_transparent(float least, float largest) {
     vec2 nodes = vec2(table_node(interval_place(find_interval(least)), least),
                       table_node(interval_place(find_interval(largest)), largest));
     return table_extinction(nodes) == 0.0;
 }
 
-// Associated colour and optical depth (a) of a segment on which the scalar runs straight from `front` to `back`. The
-// table is smooth inside the transfer function's intervals and not across their ends: the run is cut at the first and
-// at the last of these. A loop, and none for what is transparent: software rasterisers skip loops, not branches.
+// Returns the associated colour and the optical depth (a) of a segment on which the scalar is linear from `front` to
+// `back`. The table is smooth inside the transfer function's intervals and not across their ends, so the run is cut
+// at the first and at the last of these. It is a loop, with no passes for transparent segments, because software
+// rasterisers skip loops but not branches.
 vec4 integrate_run(float front, float back, float world_length, bool transparent) {
     int front_interval = find_interval(front);
     int back_interval = find_interval(back);

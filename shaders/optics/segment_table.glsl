@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// Twin of SegmentTable::lookup (optics/segment_table.h). Texel (front node, back node, layer of length): with
-// TABLE_COLORED emission (store 0) or associated colour (store 1) in rgb, and in the last component mean extinction or
-// opacity. TABLE_NODES, TABLE_LAYERS and
-#define MAPPING_OCTAVE 0  // TABLE_MAPPING, as LengthMapping
+// Twin of SegmentTable::lookup (optics/segment_table.h). The table has TABLE_NODES x TABLE_NODES x TABLE_LAYERS texels
+// (front node, back node, layer of length). The last component of a texel is mean extinction or opacity, as TABLE_STORE
+// says. With TABLE_COLORED, rgb is emission or associated colour, respectively. TABLE_FILTERED: the texture unit
+// interpolates, whose weights have 8 bits on GPUs. Otherwise four or eight texels are interpolated in float32.
+
+// Values of TABLE_MAPPING, as in LengthMapping.
+#define MAPPING_OCTAVE 0
 #define MAPPING_LOG2 1
 #define MAPPING_LINEAR 2
-#define STORE_MEAN_EXTINCTION 0  // TABLE_STORE, as TableStore
+// Values of TABLE_STORE, as in TableStore.
+#define STORE_MEAN_EXTINCTION 0
 #define STORE_OPACITY 1
-// TABLE_FILTERED: by the texture unit, whose weights have 8 bits on GPUs; else four or eight texels in float32.
 
 #if TABLE_LAYERS > 1
 uniform sampler3D segment_table;
@@ -23,7 +26,7 @@ uniform vec3 single_color;
 #endif
 
 #if TABLE_LAYERS > 1
-// Coordinate of a length: whole numbers are layers; not clamped to the last one.
+// Returns the coordinate of a length. Whole numbers are layers. It is not clamped to the last one.
 float length_layer(float world_length) {
     float v = world_length * inverse_first_length;
 #if TABLE_LAYERS == 2 || TABLE_MAPPING == MAPPING_LINEAR
@@ -32,7 +35,7 @@ float length_layer(float world_length) {
     return log2(max(v, 1.0)) + min(v, 1.0);  // Kraus 2004, Equation 1
 #elif TABLE_MAPPING == MAPPING_OCTAVE
     // The bits of a float are linear within each octave: 1 + o + (v / 2^o - 1) (docs/numerics.md, section 5) is the
-    // number of octaves from 1/2 on. Below v = 1 that is less than v, which holds there.
+    // number of octaves from 1/2 on. For v < 1 this is less than v, which is the coordinate there.
     const int bits_of_half = 0x3f000000;
     float octaves = float(floatBitsToInt(v) - bits_of_half) * (1.0 / 8388608.0);
     return max(octaves, min(v, 1.0));
@@ -86,8 +89,8 @@ vec4 table_entry(float front, float back, float world_length) {
 
 #endif
 
-// Associated colour and opacity of a segment on which the scalar, normalised so that the table covers [0, 1], runs
-// straight from `front` to `back`.
+// Returns the associated colour and opacity of a segment on which the scalar is linear from `front` to `back`,
+// normalised so that the table covers [0, 1].
 vec4 integrate_segment(float front, float back, float world_length) {
     vec4 entry = table_entry(front, back, world_length);
 #if TABLE_STORE == STORE_OPACITY
@@ -99,7 +102,7 @@ vec4 integrate_segment(float front, float back, float world_length) {
 #elif TABLE_STORE == STORE_MEAN_EXTINCTION
 #ifdef TABLE_COLORED
     float alpha = opacity_from_depth(entry.a * (table_scale * world_length));
-    // Of a depth that is 0, emission is, too. The scale cancels.
+    // Where the optical depth is 0, so is the emission. The scale cancels.
     return vec4(entry.rgb * (alpha / max(entry.a, 1e-37)), alpha);
 #else
     return vec4(single_color, 1.0) * opacity_from_depth(entry.r * (table_scale * world_length));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fragment of the paper's triangles knows (projection/fan_geometry.h).
+// The optics of a fragment of the paper's triangles (projection/fan_geometry.h).
 in vec3 inverse;
 in vec4 front_values;
 in vec4 back_values;
@@ -21,8 +21,8 @@ struct TetOptics {
     float world_length;
 };
 
-// Kraus 2004, section 2.3; the thickness as in docs/numerics.md, section 6: the difference of the inverse depths is
-// interpolated itself.
+// Kraus 2004, section 2.3. For the thickness, the difference of the inverse depths is interpolated itself
+// (docs/numerics.md, section 6).
 TetOptics find_optics() {
 #if DIVIDED
     float z_front = 1.0 / inverse.x;

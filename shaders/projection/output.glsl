@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a fragment reaches the target. BITS: opacity is rounded to a code here, and DITHER_ALPHA: by chance, before the
-// blending unit; EMULATED: and composited here as render.emulate says; AFTER_BLEND: composited here, and the result
-// rounded by chance.
+// Writes a fragment to the target. BITS: opacity is rounded to a code here. DITHER_ALPHA: it is rounded at random,
+// before the blending unit. EMULATED: the fragment is composited here, as render.emulate says. AFTER_BLEND: it is
+// composited here, and the result is rounded at random.
 #if defined(BITS)
 #include "compositing/codes.glsl"
 #include "compositing/random_bits.glsl"
@@ -49,7 +49,8 @@ void write_fragment(vec4 color) {
 #elif defined(DITHER_ALPHA)
 layout(location = 0) out vec4 associated;
 
-// Kraus 2004, section 4.2, with one random number for all channels: the blending unit rounds associated colours, too.
+// Dithers as in Kraus 2004, section 4.2, but with one random number for all channels, because the blending unit
+// rounds associated colours, too.
 void write_fragment(vec4 color) {
     float largest = float(LARGEST_CODE);
     vec4 scaled = clamp(color, 0.0, 1.0) * largest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a fragment's ray is inside its tet, from the planes of the faces (projection/tet_record.h). Coverage, too, is
-// decided here: the polygon covers a little more than the tet, and rasterisers move its corners.
+// Finds where a fragment's ray is inside its cell fragment, from the planes of the faces (projection/tet_record.h).
+// Coverage, too, is decided here, because the polygon covers a little more than the tet, and rasterisers move its
+// corners.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays that run along faces to one side, the same for all tets
@@ -22,8 +23,8 @@ uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
 #ifdef OPACITY_ONLY
-// All parts over those of the tree's leaf (docs/numerics.md, section 3). Of the length: optical depth is mean
-// extinction times it.
+// The number of all parts over that of the tree's leaf (docs/numerics.md, section 3). It scales the length, because
+// optical depth is mean extinction times length.
 uniform float depth_scale;
 #endif
 
@@ -39,10 +40,11 @@ struct TetRun {
 #ifdef CAREFUL
 dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
 
-// The depths, less the center's, between which the ray is inside the tet. In double: faces that are nearly edge-on are
-// steep functions of the pixel, and both tets that share one must find it in the same place.
+// Returns the depths, less the center's, between which the ray is inside the tet. They are double because faces that
+// are nearly edge-on are steep functions of the pixel, and both tets that share such a face must find it in the same
+// place.
 vec2 find_depths(vec2 place) {
-    // The ray is moved in space; what that moves along the ray itself does not count.
+    // The ray perturbation moves the ray in space. Its component along the ray does not count.
     dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
     dvec2 moved = dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
     vec4 depths = vec4(four_doubles(face_depths[0], face_depths[1]) +
@@ -60,7 +62,7 @@ vec2 find_depths(vec2 place) {
     return vec2(enter, leave);
 }
 #else
-// The same for tets with 1 to 3 front faces, none of them nearly edge-on.
+// The same in float32, for tets with 1 to 3 front faces, none of them nearly edge-on.
 vec2 find_depths(vec2 place) {
     vec4 depths = face_depths[0] + face_depths[1] * place.x + face_depths[2] * place.y;
     uint fronts = front_faces();
@@ -76,8 +78,9 @@ vec2 find_depths(vec2 place) {
 #endif
 
 #ifdef CUT
-// The part of a ray's run on which the scalar is between the part's least and largest. The part on the other side of a
-// cut computes the same numbers: nothing is lost or counted twice between them.
+// Returns the stretch of a ray's run on which the scalar is between the cell fragment's least and largest. The cell
+// fragment on the other side of a cut computes the same numbers, so that nothing is lost or counted twice between
+// them.
 vec2 cut_depths(vec2 depths, vec2 place) {
     uint fronts = floatBitsToUint(limits.z);
     bool lower_front = (fronts & 8u) != 0u, upper_front = (fronts & 16u) != 0u;
@@ -102,8 +105,8 @@ TetRun find_run() {
     vec2 from_center = depths;
     vec2 reach = vec2(1.0);
 #else
-    // z = -1 / depth; differences of z from differences of depth, so that far eyes cost no digits (docs/numerics.md,
-    // section 6).
+    // z = -1 / depth. Differences of z are computed from differences of depth, so that a far eye costs no digits
+    // (docs/numerics.md, section 6).
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
     run.world_length = (depths.y - depths.x) * z.x * z.y;
 #ifndef THICKNESS_DZ

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A corner of the polygon around a tet; all of them carry the tet's record (projection/tet_record.h).
+// A corner of the polygon around a tet. Every corner carries the tet's record (projection/tet_record.h).
 layout(location = 0) in vec2 position;  // window coordinates
 layout(location = 1) in uint record;
 
@@ -9,7 +9,7 @@ const uint record_size = 12u;
 
 uniform vec2 image_size;
 
-// Of four faces: depth, per column, per row; with CAREFUL, high and low parts of each.
+// The planes of four faces: depth, per column, per row. CAREFUL: high and low parts of each.
 #ifdef CAREFUL
 #define PAIR 2u
 #else

@@ -3,8 +3,8 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// One tet of the projected-tetrahedra renderer: what the fragment's ray gathers inside it, put over what is there.
-// OPACITY_ONLY: for a fixed-point node of a tree.
+// One cell fragment: composites the colour and opacity of the fragment's ray inside it over the target. OPACITY_ONLY:
+// for a fixed-point node of a tree.
 #define SOURCE_CONSTANT 0
 #define SOURCE_TABLE 1
 #define SOURCE_PARTS 2

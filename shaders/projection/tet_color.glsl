@@ -16,15 +16,15 @@ vec4 tet_color() {
     return integrate_linear(front, back, run.world_length);
 }
 #elif SOURCE == SOURCE_MEAN
-// Stein, Becker, Max 1994: extinction linear in the tet, so that its mean over the ray is that of front and back; the
-// colour is the mean of both.
+// Stein, Becker, Max 1994: extinction is linear in the tet, so its mean over the ray is the mean of front and back.
+// The colour is the mean of both, too.
 vec4 tet_color() {
     TetOptics optics = find_optics();
     float opacity = opacity_from_depth(0.5 * (optics.front.a + optics.back.a) * optics.world_length);
     return vec4(0.5 * (optics.front.rgb + optics.back.rgb) * opacity, opacity);
 }
 #elif SOURCE == SOURCE_VERTICES
-// Shirley, Tuchman 1990: colour and opacity of the vertices, interpolated.
+// Shirley, Tuchman 1990: colour and opacity of the vertices are interpolated.
 vec4 tet_color() {
     vec4 values = clamp(vertex_values(), 0.0, 1.0);  // on slivers, rasterisers interpolate beyond the corners' values
     return vec4(values.rgb * values.a, values.a);

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// The picture of one colour and the opacity that a fixed-point tree leaves in its root. EMULATED: as codes.
+// The picture of one colour and the opacity in the root of a fixed-point tree. EMULATED: as codes.
 #ifdef EMULATED
 #include "compositing/over.glsl"
 #define STORED (BITS > 8 ? 65535.0 : 255.0)

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a ray comes near something that is seen, by the distances of bricks of the volume to the nearest that shows
-// something (facts/occupied_bricks.h).
+// Finds where a ray comes near visible parts of the volume. A texture has, for each brick of the volume, the distance
+// to the nearest brick that shows something (facts/occupied_bricks.h).
 uniform sampler3D distances;    // over 255
 uniform float brick_edge;       // cells
 uniform vec3 first_sample;      // of the texture brick, in the volume
 uniform vec3 last_distance;     // number of bricks less one
 
-// A ray in bricks of the volume, by depth from where it enters the box on.
+// A ray in units of the volume's bricks. Its parameter is the depth from where it enters the box.
 struct BrickRay {
     vec3 start;
     vec3 change;
     vec3 inverse;   // 1 / change
-    float margin;   // points may be wrong by so much
+    float margin;   // points may be off by this
     REAL entry;     // depth
 };
 
@@ -21,7 +21,7 @@ BrickRay brick_ray(Ray ray, REAL entry) {
     bricks.start = (point_at(ray, entry) + first_sample) / brick_edge;
     bricks.change = mix(change, vec3(1e-20), lessThan(abs(change), vec3(1e-20)));
     bricks.inverse = 1.0 / bricks.change;
-    // Of a voxel .01, and 16 roundings of float where its rays begin far from the box.
+    // The margin is a hundredth of a voxel, and 16 roundings of float where the ray begins far from the box.
     vec3 size = abs(vec3(ray.origin)) / brick_edge + last_distance + 1.0;
     bricks.margin = 0.01 / brick_edge + 1e-6 * max(size.x, max(size.y, size.z));
     bricks.entry = entry;
@@ -33,7 +33,8 @@ struct Stretch {
     bool shown;
 };
 
-// Slabs from number `slab` on that show nothing, or that may show something: then it ends where it should be asked again.
+// Returns a stretch of slabs from number `slab` on. Either all of them are empty, or they may show something; then
+// the stretch ends where the next look is worth while.
 Stretch next_stretch(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;
@@ -42,7 +43,7 @@ Stretch next_stretch(BrickRay ray, float slab) {
     float reach = max(to_shown, 1.0);
     vec3 ahead = vec3(reach - ray.margin), behind = vec3(1.0 - reach + ray.margin);
     vec3 leave = (brick + mix(behind, ahead, greaterThan(ray.change, vec3(0.0))) - place) * ray.inverse;
-    // Where a side lies closer than the margin the point is not known to be between the sides.
+    // Where a side is closer than the margin, it is not certain that the point lies between the sides.
     bool between = all(greaterThanEqual(place - brick, behind)) && all(lessThanEqual(place - brick, ahead));
     float exit = float(ray.entry) + depth + min(leave.x, min(leave.y, leave.z));
     float end = floor(exit / float(slab_thickness));

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// The image of a leaf whose slabs lie in several bricks, from the sum of these in float (slicing/leaf.frag).
+// The image of a leaf whose slabs lie in several bricks, made from their sum in float (slicing/leaf.frag).
 #include "slicing/node_output.glsl"
 
 uniform sampler2D sum;  // associated colour, opacity

@@ -1,8 +1,9 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A leaf of a compositing tree: all of its slabs along the fragment's ray, front to back, in registers. ACCUMULATE: only
-// one of several bricks, for blending into a float target; slicing/encode.frag makes the leaf's image of the sum.
-// OCCUPIED_ONLY: leaps over what shows nothing. ENDS_EARLY: the ray ends where what lies behind does not show.
+// A leaf of a compositing tree: composites all of its slabs along the fragment's ray, front to back, in registers.
+// ACCUMULATE: only those of one of several bricks, for blending into a float target; slicing/encode.frag makes the
+// leaf's image of the sum. OCCUPIED_ONLY: leaps over empty space. ENDS_EARLY: ends the ray where the rest cannot be
+// seen.
 #include "slicing/segment.glsl"
 #ifdef OCCUPIED_ONLY
 #include "slicing/empty_space.glsl"
@@ -25,7 +26,7 @@ void main() {
     if (!(whole.y > whole.x)) discard;
     float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
     float end = min(slab + leaf_slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
-    // Sums of thousands of small terms: with PRECISE_RAYS in double.
+    // These are sums of thousands of small terms, in double with PRECISE_RAYS.
     REAL3 color = REAL3(0.0);
     REAL depth = REAL(0.0);
     REAL transmittance = REAL(1.0);
@@ -34,7 +35,7 @@ void main() {
 #endif
 #ifdef OCCUPIED_ONLY
     BrickRay bricks = brick_ray(ray, whole.x);
-    float shown_end = first;  // slabs before it need not be asked for
+    float shown_end = first;  // slabs before this may show something
 #endif
     for (float i = first; i < end; ++i) {
 #ifdef OCCUPIED_ONLY
@@ -46,7 +47,7 @@ void main() {
         }
         if (i >= end) break;
 #ifdef PREINTEGRATED
-        // After a leap the empty slab before gives the scalar at the front.
+        // After a leap, the last empty slab gives the scalar at the front.
         bool leapt = i > here;
         if (leapt) i -= 1.0;
 #endif

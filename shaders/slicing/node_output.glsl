@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node of a compositing tree that is computed in a program writes (docs/numerics.md, section 4). ROOT:
-// associated colour and opacity, the picture. Else: colour, not associated, and the code of the optical depth;
-// MONOCHROME: the code alone; ALPHA_APART: the code in a texture of its own.
+// Writes a node of a compositing tree that is computed in a program (docs/numerics.md, section 4). ROOT: it writes
+// the picture, associated colour and opacity. Otherwise it writes colour that is not associated, and the code of the
+// optical depth. MONOCHROME: the code alone. ALPHA_APART: the code in a texture of its own.
 #include "compositing/node_code.glsl"
 
 #ifdef ROOT
@@ -13,7 +13,7 @@ layout(location = 1) out vec4 alpha_image;
 #endif
 uniform float node_share;  // of the ray's samples
 #endif
-uniform float largest_color;  // that the images of nodes stand for as 1: fixed point holds no more
+uniform float largest_color;  // the colour that images of nodes store as 1, because fixed point holds no more
 #if defined(MONOCHROME) && !defined(SINGLE_COLOR)
 uniform vec3 single_color;
 #endif

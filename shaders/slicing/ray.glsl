@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewing ray of a fragment in the brick's index space: origin + depth * direction, where depth is eye-space depth
-// from the nearest slab's front on. All coefficients come from the processor in double precision and near the box, so
-// that neither a far eye nor far world coordinates cost accuracy. With PRECISE_RAYS they stay double until a length has
-// been taken: rays that graze a face, and boxes much thinner than long, lose several digits in float.
+// The viewing ray of a fragment in the brick's index space is origin + depth * direction, where depth is eye-space
+// depth from the front of the nearest slab. All coefficients are computed on the processor in double precision and
+// relative to the box, so that neither a far eye nor far world coordinates cost accuracy. With PRECISE_RAYS they stay
+// double until lengths are known: rays that graze a face, and boxes much thinner than long, lose several digits in
+// float.
 #ifdef PRECISE_RAYS
 #define REAL double
 #define REAL2 dvec2
@@ -47,10 +48,10 @@ Ray view_ray(vec2 fragment) {
 
 vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direction); }
 
-// Front and back of `count` slabs from number `slab` on.
+// Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// The depths between which the ray is inside the box and inside the slab; y <= x where it is not.
+// Returns the depths between which the ray is inside the box and inside the slab. Where there are none, y <= x.
 REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));

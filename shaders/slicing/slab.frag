@@ -3,9 +3,9 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// One slab of the slicing renderer: the part of the fragment's ray that lies inside the slab and inside the box.
-// Opacity comes from extinction and true length, never from an assumed step. BITS: opacity is rounded to a code here,
-// by dithering or as render.emulate says; EMULATED: and composited here. OPACITY_ONLY: for a fixed-point node of a tree.
+// One slab of the slicing renderer: the part of the fragment's ray inside the slab and inside the box. Opacity comes
+// from extinction and true length, never from an assumed step. BITS: opacity is rounded to a code here, by dithering
+// or as render.emulate says. EMULATED: it is composited here, too. OPACITY_ONLY: for a fixed-point node of a tree.
 #include "slicing/segment.glsl"
 #ifdef BITS
 #include "compositing/codes.glsl"

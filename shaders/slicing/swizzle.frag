@@ -3,7 +3,7 @@
 #ifdef FRAMEBUFFER_FETCH
 #extension GL_EXT_shader_framebuffer_fetch : require
 #endif
-// The image of a fixed-point node on its way into its parent's buffer (LaMar 2004, section 6.2, "swizzle"): a dependent
+// Maps the image of a fixed-point node into its parent's buffer (LaMar 2004, section 6.2, "swizzle"): a dependent
 // lookup of 1 - (1 - Phi)^share, tabulated in double precision.
 #include "compositing/codes.glsl"
 #ifdef EMULATED

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-// A slice of 8-bit indices through a palette: one that is uploaded for each slice, or with PALETTES, one of as many
-// rows of one texture.
+// Draws a slice of 8-bit indices through a palette. The palette is uploaded for each slice or, with PALETTES, is one
+// of that many rows of a texture.
 uniform sampler2D indices;
 uniform sampler2D palette;  // 256 entries a row
 uniform int slice;

@@ -14,9 +14,10 @@
 namespace lamina {
 namespace {
 
-constexpr int most_links = 40;  // as Linux follows
+constexpr int most_links = 40;  // Linux follows as many
 
-// A link stays a link: what it leads to is written, and need not be there yet.
+// Follows symbolic links, so that the file that a link leads to is written and the link stays. That
+// file need not exist yet.
 std::filesystem::path without_links(std::filesystem::path path) {
     std::error_code failure;
     for (int links = 0; std::filesystem::is_symlink(path, failure); ++links) {
@@ -35,7 +36,7 @@ std::filesystem::path name_beside(const std::filesystem::path& path, int number)
     return path.parent_path() / (name.substr(0, NAME_MAX - suffix.size()) + suffix);
 }
 
-// True also where the file system has no locks.
+// Returns true also where the file system has no locks.
 bool lock(int descriptor) {
     return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
@@ -47,8 +48,8 @@ bool is_at(int descriptor, const std::filesystem::path& path) {
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-// What a killed process left under this name: nobody has its lock. False: it is in use, or not
-// ours.
+// Removes what a killed process left under this name, which nobody has locked. Returns false where
+// the file is in use or is not one of ours.
 bool remove_abandoned(const std::filesystem::path& path) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) return errno == ENOENT;
@@ -88,7 +89,7 @@ bool AtomicFile::open_nameless() {
     descriptor_ = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor_ < 0) return false;
     lock(descriptor_);
-    // Without /proc it could not get a name.
+    // Without /proc the open file could not be given a name.
     if (access(descriptor_path(descriptor_).c_str(), F_OK) == 0) return true;
     close(descriptor_);
     return false;
@@ -101,7 +102,7 @@ void AtomicFile::open_named() {
         if (descriptor_ >= 0) {
             temporary_ = name;
             if (lock(descriptor_) && is_at(descriptor_, name)) return;
-            close(descriptor_);  // before the lock somebody took it for abandoned
+            close(descriptor_);  // before the lock, another process took the file for abandoned
             temporary_.clear();
             continue;
         }
@@ -129,13 +130,13 @@ void AtomicFile::close_stream() {
     if (stream_ == nullptr) return;
     std::FILE* const stream = stream_;
     stream_ = nullptr;
-    // Who wrote may have passed over an error: some libraries do in their destructors.
+    // Some libraries write in their destructors and pass over errors there, so the stream is asked.
     const bool broken = std::ferror(stream) != 0;
     if (std::fclose(stream) != 0) give_up(errno);
     if (broken) give_up(EIO);
 }
 
-// A name that exists cannot be given: rename() can replace, but needs one to begin with.
+// linkat() cannot give a name that exists. rename() replaces files, but needs one that has a name.
 void AtomicFile::give_name() {
     const std::string unnamed = descriptor_path(descriptor_);
     for (int number = 0; temporary_.empty();) {

@@ -18,8 +18,9 @@ struct ProgressListener {
     std::atomic<bool> busy{false};
 };
 
-// Whom a thread works for. Programs with one client need none: their signals stop the work
-// (base/interrupt.h), the process's taker hears warnings, the terminal shows progress.
+// Whom a thread works for. The client of a program is its user: signals request the stop
+// (base/signal_stop.h); without a taker of its own the process's taker hears warnings, and without
+// a listener the terminal shows progress.
 struct Client {
     std::stop_token stop;
     const WarningTaker* warnings = nullptr;

@@ -31,7 +31,7 @@ std::string read_file_bytes(const std::filesystem::path& path) {
                                                                &std::fclose);
     if (!file) fail("{}: cannot read: {}", path.string(), std::strerror(errno));
 
-    constexpr std::size_t step = std::size_t{1} << 26;  // how often to look for Ctrl-C
+    constexpr std::size_t step = std::size_t{1} << 26;  // bytes between checks for a requested stop
     std::string bytes(size, '\0');
     for (std::size_t done = 0; done < bytes.size();) {
         check_interrupt();
@@ -42,7 +42,7 @@ std::string read_file_bytes(const std::filesystem::path& path) {
         if (std::ferror(file.get()) != 0) {
             fail("{}: cannot read: {}", path.string(), std::strerror(errno));
         }
-        bytes.resize(done);  // cut by somebody else meanwhile
+        bytes.resize(done);  // another process has shortened the file meanwhile
     }
     return bytes;
 }

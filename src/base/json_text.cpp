@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Iterates over a text, tells how far it has come (parsers copy their iterators), and hears
-// signals.
+// An iterator over a text. It reports how far it has come, because parsers copy their iterators,
+// and checks for a requested stop.
 class Cursor {
   public:
     using iterator_category = std::input_iterator_tag;
@@ -42,8 +42,8 @@ class Cursor {
     const char** farthest_;
 };
 
-// Builds the document event by event. The library's own builder with a callback looks through a
-// whole list again after each object in it, and so needs quadratic time.
+// Builds the document from the parser's events. The library's own builder, with a callback, looks
+// through a whole list again after each object in it, which takes quadratic time.
 class Builder : public nlohmann::json_sax<Json> {
   public:
     explicit Builder(std::string_view text) : text_(text), farthest_(text.data()) {}
@@ -112,7 +112,7 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     [[noreturn]] void stop(const std::string& problem) const { fail("{}: {}", place(), problem); }
-    // The place of the byte that was read last.
+    // Returns line and column of the byte that was read last.
     std::string place() const {
         const auto done = static_cast<std::size_t>(farthest_ - text_.data());
         const std::string_view read = text_.substr(0, done);

@@ -23,7 +23,7 @@ class JsonSyntaxError : public Error {
 };
 
 // Parses a JSON text. All JSON that a user can write is parsed here: time and memory are
-// proportional to the text's length, and signals are noticed (throws Interrupted). Throws
+// proportional to the text's length, and a requested stop is noticed (throws Interrupted). Throws
 // JsonSyntaxError, and Error where a key occurs twice in one object or a limit is exceeded. Both
 // give line and column.
 nlohmann::json parse_json(std::string_view text);

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
 
 bool is_there(const std::filesystem::path& path) {
-    std::error_code ignored;  // a link that leads nowhere is somebody's, too
+    std::error_code ignored;  // a link that leads nowhere is there, too
     return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
 }
 
@@ -38,8 +38,8 @@ std::set<std::string> OwnFiles::listed() const {
 }
 
 void OwnFiles::expect_own(const std::vector<std::string>& names) const {
-    // First what is there, then the list: another process that writes into the folder at the same
-    // time puts its files on the list before it makes them.
+    // The folder is read before the list, because another process that writes into the folder at
+    // the same time puts its files on the list before it makes them.
     std::vector<std::string> there;
     for (const std::string& name : names) {
         if (is_there(folder_ / name)) there.push_back(name);

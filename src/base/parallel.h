@@ -16,7 +16,7 @@
 namespace lamina {
 
 // Calls body(i) for every i in [0, count) on all cores, in no particular order. The loop ends early
-// on an exception, which is rethrown, on Ctrl-C, and on a requested stop. `grain`: number of calls
+// on an exception, which is rethrown, and when its client requests a stop. `grain`: number of calls
 // in one task, which should take at least some 10 us.
 template <typename Body>
 void parallel_for(std::int64_t count, std::int64_t grain, const Body& body) {

@@ -13,8 +13,8 @@ unsigned byte_at(std::string_view text, std::size_t at) {
     return static_cast<unsigned char>(text[at]);
 }
 
-// Bytes of the character that `text` begins with; 0 where it is none of UTF-8 (The Unicode
-// Standard, table 3-7: no longer forms than needed, no surrogates, nothing above U+10FFFF).
+// Returns the length of the character that `text` begins with, or 0 where it is not valid UTF-8
+// (The Unicode Standard, table 3-7: no overlong forms, no surrogates, nothing above U+10FFFF).
 std::size_t character_length(std::string_view text) {
     const unsigned first = byte_at(text, 0);
     if (first < 0x80) return 1;

@@ -7,7 +7,7 @@
 namespace lamina {
 namespace {
 
-// So many spans are kept before more memory is taken: some thousand frames.
+// The spans of some thousand frames fit without taking more memory.
 constexpr std::size_t spans_at_first = 1 << 14;
 
 std::atomic<Profile*> current = nullptr;

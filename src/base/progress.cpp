@@ -27,7 +27,7 @@ Progress::~Progress() {
     if (drawn_ && listener_ == nullptr) replace_line("");
 }
 
-// False where nobody wants to know, or another one is shown.
+// Returns false where nobody listens, or where an outer piece of work reports already.
 bool Progress::begin() {
     if (listener_ != nullptr) return listener_->report && !listener_->busy.exchange(true);
     return !quiet_process && isatty(STDERR_FILENO) != 0 && !one_is_shown.exchange(true);

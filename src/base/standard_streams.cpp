@@ -27,8 +27,8 @@ void make_streams_safe() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
         if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-        // The other way round: reading from stdin and writing to the others fails. The lowest
-        // free descriptor is this one.
+        // Opened the other way round, reading from stdin and writing to the others fails. open()
+        // returns the lowest free descriptor, which is this one.
         open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
 }

@@ -21,7 +21,7 @@ namespace {
 int open_nameless(const std::string& folder) {
     const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
     if (descriptor >= 0) return descriptor;
-    std::string name = folder + "/lamina-XXXXXX";  // a file system that cannot do that
+    std::string name = folder + "/lamina-XXXXXX";  // some file systems have no O_TMPFILE
     const int named = mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0) unlink(name.c_str());
     return named;

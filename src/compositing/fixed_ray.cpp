@@ -23,7 +23,7 @@ class Coder {
 
     std::uint32_t largest() const { return largest_code(emulation_.bits); }
 
-    // `stage`: a number of its own for every rounding in a pixel.
+    // `stage` is a number of its own for every rounding in a pixel.
     std::uint32_t round(double opacity, std::uint32_t stage) const {
         const double scaled = largest() * opacity;
         const std::uint32_t random = emulation_.alpha == AlphaRounding::stochastic
@@ -91,8 +91,8 @@ class TreeCompositor {
             opacity_over(unit_opacities_[static_cast<std::size_t>(slab)], share), slab);
     }
 
-    // The paper's exponent-swizzle of a node's image into its parent's input. Nodes are numbered
-    // as they are evaluated, behind the samples.
+    // The paper's exponent-swizzle, from a node's image into its parent's input. Nodes are numbered
+    // as they are evaluated, after the samples.
     std::uint32_t swizzle(std::uint32_t code, double share) {
         const double phi = static_cast<double>(code) / coder_.largest();
         const auto stage = static_cast<std::uint32_t>(tree_.samples() + swizzled_++);

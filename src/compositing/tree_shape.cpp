@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-// `what`: for the message.
+// `what` names the number in messages.
 int parse_whole(const char*& at, const char* end, const char* what, int most,
                 const std::string& text) {
     int number = 0;

@@ -10,8 +10,8 @@ namespace {
 enum TextureUnit { intervals_unit, interval_starts_unit, preintegration_unit };
 static_assert(preintegration_unit < GlTransferTables::first_free_unit);
 
-// rgba of a coloured table: emission and mean extinction, one layer a length; a single channel
-// without colour.
+// The texels of a coloured table are emission and mean extinction, those of a table without colour
+// mean extinction alone. Each length is a layer.
 gl::Texture upload_table(const PreintegrationTable& table) {
     const std::size_t nodes = table.nodes.size();
     const int size = static_cast<int>(nodes);

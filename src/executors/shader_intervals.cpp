@@ -20,7 +20,7 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
 }
 
-// What a float32 of the extinction leaves over: codes of n bits are computed in double precision.
+// The part of the extinction that float32 drops. Codes of n bits are computed in double precision.
 float low_part(const OpticalProperties& optics) {
     const double extinction = std::min(optics.extinction, max_shader_extinction);
     return static_cast<float>(extinction - static_cast<double>(static_cast<float>(extinction)));

@@ -19,7 +19,7 @@ Swizzle make_swizzle(double share, int bits) {
     return swizzle;
 }
 
-// Nodes of a level have one of few sizes: each once.
+// Nodes of a level have one of few sizes. Each size is added once.
 void add_swizzles(const TreeShape& shape, int bits, int level, const SampleSpan& node,
                   Swizzles& swizzles) {
     if (shape.is_leaf(level, node)) return;

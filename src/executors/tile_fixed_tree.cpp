@@ -8,8 +8,8 @@ namespace lamina {
 struct TileFixedTree::Evaluation {
     const TileGrid::Tile& area;
     TileLeaves& leaves;
-    std::uint32_t swizzled = 0;  // nodes so far
-    // By level; a shape may have one level more than its factors.
+    std::uint32_t swizzled = 0;  // number of nodes so far
+    // There is one plane a level. A shape may have one level more than its factors.
     alignas(64) std::array<TilePixels::Plane, max_tree_levels + 1> planes;
 };
 

@@ -15,8 +15,8 @@ namespace lamina::HWY_NAMESPACE {
 using Tag = hn::CappedTag<float, TileGrid::block * TileGrid::block>;
 using Wide = hn::Repartition<double, Tag>;
 
-// The image of a node on its way into its parent's (LaMar 2004, section 6.2, "swizzle"), as
-// shaders/slicing/swizzle.frag.
+// Maps the image of a node to its parent's (LaMar 2004, section 6.2, "swizzle"), as
+// shaders/slicing/swizzle.frag does.
 void swizzle_pixels(const TileSwizzle& swizzle, const TileGrid::Tile& area,
                     const TilePixels::Plane& child, TilePixels::Plane& node) {
     const Tag d;
@@ -52,7 +52,8 @@ void swizzle_pixels(const TileSwizzle& swizzle, const TileGrid::Tile& area,
     }
 }
 
-// The picture of one colour and the opacity in the root, as shaders/slicing/colorize.frag.
+// Makes the picture of one colour and the opacity in the root, as shaders/slicing/colorize.frag
+// does.
 void colorize_pixels(const TargetBlend& target, bool emulated,
                      const std::array<float, 3>& single_color, const TilePixels::Plane& root,
                      TilePixels& pixels) {

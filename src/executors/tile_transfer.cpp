@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-// Coloured tables are read entry by entry: extinction stands beside emission.
+// Coloured tables are read entry by entry, so extinction stands beside emission.
 TileTransfer::Texels with_extinction(const PreintegrationTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
     TileTransfer::Texels texels(entries * 4 * layers);

@@ -35,7 +35,7 @@ int largest_render_target() {
                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
 }
 
-// Tells software that comes through a device that claims to be hardware (kernel drivers without a
+// Recognises software renderers behind devices that claim to be hardware (kernel drivers without a
 // GPU).
 bool is_software_renderer(const std::string& renderer) {
     return renderer.find("llvmpipe") != std::string::npos ||
@@ -108,8 +108,8 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
 
-    // Only errors are logged, for check(); a dither of the driver's own would spoil every
-    // fixed-point target.
+    // Only errors are logged, for check(). Dithering by the driver would change every fixed-point
+    // target.
     api().Enable(GL_DEBUG_OUTPUT);
     api().DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
     api().DebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);

@@ -38,8 +38,8 @@ CurrentContext::CurrentContext(Context& context) : context_(context), before_(cu
     current_of_thread = &context_;
 }
 
-// EGL's goes first: Mesa's EGL and OSMesa have one notion of what is current, and OSMesa would take
-// a context of EGL for one of its own.
+// EGL's context goes first, because Mesa's EGL and OSMesa share one notion of what is current:
+// OSMesa would take a context of EGL for one of its own.
 void CurrentContext::take() {
     egl_ = release_egl();
     osmesa_ = release_osmesa();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// EGL by dlopen: the declarations of its headers are used for their types only, nothing is linked.
+// EGL is loaded by dlopen(). The declarations of its headers are used for their types only, and
+// nothing is linked.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -19,8 +20,8 @@ namespace {
 
 constexpr const char* library_name = "libEGL.so.1";
 
-// Mesa's loader reports every driver that it tries in vain on stderr; failures reach the user
-// through Error.
+// Mesa's loader reports every driver that it tries in vain on stderr. Failures reach the user
+// through Error instead.
 SharedLibrary load_quietly() {
     setenv("EGL_LOG_LEVEL", "fatal", 0);
     return SharedLibrary{library_name};
@@ -49,7 +50,7 @@ struct Egl {
         library.function<decltype(&eglGetCurrentDisplay)>("eglGetCurrentDisplay");
     decltype(&eglGetCurrentSurface) current_surface =
         library.function<decltype(&eglGetCurrentSurface)>("eglGetCurrentSurface");
-    // Extensions: null where EGL lacks them.
+    // These are extensions, and null where EGL lacks them.
     PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     PFNEGLQUERYDEVICESEXTPROC query_devices =
@@ -116,7 +117,7 @@ std::vector<Route> device_routes() {
     return hardware;
 }
 
-// Hardware first.
+// Hardware comes first.
 std::vector<Route> all_routes() {
     std::vector<Route> routes;
     const char* extensions = egl().query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);

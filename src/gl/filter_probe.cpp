@@ -24,8 +24,9 @@ constexpr int samples = 16;  // a side of the image
 template <typename Value>
 using Values = std::array<Value, texels * texels * texels>;
 
-// How a format's values are probed: where textures give them as value / scale, they are scattered
-// over [least, least + range). Of codes, so few that rounded results show beside rounded weights.
+// How a format's values are probed. Textures give them as value / scale, scattered over [least,
+// least + range). Of codes there are so few that rounding of results shows beside rounding of
+// weights.
 struct Probe {
     double scale, least, range;
 };
@@ -62,7 +63,7 @@ double trilinear(const Values<Value>& values, const std::array<double, 3>& posit
     return sum;
 }
 
-// Of fragment `index`, in texels from the centre of the first one: as in
+// Returns the place of fragment `index`, in texels from the centre of the first texel, as in
 // shaders/gl/filter_probe.frag.
 std::array<double, 3> probe_position(int index) {
     return {index * 467 % 12288 / 4096.0, index * 1283 % 12288 / 4096.0,

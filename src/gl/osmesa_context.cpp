@@ -48,7 +48,8 @@ struct Osmesa {
         library.function<decltype(get_proc_address)>("OSMesaGetProcAddress");
 };
 
-// OSMesa crashes where this names a driver that it does not have, and no other one has OpenGL 4.5.
+// Checks the driver that the environment asks for. OSMesa crashes where it does not have that
+// driver, and only one driver has OpenGL 4.5.
 void check_driver_asked_for() {
     const char* const driver = std::getenv("GALLIUM_DRIVER");
     if (driver != nullptr && std::string_view(driver) != "llvmpipe")

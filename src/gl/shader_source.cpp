@@ -14,7 +14,8 @@
 namespace lamina::gl {
 namespace {
 
-// The word after the line's '#': "include", "version"; empty where it is no directive.
+// Returns the word after the line's '#', such as "include" or "version". It is empty where the line
+// is no directive.
 std::string directive_of(const std::string& line) {
     static const std::regex pattern("^\\s*#\\s*(\\w+)");
     std::smatch match;
@@ -83,7 +84,7 @@ class Composer {
         if (std::find(open_.begin(), open_.end(), name) != open_.end()) {
             fail("{}: {} includes itself: {} -> {}", where, name, fmt::join(open_, " -> "), name);
         }
-        // The preprocessor drops repetitions: only it knows which #if branches are alive.
+        // Repetitions are left to the preprocessor: only it knows which #if branches are alive.
         const std::string guard = guard_of(name);
         append_text("#ifndef " + guard, place);
         append_text("#define " + guard, place);

@@ -38,7 +38,7 @@ std::int64_t texel_count(const TexelBox& box) {
            inner.y + inner.height <= outer.height && inner.z + inner.depth <= outer.depth;
 }
 
-// Texels from the box's first to its last one in memory, both included.
+// Returns the number of texels in memory from the box's first to its last one, both included.
 [[maybe_unused]] std::size_t texel_span(const TexelBox& box, PixelStore store) {
     const std::size_t row =
         static_cast<std::size_t>(store.row_length ? store.row_length : box.width);
@@ -170,7 +170,7 @@ std::vector<float> Texture::read_rgba() const {
 
 void Texture::read_rgba(std::span<float> rgba) const {
     assert(rgba.size() == 4 * static_cast<std::size_t>(texel_count(whole_)));
-    // In bands of rows, because OpenGL counts the bytes of one transfer in an int.
+    // The transfer goes in bands of rows, because OpenGL counts its bytes in an int.
     const std::size_t row_floats = 4 * static_cast<std::size_t>(width());
     const std::size_t band_floats = std::size_t{1} << 24;
     const int band_rows = static_cast<int>(std::max(band_floats / row_floats, std::size_t{1}));

@@ -19,8 +19,8 @@ bool is_recording() {
     return bits > 0;
 }
 
-// To be added to OpenGL's clock: it is read between two looks at the host's, some times, and the
-// shortest time between them counts.
+// Returns what is added to OpenGL's clock to get the host's. OpenGL's clock is read between two
+// readings of the host's, several times, and the pair with the shortest time between them counts.
 std::int64_t clock_offset() {
     constexpr int looks = 5;
     std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), offset = 0;
@@ -38,8 +38,8 @@ std::int64_t clock_offset() {
 
 }  // namespace
 
-// A renderer that draws tile after tile (llvmpipe) comes by a query once a tile and keeps the last
-// time: what is submitted before and after a span's beginning must not be drawn together.
+// A renderer that draws tile after tile (llvmpipe) meets a query once a tile and keeps the last
+// time. So what is submitted before and after the beginning of a span must not be drawn together.
 void Timeline::begin(const char* name) {
     if (!is_recording()) return;
     api().Flush();

@@ -39,7 +39,8 @@ Difference difference(const CodedImage& a, const CodedImage& b) {
     if (a.channels != b.channels) {
         fail("the images differ in channels: {} and {}", a.channels, b.channels);
     }
-    // Over one denominator, so that equal codes differ by exactly 0 whatever their depths.
+    // Both codes are brought to one denominator, so that equal codes differ by exactly 0 whatever
+    // their depths.
     const int unit_a = a.bit_depth == 16 ? 1 : 257;
     const int unit_b = b.bit_depth == 16 ? 1 : 257;
     result.e.resize(a.codes.size());

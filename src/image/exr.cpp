@@ -110,8 +110,7 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
         fail("{}: channels are {}; expected R, G, B and perhaps A, or Y", name,
              one_line(found.names));
     }
-    // Deflate reaches 1032:1; the rest of the allowance is for codecs that drop what they deem
-    // invisible.
+    // Deflate reaches 1032:1. The rest of the allowance is for lossy codecs.
     check_file_can_hold(name, found.bytes_per_pixel * static_cast<std::uint64_t>(width * height),
                         file_bytes, 1 << 16);
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t magic_number = 20000630;
 constexpr std::uint32_t several_parts = 1u << 12;  // flag in the version: more than one header
 constexpr std::size_t longest_name = 255;
 
-// The types of one size, in bytes.
+// Types of attributes whose values have one size, in bytes.
 constexpr std::pair<std::string_view, std::uint32_t> sizes_of_types[] = {
     {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
     {"compression", 1}, {"double", 8},   {"envmap", 1},
@@ -33,7 +33,7 @@ constexpr std::pair<std::string_view, std::uint32_t> sizes_of_types[] = {
     {"v3d", 24},        {"rational", 8}, {"lineOrder", 1},
     {"timecode", 8},    {"tiledesc", 9}, {"deepImageState", 1}};
 
-// Little endian; there must be four bytes at `at`.
+// Reads a little-endian number. There must be four bytes at `at`.
 std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     std::uint32_t number = 0;
     for (std::size_t i = 4; i-- > 0;)
@@ -41,7 +41,8 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-// Whether channels (a name, a zero, 16 bytes each) end with an empty name and the value with it.
+// Returns whether the list of channels (a name, a zero and 16 bytes each) ends with an empty name
+// exactly where the value ends.
 bool channels_fill(std::string_view value) {
     constexpr std::size_t channel_bytes = 16;
     std::size_t at = 0;
@@ -53,14 +54,15 @@ bool channels_fill(std::string_view value) {
     return at + 1 == value.size();
 }
 
-// Whether strings (their length, then as many bytes each) end where the value does.
+// Returns whether the last of the strings (a length, then as many bytes) ends exactly where the
+// value ends.
 bool strings_fill(std::string_view value) {
     std::uint64_t at = 0;
     while (at + 4 <= value.size()) at += 4 + std::uint64_t{number_at(value, at)};
     return at == value.size();
 }
 
-// Width, height, and four bytes a pixel.
+// A preview has a width, a height, and four bytes a pixel.
 bool preview_fills(std::string_view value) {
     if (value.size() < 8) return false;
     const std::uint64_t width = number_at(value, 0), height = number_at(value, 4);
@@ -91,7 +93,7 @@ class HeaderWalk {
     }
 
   private:
-    // Of one header; false where it has none, or the file ends.
+    // Checks the attributes of one header. Returns false where there are none, or the file ends.
     bool check_attributes() {
         window_.reset();
         tile_.reset();
@@ -129,8 +131,8 @@ class HeaderWalk {
         }
     }
 
-    // Behind the headers, the place of each tile or other chunk takes 8 bytes. (Numbers of tiles
-    // along an edge are below 2^33: as doubles, their product cannot overflow.)
+    // The headers are followed by a table with 8 bytes for each tile or other chunk. (Numbers of
+    // tiles along an edge are below 2^33, so their product does not overflow a double.)
     void check_tables() const {
         double chunks = chunks_;
         if (window_ && tile_ && (*tile_)[0] > 0 && (*tile_)[1] > 0) {
@@ -165,7 +167,7 @@ class HeaderWalk {
     std::string name_;
     std::ifstream stream_;
     std::uint64_t file_bytes_;
-    // Of the header that was read last.
+    // These are of the header that was read last.
     std::optional<std::array<std::int64_t, 2>> window_, tile_;
     std::uint32_t chunks_ = 0;
 };

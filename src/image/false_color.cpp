@@ -10,8 +10,9 @@ namespace {
 
 using Rgb = std::array<int, 3>;
 
-// ColorBrewer's RdBu (Brewer, Harrower), the diverging scheme that stays legible with every common
-// colour-vision deficiency; its middle is made pure white. From 0 outwards, at equal steps.
+// The diverging scheme RdBu of ColorBrewer (Brewer, Harrower), which stays legible with every
+// common colour-vision deficiency. Its middle is made pure white. The colours run from 0 outwards
+// at equal steps.
 constexpr std::array<Rgb, 6> blues = {{{255, 255, 255},
                                        {209, 229, 240},
                                        {146, 197, 222},

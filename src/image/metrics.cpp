@@ -34,7 +34,7 @@ ImageError measure(const Difference& difference) {
     std::vector<Sums> sums(channels);
     for (int row = 0; row < difference.height; ++row) {
         std::vector<Sums> of_row(
-            channels);  // rows by themselves keep the rounding of long sums small
+            channels);  // each row is summed by itself, which keeps rounding small
         const double* const e = &difference.e[static_cast<std::size_t>(row) * row_numbers];
         for (std::size_t i = 0; i < row_numbers; ++i) {
             const int column = static_cast<int>(i / channels);

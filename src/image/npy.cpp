@@ -36,7 +36,7 @@ class HeaderText {
   public:
     HeaderText(const std::string& name, std::string_view text) : name_(name), text_(text) {}
 
-    // What follows `key`, without leading blanks.
+    // Returns what follows `key`, without leading blanks.
     std::string_view value(std::string_view key) const {
         std::size_t at = text_.find(fmt::format("'{}'", key));
         if (at != std::string_view::npos) at = text_.find(':', at);
@@ -74,7 +74,7 @@ class HeaderText {
              one_line(std::string(shown)), closing == ')' && end < 40 ? ")" : "", expected);
     }
 
-    // "(2, 3, 4)"; empty when it is none.
+    // Reads a tuple such as "(2, 3, 4)". Returns an empty list where the text is none.
     static std::vector<std::int64_t> tuple(std::string_view text) {
         std::vector<std::int64_t> numbers;
         const char* at = text.data();

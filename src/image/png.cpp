@@ -28,10 +28,10 @@ void on_error(png_structp png, png_const_charp text) {
 }
 
 void on_warning(png_structp /*png*/, png_const_charp /*text*/) {
-}  // chunks that codes do not depend on
+}  // warnings are about chunks that do not change codes
 
-// Runs libpng calls, which leave through longjmp when they fail; false when they did. `body` must
-// own nothing that needs a destructor.
+// Runs calls of libpng, which leaves them by longjmp() when it fails. Returns false then. `body`
+// must own nothing that needs a destructor.
 template <typename Body>
 [[nodiscard]] bool succeeds(png_structp png, const Body& body) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
@@ -39,7 +39,7 @@ template <typename Body>
     return true;
 }
 
-// libpng's own way would not say why.
+// libpng's own function would not say why a write fails.
 void write_block(png_structp png, png_bytep bytes, std::size_t count) {
     auto* const stream = static_cast<std::FILE*>(png_get_io_ptr(png));
     if (std::fwrite(bytes, 1, count, stream) != count) png_error(png, std::strerror(errno));
@@ -92,7 +92,7 @@ void unpack(const std::vector<png_byte>& bytes, CodedImage& image) {
     }
 }
 
-// Expansions that make every PNG one of CodedImage's kinds.
+// Requests the expansions that turn every PNG into one of CodedImage's kinds.
 void expand(Reader& reader) {
     if (png_get_color_type(reader.png, reader.info) == PNG_COLOR_TYPE_PALETTE) {
         png_set_palette_to_rgb(reader.png);
@@ -188,14 +188,15 @@ CodedImage read_png(const std::filesystem::path& path) {
     const bool has_header = succeeds(reader.png, [&] {
         png_init_io(reader.png, file.get());
         png_set_user_limits(reader.png, max_image_side, max_image_side);
-        // All chunks that codes do not depend on: libpng takes memory for some on their word.
+        // libpng takes memory for some chunks on their word alone, so all that do not change codes
+        // are ignored.
         png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(reader.png, reader.info);
     });
     if (!has_header) bad_file();
     const std::int64_t height = png_get_image_height(reader.png, reader.info);
     check_image_size(name, png_get_image_width(reader.png, reader.info), height);
-    // 1032:1 is the most that deflate, the only codec of PNG, can reach.
+    // Deflate, the only codec of PNG, reaches 1032:1.
     check_file_can_hold(
         name, png_get_rowbytes(reader.png, reader.info) * static_cast<std::uint64_t>(height),
         file_bytes, 1032);

@@ -5,9 +5,7 @@
 
 #include "base/error.h"
 #include "base/unreachable.h"
-#include "mesh/face_tree.h"
-#include "reference/mesh_tracer.h"
-#include "reference/volume_tracer.h"
+#include "reference/scene_tracer.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -34,7 +32,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
     check_view(scene.camera, scene.width, scene.height);
 }
 
-// A renderer of OpenGL ends while its context is current.
+// The context must be current when a renderer of OpenGL is destroyed.
 Session::Parts::~Parts() {
     if (drawn) run([&] { drawn.reset(); });
 }
@@ -89,20 +87,11 @@ void Session::Parts::draw() {
 }
 
 void Session::Parts::trace() {
-    const View view(scene.camera, scene.width, scene.height);
-    if (scene.draws_mesh()) {
-        const SceneMesh& data = mesh_data();
-        const FaceTree open_faces(data.mesh, data.mesh.open_faces());
-        truth = trace_mesh(data.mesh, open_faces, data.scalar.values, scene.transfer_function, view)
-                    .image;
-    } else {
-        truth = trace_volume(volume_data().volume, scene.transfer_function, view,
-                             {scene.trace_tolerance})
-                    .image;
-    }
+    truth = scene.draws_mesh() ? lamina::trace(scene, mesh_data()).image
+                               : lamina::trace(scene, volume_data().volume).image;
 }
 
-// A mesh that is made from a volume follows the transfer function.
+// A mesh that is made from a volume depends on the transfer function.
 bool Session::Parts::changes_mesh(const Scene& next) const {
     if (mesh_given) return false;
     const bool made = scene.mesh_file.empty(), makes = next.mesh_file.empty();

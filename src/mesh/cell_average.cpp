@@ -23,7 +23,7 @@ MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
     }
     for (std::size_t i = 0; i < tets.size(); ++i) {
         for (const std::int32_t corner : tets[i]) {
-            // Divided before it is added, so that no sum overflows.
+            // Values are divided before they are added, so that no sum overflows.
             const auto point = static_cast<std::size_t>(corner);
             result.values[point] += scalar.values[i] / around[point];
         }

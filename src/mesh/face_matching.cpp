@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t points_per_task = 1024;
 
-// A face in the bucket of its least corner. `code`: 4 * tet + face.
+// A face in the bucket of its least corner. `code` is 4 * tet + face.
 struct FaceKey {
     std::int32_t middle, largest;
     std::uint32_t code;
@@ -35,7 +35,7 @@ std::array<std::int32_t, 3> ascending_corners(const Tet& tet, std::size_t face) 
     return {a, b, c};
 }
 
-// All faces, those with least corner p at start[p] .. start[p + 1] - 1.
+// All faces. Those with least corner p are at start[p] .. start[p + 1] - 1.
 struct FaceBuckets {
     std::vector<std::uint32_t> start;
     std::vector<FaceKey> faces;
@@ -103,8 +103,9 @@ class Matcher {
     std::int32_t opposite(const FaceKey& key) const {
         return tets_[static_cast<std::size_t>(key.tet())][key.face()];
     }
-    // Tets over one face with one opposite corner are the same tet. Each is met in the bucket of
-    // its least corner alone (the face opposite the largest), so that no two tasks write one mark.
+    // Tets with a common face and the same opposite corner are the same tet. They are marked only
+    // at the face opposite their largest corner, in the bucket of their least one, so that no two
+    // tasks write one mark.
     void mark_duplicates(std::span<const FaceKey> group) {
         std::vector<FaceKey> by_apex(group.begin(), group.end());
         std::sort(by_apex.begin(), by_apex.end(), [&](const FaceKey& a, const FaceKey& b) {

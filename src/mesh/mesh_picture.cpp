@@ -47,7 +47,7 @@ class Panel {
         scale_ = reach > 0 ? 0.5 * side / reach : 1;
     }
 
-    // Place in the panel, in pixels, rows downwards.
+    // Returns the place in the panel, in pixels, rows downwards.
     glm::dvec2 place(const glm::dvec3& point) const {
         const glm::dvec3 p = point - center_;
         return {0.5 * side_ + scale_ * glm::dot(p, right_),
@@ -185,7 +185,7 @@ class MeshPainter {
         });
     }
 
-    // The pixels whose point on the plane lies inside the tet, by its barycentric coordinates.
+    // Draws the pixels whose point on the plane lies inside the tet by its barycentric coordinates.
     void cut_tet(std::size_t index, int axis, double plane, Panel& panel) const {
         const Tet& tet = mesh_.tets()[index];
         const glm::dvec3& a = point(tet[0]);

@@ -55,7 +55,7 @@ std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
     return edges;
 }
 
-// How the faces of one edge meet, seen from the first.
+// Returns how the faces of one edge meet, seen from the first.
 Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdge& second,
                double tolerance) {
     const auto point = [&](std::int32_t index) -> const glm::dvec3& {
@@ -70,14 +70,14 @@ Convexity bend(const TetMesh& mesh, const BoundaryEdge& first, const BoundaryEdg
     const int sign = orientation(point(a), point(b), point(c), apex);
     if (sign < 0) return Convexity::exact;
     const glm::dvec3 n = normal(first.face);
-    // Flat, but not folded back onto itself.
+    // The faces lie in one plane. They must not be folded back onto each other.
     if (!(glm::dot(n, normal(second.face)) > 0)) return Convexity::none;
     if (sign == 0) return Convexity::exact;
     return glm::dot(n, apex - point(a)) <= tolerance * glm::length(n) ? Convexity::within_rounding
                                                                       : Convexity::none;
 }
 
-// Sets of faces that hang together.
+// Disjoint sets of faces. The faces of one set are connected.
 class FaceSets {
   public:
     explicit FaceSets(std::size_t faces) : parent_(faces), count_(faces) {

@@ -10,9 +10,10 @@
 namespace lamina {
 namespace {
 
-// Half an ulp of 1, as Shewchuk counts.
+// Half an ulp of 1, which Shewchuk calls epsilon.
 constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
-// His error bound for orient3d with rounded differences ("o3derrboundA"): of the permanent.
+// Shewchuk's error bound for orient3d with rounded differences ("o3derrboundA"), as a share of the
+// permanent.
 constexpr double error_bound = (7 + 56 * half_ulp) * half_ulp;
 
 // A sum of doubles without any rounding: nonoverlapping components, smallest first (Shewchuk,

@@ -14,23 +14,24 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// x and y of a point at distance P (1-norm) from the ray's origin are off by at most: half an ulp
-// from each difference, three products and two sums, and the axes, which are across the ray but for
-// 4 ulps: below 8 epsilon P in all.
+// x and y of a point at distance P (1-norm) from the ray's origin are off by less than 8 epsilon P:
+// half an ulp from each difference, three products and two sums, and axes that are across the ray
+// to 4 ulps.
 constexpr double place_error = 8 * epsilon;
 
-// An open face that is met this share of the scale before the last exit still counts as met after
-// it: crossings are good to some epsilon of the distance, and meshes may touch themselves.
+// An open face that is met by this share of the scale before the last exit still counts as met
+// after it, because crossings are good to some epsilon of the distance, and meshes may touch
+// themselves.
 constexpr double touching = 1e-12;
 
-// a * b - c * d to 2 ulps of itself (Kahan; Jeannerod, Louvet, Muller 2013): faces seen edge-on
-// keep their weights.
+// Computes a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), so that faces seen
+// edge-on keep their weights.
 double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 }
 
-// The place nearest to the line (0, 0) on the segment from a to b.
+// The point nearest to the line (0, 0) on the segment from a to b.
 struct Nearest {
     double share;  // of b
     double distance;
@@ -75,9 +76,10 @@ RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const {
     return {area * sign > 0 ? area : 0, sign};
 }
 
-// The sign of det(d, p - o, q - o); where it is 0, that of the line moved by o += (e, e^2, e^3) and
-// then turned by d += (f, f^2, f^3), f infinitely smaller than any power of e: its terms in order
-// of their size (E = q - p). Two points p != q leave one of them unequal to 0.
+// Returns the sign of det(d, p - o, q - o). Where that is 0, it returns the sign for the perturbed
+// line, which is moved by o += (e, e^2, e^3) and then turned by d += (f, f^2, f^3), f infinitely
+// smaller than any power of e. The terms follow in the order of their size (E = q - p). For two
+// points p != q one of them is not 0.
 int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     const glm::dvec3 none(0);
     if (const int sign = sign_of_determinant(direction_, none, p, origin_, q, origin_)) return sign;
@@ -107,7 +109,7 @@ FaceCrossing RayWalk::crossing(const Front& front) {
     if (sides[0].area > 0 && sides[1].area > 0 && sides[2].area > 0) {
         const double sum = sides[0].area + sides[1].area + sides[2].area;
         result.weights = {sides[1].area / sum, sides[2].area / sum, sides[0].area / sum};
-    } else {  // within rounding of an edge or of a corner, and there it is
+    } else {  // the line is within rounding of an edge or a corner, and that is the place
         double best = INFINITY;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
@@ -119,13 +121,13 @@ FaceCrossing RayWalk::crossing(const Front& front) {
             result.weights[j] = place.share;
         }
     }
-    // From one corner's parameter, so that far from the origin no digits are lost.
+    // This is relative to one corner's parameter, so that far from the origin no digits are lost.
     result.at = corners[0].at + (result.weights[1] * (corners[1].at - corners[0].at) +
                                  result.weights[2] * (corners[2].at - corners[0].at));
     return result;
 }
 
-// With the corners counter-clockwise for a line that comes in.
+// The corners are counter-clockwise for a line that comes in.
 RayWalk::Front RayWalk::front_of(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
                                            static_cast<std::size_t>(face.face));

@@ -30,8 +30,8 @@ bool repeats_corner(Tet corners) {
     return std::adjacent_find(corners.begin(), corners.end()) != corners.end();
 }
 
-// Do two neighbours see their common face from its two sides, by the order of its corners? `face`:
-// of `tet`, opposite a corner that `other` does not have.
+// Returns whether two neighbours lie on the two sides of their common face, by the order of its
+// corners. `face` is the face of `tet`, opposite the corner that `other` lacks.
 bool opposite_sides(const Tet& tet, std::size_t face, const Tet& other) {
     const auto [p, q, r] = corners_of_face(tet, face);
     std::size_t apex = 0;
@@ -161,7 +161,7 @@ void TetMesh::orient() {
     findings_.degenerate += static_cast<std::int64_t>(flat_.size());
 }
 
-// A flat tet has no orientation of its own: it gets the one that agrees with a neighbour.
+// A flat tet has no orientation of its own. It gets the one that agrees with a neighbour.
 void TetMesh::orient_flat() {
     std::vector<char> open(tets_.size(), 0);
     for (const std::int32_t tet : flat_) open[static_cast<std::size_t>(tet)] = 1;
@@ -200,7 +200,7 @@ void TetMesh::cut_folded_faces() {
             folded.fetch_add(1, std::memory_order_relaxed);
         }
     });
-    findings_.folded_faces = folded / 2;  // each was met from both tets
+    findings_.folded_faces = folded / 2;  // each was counted from both tets
 }
 
 void TetMesh::list_open_faces() {

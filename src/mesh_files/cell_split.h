@@ -12,8 +12,9 @@
 
 namespace lamina {
 
-// What a reader does with cells of a VTK type (the numbers of vtkCellType.h).
-enum class CellUse { skip, tet, split, unsupported };  // skip: cells without volume
+// The ways in which readers treat cells of a VTK type (the numbers of vtkCellType.h). skip: the
+// cell has no volume.
+enum class CellUse { skip, tet, split, unsupported };
 CellUse use_of_cell(std::int64_t type);
 
 // A type of cell with volume: its number of points (10 for a quadratic tetrahedron, of which the

@@ -27,7 +27,7 @@ constexpr std::array<std::uint8_t, 256> digits = [] {
 
 }  // namespace
 
-// False at the end of the text.
+// Returns false at the end of the text.
 bool EncodedBytes::decode_four() {
     std::array<std::uint8_t, 4> digit{};
     for (std::size_t i = 0; i < 4;) {

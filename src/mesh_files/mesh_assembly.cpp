@@ -34,8 +34,9 @@ void check_ends(const MeshPiece& piece) {
     }
 }
 
-// The corners of a cell as indices into the points of the whole mesh. (A quadratic tetrahedron's
-// other points have no use here, but an index of theirs out of range is a damaged file as well.)
+// Returns the corners of a cell as indices into the points of the whole mesh. (The other points of
+// a quadratic tetrahedron are not used. An index of theirs that is out of range still means a
+// damaged file.)
 std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cell,
                                          std::int32_t first_point,
                                          std::array<std::int32_t, 10>& corners) {
@@ -103,12 +104,13 @@ MeshScalar scalar_from_values(std::string name, std::int64_t components,
     return {std::move(name), std::move(values)};
 }
 
-// The cell of each tet that was made.
+// Returns the cell of each tet that was made.
 std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
                                                   std::int32_t first_point) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
-    // Not for each of many small pieces: the vector would grow by a piece at a time.
+    // Memory is reserved for the first piece only. Reserved for each of many small pieces, the
+    // vector would grow by one piece at a time.
     if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
     std::array<std::int32_t, 10> corners{};
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {

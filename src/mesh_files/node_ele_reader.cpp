@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formats as TetGen's manual describes them, section 5.2.
+// TetGen's manual, section 5.2, describes the formats.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -23,7 +23,7 @@ class Lines {
     Lines(std::string file, std::string_view text)
         : file_(std::move(file)), text_(text), reader_(text) {}
 
-    // Moves to the next line with something beside a comment; false at the end.
+    // Moves to the next line that has more than a comment. Returns false at the end.
     bool next() {
         while (reader_.left() > 0) {
             const std::string_view whole = reader_.line();
@@ -62,7 +62,8 @@ class Lines {
         fail("{}: found {} after the {}", where(), next_word(line_), what);
     }
 
-    // The first line's promise against the bytes that are there: `numbers` on each of `rows` lines.
+    // Checks that the file is long enough for what its first line promises: `numbers` numbers on
+    // each of `rows` lines.
     void check_promise(const char* what, std::int64_t rows, std::int64_t numbers) const {
         const std::size_t most = bytes_left() / static_cast<std::size_t>(numbers);
         if (static_cast<std::uint64_t>(rows) <= most) return;
@@ -70,7 +71,7 @@ class Lines {
              what, numbers, bytes_left());
     }
 
-    // Empty scalars with the names that the comments before the first numbers give them.
+    // Makes empty scalars with the names that the comments before the first numbers give them.
     std::vector<MeshScalar> attributes(const std::string& owner, std::int64_t count,
                                        std::int64_t rows) const {
         std::vector<MeshScalar> scalars(static_cast<std::size_t>(count));

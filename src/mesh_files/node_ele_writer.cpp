@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
-// The names in comments, where read_node_ele looks for them.
+// Writes the names in comments, where read_node_ele() looks for them.
 void write_names(AtomicFile& file, const char* owner, const std::vector<MeshScalar>& scalars) {
     for (std::size_t i = 0; i < scalars.size(); ++i) {
         file.write(fmt::format("# {} attribute {}: {}\n", owner, i + 1, one_line(scalars[i].name)));
     }
 }
 
-// Lines of text, each made by `append(line number, text)`.
+// Writes lines of text, each made by `append(line number, text)`.
 template <typename Append>
 void write_lines(AtomicFile& file, std::size_t count, const Append& append) {
     std::string text;

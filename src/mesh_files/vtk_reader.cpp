@@ -16,7 +16,7 @@
 namespace lamina {
 namespace {
 
-// How many components a data set attribute has; 0: its line says it.
+// The number of components of a data set attribute; 0: its line says it.
 struct Attribute {
     std::string_view keyword;
     std::int64_t components;
@@ -172,7 +172,7 @@ class VtkReader {
         return tokens_.values<std::int64_t>(type, count, section);
     }
 
-    // Each cell as its number of points, then these.
+    // In the list each cell has its number of points, then these points.
     void unpack_cells(std::int64_t count, const std::vector<std::int64_t>& list) {
         if (static_cast<std::uint64_t>(count) > list.size()) {
             fail("{}: CELLS: found a list of {} numbers for {} cells", tokens_.file(), list.size(),
@@ -199,7 +199,7 @@ class VtkReader {
         }
     }
 
-    // False where `word` is no attribute.
+    // Returns false where `word` is not an attribute.
     bool read_attribute(const std::string& word) {
         if (word == "lookup_table") {
             const std::string name = tokens_.name();
@@ -235,7 +235,8 @@ class VtkReader {
         return components;
     }
 
-    // Bytes in a binary file, fractions in an ASCII one: as words both are `count` values.
+    // Colours are bytes in a binary file and fractions in an ASCII one. As words both are `count`
+    // values.
     void skip_colors(const std::string& name, std::int64_t count) {
         tokens_.skip_values({VtkType::Kind::number, ValueType::uint8}, count, name);
     }

@@ -53,7 +53,7 @@ std::string VtkTokens::where() const {
 }
 
 std::string VtkTokens::keyword() {
-    constexpr std::size_t longest = 40;  // no keyword is: what is longer is binary data
+    constexpr std::size_t longest = 40;  // keywords are shorter: longer words are binary data
     return lower(reader_.word().substr(0, longest));
 }
 
@@ -128,8 +128,8 @@ void VtkTokens::skip_values(VtkType type, std::int64_t count, const std::string&
     }
 }
 
-// vtkDataWriter: a line each; in binary files each behind its length, in 1, 2, 4 or 8 bytes, told
-// by the two highest bits.
+// vtkDataWriter writes one string a line. In binary files each follows its length, which takes 1,
+// 2, 4 or 8 bytes as its two highest bits say.
 void VtkTokens::skip_strings(std::int64_t count, const std::string& what) {
     reader_.line();
     for (std::int64_t i = 0; i < count; ++i) {

@@ -45,8 +45,8 @@ struct Block {
     std::uint64_t stored = 0, size = 0;
 };
 
-// The header of compressed data: how many blocks, the size of each but the last, the size of the
-// last where it is not full, then the stored size of each.
+// Reads the header of compressed data: the number of blocks, the size of each but the last, the
+// size of the last where it is not full, then the stored size of each.
 std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
                                std::uint64_t expected, const std::string& what) {
     const std::uint64_t count = read_header_word(bytes, encoding);

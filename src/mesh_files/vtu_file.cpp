@@ -41,7 +41,7 @@ std::string said(const char* value) {
     return *value == '\0' ? "''" : next_word(TextReader(value));
 }
 
-// Counts what is no blank.
+// Warns of bytes that are not blanks.
 void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
     const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
     if (surplus == 0) return;
@@ -63,7 +63,7 @@ VtuFile::VtuFile(const std::filesystem::path& path)
     parse();
 }
 
-// Raw appended data are no XML.
+// Raw appended data are not XML.
 void VtuFile::cut_off_appended_data() {
     const std::size_t tag = bytes_.find("<AppendedData");
     if (tag == std::string::npos) {
@@ -168,7 +168,7 @@ VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) co
     return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
 }
 
-// Arrays that share their bytes would let a small file fill any memory.
+// Arrays that share their bytes would let a small file fill all memory.
 void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
     appended_used_ += bytes;
     if (appended_used_ > appended_.size()) {
@@ -178,8 +178,8 @@ void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
     }
 }
 
-// zlib makes a thousand equal bytes into one, and each may be a value of 8 bytes: a small file
-// could fill any memory. Points and corners of real meshes are far from that.
+// zlib makes a thousand equal bytes into one, and each may be a value of 8 bytes, so that a small
+// file could fill all memory. Points and corners of real meshes are far from that.
 void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
     constexpr std::uint64_t most_expansion = 256;
     values_kept_ += static_cast<std::uint64_t>(count);

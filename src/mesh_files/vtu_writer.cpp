@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
 constexpr std::int64_t tetra = 10;
 
-// An array as it goes into the appended data: header, then blocks.
+// Returns an array in the form of the appended data: header, then blocks.
 std::string compress(const void* values, std::size_t size) {
     const std::size_t count = (size + block_bytes - 1) / block_bytes;
     std::vector<std::string> blocks(count);
@@ -67,7 +67,7 @@ std::string escaped(const std::string& name) {
     return text;
 }
 
-// The elements and, after them, the data.
+// Writes the elements and, after them, the data.
 class Writer {
   public:
     void open(const std::string& element) { xml_ += "      <" + element + ">\n"; }

@@ -20,12 +20,12 @@ namespace lamina {
 namespace {
 
 constexpr double finest_lattice = 256;  // places for points per sample
-// A point this near to the box's surface, in parts of its tet's extent, goes onto it: else the flat
-// tets between the two would stay.
+// A point this near to the box's surface, as a share of its tet's extent, is moved onto it.
+// Otherwise the flat tets between the two would stay.
 constexpr double surface_share = 0.125;
 constexpr double tets_per_point = 7;  // more than a point adds on average (6.77 for random points)
 constexpr std::int64_t tets_per_task = 16;
-constexpr double worth_a_round = 0.005;  // of max_tets: less room than that ends the refinement
+constexpr double worth_a_round = 0.005;  // share of max_tets; refinement ends where less is left
 
 struct PlaceHash {
     std::size_t operator()(const std::array<std::int64_t, 3>& place) const {
@@ -42,12 +42,12 @@ glm::dvec3 snapped(const glm::dvec3& place, double per_sample) {
     return glm::floor(place * per_sample + 0.5) / per_sample;
 }
 
-// The points so far: the last ones can be taken back.
+// The points so far. The last ones can be taken back.
 class Points {
   public:
     explicit Points(const TrilinearField& field) : field_(field) {}
 
-    // False when there is such a point already.
+    // Returns false where there is such a point already.
     bool add(const glm::dvec3& point) {
         if (!places_.insert(place_of(point)).second) return false;
         points_.push_back(point);
@@ -82,7 +82,7 @@ class Points {
     std::unordered_set<std::array<std::int64_t, 3>, PlaceHash> places_;
 };
 
-// A tet by its sorted corners, to be recognised in the next round.
+// A tet named by its sorted corners, so that the next round recognises it.
 struct NamedTet {
     Tet corners;
     std::int32_t index;
@@ -99,7 +99,7 @@ std::vector<NamedTet> by_name(const std::vector<Tet>& tets) {
     return names;
 }
 
-// The tets of one round and what is known of their errors.
+// The tets of one round, and what is known of their errors.
 struct Round {
     DelaunayTets mesh;
     std::vector<NamedTet> names;
@@ -148,7 +148,8 @@ double volume_of(const std::array<glm::dvec3, 4>& p) {
     return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6;
 }
 
-// Whether `point` lies in the sphere around a positively oriented tet. Rounded: it only chooses.
+// Returns whether `point` lies in the sphere through the corners of a positively oriented tet. It
+// need not be exact, because it only guides a choice.
 bool in_sphere(const std::array<glm::dvec3, 4>& p, const glm::dvec3& point) {
     const glm::dvec3 a = p[0] - point, b = p[1] - point, c = p[2] - point, d = p[3] - point;
     const glm::dvec3 ab = glm::cross(a, b), cd = glm::cross(c, d);
@@ -164,7 +165,8 @@ void Refinement::begin() {
     }
 }
 
-// Checks what another program has made: all points used, all tets positive, the box filled.
+// Another program makes the tets, so they are checked: all points are used, all tets are positive,
+// and the box is filled.
 DelaunayTets Refinement::tetrahedralize() const {
     DelaunayTets mesh = delaunay_(points_.points());
     std::vector<bool> used(points_.size(), false);
@@ -219,7 +221,7 @@ void Refinement::accept(DelaunayTets mesh) {
     round_ = std::move(next);
 }
 
-// The tets over the tolerance, the worst first.
+// Returns the tets over the tolerance, the worst first.
 std::vector<std::int32_t> Refinement::violators() const {
     std::vector<std::int32_t> list;
     for (std::size_t i = 0; i < round_.errors.size(); ++i) {
@@ -247,9 +249,9 @@ glm::dvec3 Refinement::onto_surface(glm::dvec3 place,
     return place;
 }
 
-// Near the place of the largest error: on the coarsest lattice that has a free place there which
-// destroys the tet. Samples and the middles between them serve their neighbours too: that takes a
-// fifth fewer tets than the very places.
+// Adds a point near the place of the largest error: on the coarsest lattice that has a free place
+// there which destroys the tet. Points at samples and halfway between them serve neighbouring tets,
+// too, so fewer tets are needed than with points at the exact places.
 bool Refinement::add_point_in(std::int32_t tet) {
     const auto corners = points_.corners(round_.mesh.tets[tet]);
     for (double per_sample = 1; per_sample <= finest_lattice; per_sample *= 2) {
@@ -268,7 +270,7 @@ bool Refinement::add_point(std::int32_t tet, const glm::dvec3& place) {
     return true;
 }
 
-// The tets that a new point removes from a Delaunay mesh: those with it in their sphere.
+// Marks the tets that a new point removes from a Delaunay mesh: those whose spheres contain it.
 void Refinement::destroy_cavity(std::int32_t tet, const glm::dvec3& point) {
     cavity_.assign(1, tet);
     destroyed_[tet] = true;
@@ -284,7 +286,8 @@ void Refinement::destroy_cavity(std::int32_t tet, const glm::dvec3& point) {
     }
 }
 
-// No two points of a round in one cavity: each goes where the field is known to need it.
+// No two points of a round lie in one cavity, so that each goes where the field is known to need
+// it.
 void Refinement::add_points(const std::vector<std::int32_t>& violators, std::size_t most) {
     destroyed_.assign(round_.mesh.tets.size(), false);
     const std::size_t before = points_.size();
@@ -294,7 +297,7 @@ void Refinement::add_points(const std::vector<std::int32_t>& violators, std::siz
     }
 }
 
-// One round. False when there is nothing left to do or no room to do it.
+// Does one round. Returns false where nothing is left to do, or there is no room to do it.
 bool Refinement::refine(MeshReport& report) {
     const std::vector<std::int32_t> worst = violators();
     report.within_tolerance = worst.empty();

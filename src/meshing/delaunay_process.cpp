@@ -36,7 +36,7 @@ void write_points(TemporaryFile& file, std::span<const glm::dvec3> points) {
     file.rewind();
 }
 
-// The last line that has something on it: after TetGen's own chatter, the reason.
+// Returns the last line that is not blank: after TetGen's own messages it has the reason.
 std::string last_line(const std::string& text) {
     std::istringstream lines(text);
     std::string line, last;
@@ -46,8 +46,7 @@ std::string last_line(const std::string& text) {
     return one_line(last);
 }
 
-// The child's messages come through a pipe, as a full disk has no room for the reason why it
-// failed.
+// The child's messages come through a pipe, because a full disk would have no room for them.
 class Messages {
   public:
     Messages() {
@@ -62,7 +61,7 @@ class Messages {
     Messages& operator=(const Messages&) = delete;
 
     int writing_end() const { return ends_[1]; }
-    // Returns what has come since, without waiting for more.
+    // Collects what has come since, without waiting for more.
     void collect() {
         char block[4096];
         for (ssize_t count; (count = read(ends_[0], block, sizeof block)) > 0;) {
@@ -77,7 +76,14 @@ class Messages {
     std::string text_;
 };
 
-// A child that does not outlive this, nor this process: see tetrahedralize_parent_option.
+bool is_ended_by_user(int status) {
+    if (!WIFSIGNALED(status)) return false;
+    const int signal = WTERMSIG(status);
+    return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+}
+
+// A child process that outlives neither this object nor this process: see
+// tetrahedralize_parent_option.
 class Child {
   public:
     Child(const std::filesystem::path& program, std::FILE* in, std::FILE* out, int err) {
@@ -105,17 +111,20 @@ class Child {
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // Its status as waitpid() gives it. Throws Interrupted.
+    // Returns its status as waitpid() gives it. Throws Interrupted.
     int wait(Messages& messages) {
         using namespace std::chrono_literals;
         for (std::chrono::microseconds pause = 200us;;
              pause = std::min<decltype(pause)>(2 * pause, 20ms)) {
             int status = 0;
             const pid_t ended = waitpid(id_, &status, WNOHANG);
-            messages.collect();  // also afterwards: a full pipe would stop it
+            messages.collect();  // in each round: a full pipe would stop the child
             if (ended == id_) {
                 id_ = -1;
-                check_interrupt();  // Ctrl-C ends the child as well: that is no failure of its own
+                // Ctrl-C ends the child as well, which is no failure of its own. It may do so
+                // before this process's signal has reached the stop token.
+                if (is_ended_by_user(status)) std::this_thread::sleep_for(100ms);
+                check_interrupt();
                 return status;
             }
             if (ended < 0 && errno != EINTR) fail("waitpid: {}", std::strerror(errno));
@@ -188,7 +197,8 @@ std::optional<std::filesystem::path> find_tetrahedralizer() {
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");
     for (std::string folder; std::getline(list, folder, ':');) {
-        // Shells take an empty entry for the current folder: whatever lies there is not meant.
+        // Shells take an empty entry for the current folder. A program that lies there by chance
+        // must not be started.
         if (folder.empty()) continue;
         const auto path = std::filesystem::path(folder) / tetrahedralize_program;
         if (is_program(path)) return path;

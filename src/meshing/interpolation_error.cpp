@@ -19,16 +19,16 @@ using Cell = TrilinearField::Cell;
 using Box = std::array<glm::dvec3, 2>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Bounds are not brought nearer than this to what was found: where the largest difference equals
-// the tolerance (which integer samples do), that would never end.
+// Bounds are not brought nearer than this to the largest difference found. Where that equals the
+// tolerance, as it can with integer samples, refinement would never end.
 constexpr double nearness = 0.98;
 constexpr double nearness_to_insert = 0.8;  // for the place of a violation
 constexpr int deepest = 60;                 // halvings of a piece: far below rounding
-// Pieces looked at in one cell (rarely a hundred are needed); those beyond count with their bounds.
+// The most pieces that are examined in one cell. Further pieces count with their bounds.
 constexpr int most_pieces = 20000;
 
-// Above this ratio of a tet's longest edge to its smallest height the linear function, continued to
-// the cell's corners, is too large to bound anything, and rounding in it too near to matter.
+// Where a tet's longest edge is more than this times its smallest height, the linear function,
+// continued to the cell's corners, is too large to bound anything, and its rounding errors matter.
 constexpr double flattest = 1e4;
 
 glm::dvec3 corner_of(const Box& box, std::size_t corner) {
@@ -48,8 +48,8 @@ struct Affine {
     }
 };
 
-// The tet with what boxes are compared with. Positions are relative to its first corner, so that
-// rounding does not grow with the grid.
+// The tet, with the data that boxes are compared with. Positions are relative to its first corner,
+// so that rounding does not grow with the grid.
 struct MeasuredTet {
     glm::dvec3 origin{0};
     std::array<Affine, 4> barycentric;
@@ -96,7 +96,7 @@ struct MeasuredTet {
         return std::all_of(barycentric.begin(), barycentric.end(),
                            [&](const Affine& weight) { return weight.at(relative_point) >= 0; });
     }
-    // Of the linear function over the part of the box in the tet.
+    // Returns the range of the linear function over the part of the box in the tet.
     ValueRange over(const Box& relative_box) const {
         const ValueRange box = value.over(relative_box);
         return {std::max(box.lo, values.lo), std::min(box.hi, values.hi)};
@@ -111,7 +111,7 @@ struct OpenPiece {
     CellPiece piece;
     int depth;
 };
-// What measurements need beside the tet, kept from one to the next.
+// Working memory of measurements, kept from one to the next.
 struct WorkingSpace {
     std::vector<OpenCell> cells;
     std::vector<std::pair<int, Cell>> blocks;
@@ -150,7 +150,8 @@ class Measurement {
     }
 
   private:
-    // What need not be known better: no violation, or none much larger than the one found.
+    // Differences up to this need not be known better: they are no violation, or not much larger
+    // than the one found.
     double enough() const {
         const bool place_only = goal_ == ErrorGoal::decide && violated();
         return std::max(tolerance_, error_.found / (place_only ? nearness_to_insert : nearness));
@@ -164,7 +165,7 @@ class Measurement {
     bool invisible(double lo, double hi) const {
         return transfer_function_ && transfer_function_->transparent(lo, hi);
     }
-    // Places whose values are nearly visible count too: else bounds would have to follow the
+    // Places whose values are nearly visible count, too. Otherwise bounds would have to follow the
     // surface where visibility begins.
     void found(double trilinear, double linear, const glm::dvec3& place) {
         const double difference = std::abs(trilinear - linear);
@@ -183,7 +184,7 @@ class Measurement {
                invisible(std::min(trilinear.lo, linear.lo), std::max(trilinear.hi, linear.hi));
     }
 
-    // Part of the tet's bounds between planes first and last + 1 of each axis.
+    // Returns the part of the tet's bounds between planes first and last + 1 of each axis.
     Box box_of(const Cell& first, const Cell& last) const {
         Box box;
         for (int axis = 0; axis < 3; ++axis) {

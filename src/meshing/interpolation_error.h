@@ -20,7 +20,7 @@ struct TetError {
     glm::dvec3 place{0};  // in the tet, index space
 };
 
-// What measure() must find out.
+// The question that measure() answers.
 enum class ErrorGoal {
     // Whether the tolerance holds. Either bound <= tolerance, or bound is infinite and `found` is
     // at least 0.98 of the tolerance; then it is a large error but not always the largest.

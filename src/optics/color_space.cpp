@@ -23,7 +23,7 @@ const glm::dmat3 xyz_from_linear(0.4124, 0.2126, 0.0193, 0.3576, 0.7152, 0.1192,
 const glm::dmat3 linear_from_xyz = glm::inverse(xyz_from_linear);
 const glm::dvec3 white = xyz_from_linear * glm::dvec3(1);
 
-// CIE 15: the cube root, continued by its tangent near 0.
+// CIE 15: the cube root is continued by its tangent near 0.
 constexpr double knee = 6.0 / 29.0;
 double lab_curve(double t) {
     return t > knee * knee * knee ? std::cbrt(t) : t / (3 * knee * knee) + 4.0 / 29.0;
@@ -38,8 +38,8 @@ glm::dvec3 lab_from_srgb(const glm::dvec3& srgb) {
     return glm::dvec3(116 * y - 16, 500 * (x - y), 200 * (y - z));
 }
 
-// Colours outside the gamut: too bright ones are dimmed, negative components become 0 (as VTK
-// does).
+// Colours outside the gamut are dimmed where they are too bright, and negative components become 0,
+// as in VTK.
 glm::dvec3 srgb_from_lab(const glm::dvec3& lab) {
     const double y = (lab[0] + 16) / 116, x = y + lab[1] / 500, z = y - lab[2] / 200;
     const glm::dvec3 xyz(lab_curve_inverse(x), lab_curve_inverse(y), lab_curve_inverse(z));
@@ -100,8 +100,8 @@ glm::dvec3 srgb_from_msh(const Msh& msh) {
                                     chroma * std::cos(msh.hue), chroma * std::sin(msh.hue)));
 }
 
-// Moreland 2009, section 4.3: the hue that an unsaturated end gets, so that the perceived change is
-// even.
+// Moreland 2009, section 4.3: the hue of an unsaturated end is turned so that the perceived change
+// is even.
 double spun_hue(const Msh& saturated, double unsaturated_magnitude) {
     if (saturated.magnitude >= unsaturated_magnitude - 0.1) return saturated.hue;
     const double reach = std::sqrt(unsaturated_magnitude * unsaturated_magnitude -

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
-constexpr std::size_t most_points = 4096;  // as of a scene's transfer function
+constexpr std::size_t most_points = 4096;  // the limit of a scene's transfer function
 
 nlohmann::json load(const std::filesystem::path& file) {
     nlohmann::json root = load_json(file);
@@ -57,7 +57,8 @@ ColorSpace color_space(const nlohmann::json& preset, const std::string& name) {
          shown(*found));
 }
 
-// Rows of four numbers; the first of each is the scalar, in order, at most two rows at one scalar.
+// Reads rows of four numbers. The first of each is the scalar; scalars ascend, and at most two rows
+// have the same one.
 std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const char* key,
                                              const std::string& name) {
     const nlohmann::json& flat = preset.at(key);
@@ -91,14 +92,14 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Samples the colour space between two points, halving until straight lines in linear light are
-// close enough.
+// Samples the colour space between two points, halving intervals until straight lines in linear
+// light are close enough.
 class SegmentSampler {
   public:
     SegmentSampler(ColorSpace space, const std::array<double, 4>& a, const std::array<double, 4>& b)
         : space_(space), a_(a), b_(b) {}
 
-    // Appends the points after share `lo` up to and with share `hi`.
+    // Appends the points between share `lo`, exclusive, and share `hi`, inclusive.
     void append(double lo, double hi, int halvings, std::vector<ColorPoint>& points) const {
         if (halvings > 0 && !straight(lo, hi)) {
             append(lo, (lo + hi) / 2, halvings - 1, points);
@@ -111,7 +112,7 @@ class SegmentSampler {
   private:
     glm::dvec3 color(double share) const {
         const glm::dvec3 from(a_[1], a_[2], a_[3]), to(b_[1], b_[2], b_[3]);
-        // The ends themselves, free of round trips through other spaces.
+        // The ends are taken as they are, free of round trips through other spaces.
         if (share == 1) return linear_from_srgb(to);
         if (share == 0) return linear_from_srgb(from);
         return linear_from_srgb(interpolate_srgb(space_, from, to, share));
@@ -143,7 +144,8 @@ std::vector<ColorPoint> sample_colors(ColorSpace space,
         if (a[0] == b[0]) {
             points.push_back({b[0], color_of(b)});
         } else if (space == ColorSpace::step) {
-            // Below the first point its own colour stays: a step there, as at every other point.
+            // An interval has the colour of its upper point, so there is a step at every point.
+            // Below the first point its own colour stays.
             points.push_back({a[0], color_of(b)});
             points.push_back({b[0], color_of(b)});
         } else {
@@ -169,7 +171,7 @@ std::vector<OpacityPoint> read_opacities(const nlohmann::json& preset, const std
     return points;
 }
 
-// The limits of a piecewise linear function from below and from above; `mix(a, b, share)`
+// Finds the limits of a piecewise linear function from below and from above; `mix(a, b, share)`
 // interpolates.
 template <typename Point, typename Mix>
 auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
@@ -237,8 +239,8 @@ std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length) 
         fail(
             "the colour map has no opacities (Points), expected points with extinction or opacity");
     }
-    // Opacity is linear between the file's points and extinction is not: it is followed with 16
-    // straight lines.
+    // Opacity is linear between the file's points, extinction is not: 16 straight lines approximate
+    // it.
     constexpr int parts = 16;
     std::vector<ExtinctionPoint> extinctions;
     for (std::size_t i = 0; i < colormap.opacities.size(); ++i) {

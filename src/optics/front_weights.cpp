@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-constexpr double opaque = 1e30;  // what the last node's infinity is taken for
+constexpr double opaque = 1e30;  // stands for the infinite depth of the last node
 
 std::size_t texel_index(int column, int row) {
     return static_cast<std::size_t>(row) * FrontWeightTable::nodes +
@@ -20,7 +20,8 @@ std::size_t texel_index(int column, int row) {
 
 }  // namespace
 
-// Minimax over the triangle p, q >= 0, p + q <= 2 faint_depth, of degree 3 (as below).
+// The minimax polynomial of degree 3 over the triangle p, q >= 0, p + q <= 2 faint_depth, found as
+// the one below.
 double faint_front_weight(double p, double q) {
     const double pq = -0.07483143 + 0.01593537 * p + 0.01098378 * q;
     const double of_p = 0.33332185 + p * (-0.06649057 + p * 0.00875053) + q * pq;
@@ -28,7 +29,8 @@ double faint_front_weight(double p, double q) {
     return std::min(p * of_p + q * of_q, opacity_from_depth(p / 2 + q / 2));
 }
 
-// Minimax over the triangle p, q >= 0, p + q <= 2 thin_depth, of degree 4 (iterated least squares).
+// The minimax polynomial of degree 4 over the triangle p, q >= 0, p + q <= 2 thin_depth, found by
+// iterated least squares.
 double thin_front_weight(double p, double q) {
     const double c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));
     const double c1 = 0.333037217 + q * (-0.074477034 + q * (0.011162302 - q * 0.000919007));
@@ -59,7 +61,7 @@ FrontWeightTable::FrontWeightTable() : texels_(std::size_t{nodes} * nodes) {
 double FrontWeightTable::lookup(double p, double q) const {
     p = std::min(p, opaque);
     q = std::min(q, opaque);
-    // Without a difference: faint segments keep their digits.
+    // This form has no difference, so that faint segments keep their digits.
     const double root = std::sqrt(1 + q);
     const double x = (nodes - 1) * (p / (1 + p));
     const double y = (nodes - 1) * (q / root / (1 + root));

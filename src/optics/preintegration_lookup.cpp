@@ -63,7 +63,7 @@ double coordinate_between(const Anchor& a, const Anchor& b, double value) {
     return a.node + (value - a.value) / (b.value - a.value) * (b.node - a.node);
 }
 
-// As coordinate(), but at a step: its left node.
+// As coordinate(), but returns the left node at a step.
 double left_coordinate(const PreintegrationTable& table, double value) {
     const auto& anchors = table.anchors;
     const auto at = std::ranges::lower_bound(anchors, value, {}, &Anchor::value);
@@ -77,7 +77,8 @@ struct Part {
     double width;     // in scalars
 };
 
-// From `lo` to `hi` >= lo, split at the first and at the last anchor strictly between them.
+// Splits the interval from `lo` to `hi` >= lo at the first and at the last anchor strictly between
+// them.
 std::array<Part, 3> split(const PreintegrationTable& table, double lo, double hi) {
     const auto& anchors = table.anchors;
     const double first = table.coordinate(lo);
@@ -87,7 +88,7 @@ std::array<Part, 3> split(const PreintegrationTable& table, double lo, double hi
     if (above >= not_below) return {Part{first, last, hi - lo}, Part{}, Part{}};
     const auto below = not_below - 1;
     const double inner = below->value - above->value;
-    // A step at an end of the inner part: its node on the inner side.
+    // Where the inner part ends at a step, it takes the node on its own side.
     return {Part{first, double(above->node), above->value - lo},
             Part{table.coordinate(above->value), left_coordinate(table, below->value), inner},
             Part{double(below->node), last, hi - below->value}};

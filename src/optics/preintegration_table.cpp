@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t most_knots = 1022;  // two nodes an interval: textures of 2048 hold them
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
-// A segment's rest that is seen through less than this is left out: far below a float's precision.
+// The rest of a segment that is seen through less than this is left out: it is far below a float's
+// precision.
 constexpr double least_transmittance = 1e-12;
 
 float as_float(double x) {
@@ -43,7 +44,7 @@ class NodeBuilder {
     explicit NodeBuilder(PreintegrationTable& table) : table_(table) {}
 
     void add_interval(const LinearPiece& piece, int wanted_cells) {
-        // Between points a few roundings apart there is no room for more nodes.
+        // Points that are a few roundings apart leave no room for more nodes.
         const double rounding = std::numeric_limits<double>::epsilon() *
                                 std::max(std::abs(piece.from), std::abs(piece.to));
         const int cells = piece.to - piece.from > 2 * wanted_cells * rounding ? wanted_cells : 1;
@@ -91,8 +92,8 @@ std::vector<Node> place_nodes(const TransferFunction& transfer_function,
         return builder.finish();
     }
     const double width = request.hi - request.lo;
-    // Emission is a product of two linear functions even within an interval: narrow ones need inner
-    // nodes, too.
+    // Emission is a product of two linear functions even within an interval, so narrow intervals
+    // need inner nodes, too.
     int intervals = 0;
     for_each_linear_piece(transfer_function.knots(), request.lo, request.hi,
                           [&](const LinearPiece&) { ++intervals; });
@@ -145,8 +146,8 @@ class TableBuilder {
     }
 
   private:
-    // Means over the scalars between `front` and each node on one side of it, as running sums:
-    // nothing cancels.
+    // Fills in the means over the scalars between `front` and each node on one side of it. They are
+    // running sums, in which nothing cancels.
     void fill_half_row(int front, int direction) {
         double extinction = 0;
         glm::dvec3 emission(0);
@@ -175,7 +176,7 @@ class TableBuilder {
         for (std::size_t layer = 1; layer < table_.lengths.size(); ++layer) {
             const double length = table_.lengths[layer];
             const double alpha = opacity_from_depth(extinction * length);
-            // A table of length 0 only (max_length = 0), or of a depth that underflows: the limit.
+            // The limit is taken at length 0 (max_length = 0) and where the depth underflows.
             const bool at_limit = front == back || !is_looked_up(front, back) ||
                                   !(alpha > std::numeric_limits<double>::min());
             store_emission(layer, entry,
@@ -183,8 +184,8 @@ class TableBuilder {
         }
     }
 
-    // Segments are cut at the first and at the last anchor between their ends: look-ups meet other
-    // entries by roundings alone, with next to no weight.
+    // Segments are cut at the first and at the last anchor between their ends. So look-ups reach
+    // the other entries by rounding alone, with next to no weight.
     bool is_looked_up(int front, int back) const {
         const int lower = std::min(front, back), upper = std::max(front, back);
         return upper <= nodes_[lower].next_anchor || (nodes_[lower].anchor && nodes_[upper].anchor);
@@ -195,8 +196,8 @@ class TableBuilder {
         for (int c = 0; c < 3; ++c) table_.emission[first + c] = as_float(emission[c]);
     }
 
-    // Associated colour of the segment. As integrate_segment, but without the search for pieces:
-    // both ends of every piece are nodes.
+    // Returns the associated colour of the segment. This is integrate_segment() without the search
+    // for pieces, because both ends of every piece are nodes.
     glm::dvec3 color(int front, int back, double length) const {
         const double width = nodes_[back].value - nodes_[front].value;
         glm::dvec3 sum(0);

@@ -16,7 +16,7 @@ namespace lamina {
 
 namespace {
 
-// Optical depths of a piece end here, so that sums of them stay finite.
+// Optical depths of a piece are limited to this, so that sums of them stay finite.
 constexpr double largest_depth = 1e300;
 
 struct QuadraturePoint {
@@ -79,7 +79,7 @@ double mean_transmittance(double p, double q) {
     const double depth = p / 2 + q / 2;
     const double k = (q - p) / 2;
     const double root = std::sqrt(std::abs(k));
-    // k -> 0: the closed forms below keep their accuracy, until p / root overflows; k <= 1e-17 D
+    // For k -> 0 the closed forms below keep their accuracy until p / root overflows. k <= 1e-17 D
     // changes nothing.
     if (std::abs(k) <= 1e-17 * depth) return opacity_from_depth(depth) / depth;
     const double front = p / (2 * root);
@@ -91,8 +91,8 @@ double mean_transmittance(double p, double q) {
     return (dawson(front) - transmittance * dawson(back)) / root;
 }
 
-// A sum that carries its rounding error along: exp(-depth) is as accurate behind many pieces as
-// behind one.
+// A sum that carries its rounding error along, so that exp(-depth) is as accurate behind many
+// pieces as behind one.
 class DepthSum {
   public:
     void add(double depth) {
@@ -125,7 +125,7 @@ PieceWeights piece_weights(double p, double q) {
 namespace {
 
 glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
-    // Most pieces of palettes have one colour: its weight is the opacity.
+    // Most pieces of palettes have one colour, whose weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
@@ -141,7 +141,8 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     DepthSum depth;
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        // Differences of the given doubles: the share is accurate however close front and back are.
+        // Both differences are of the given doubles, so the share is accurate however close front
+        // and back are.
         const double share = front == back ? 1 : (piece.to - piece.from) / (back - front);
         const double part = length * share;
         const double p = std::min(part * piece.at_from.extinction, largest_depth);

@@ -46,7 +46,7 @@ TransferFunction with_finite_depths(const TransferFunction& transfer_function, d
     return TransferFunction::linear(std::move(knots));
 }
 
-// To the nearest number with 11 significant bits, or multiple of 2^-24.
+// Rounds to the nearest number with 11 significant bits, or multiple of 2^-24.
 float round_to_half(float x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -94,7 +94,7 @@ double node_of(const SegmentTableRequest& request, double value) {
     return share * (request.scalar_nodes - 1);
 }
 
-// Trilinear between texels, times scale; absent channels are 0.
+// Interpolates trilinearly between texels and multiplies by the scale. Absent channels are 0.
 std::array<double, 4> interpolate_texels(const SegmentTable& table, double front, double back,
                                          double length) {
     const int nodes = table.request.scalar_nodes;

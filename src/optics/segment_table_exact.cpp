@@ -16,7 +16,8 @@ namespace lamina {
 
 namespace {
 
-// A segment's rest that is seen through less than this is left out: far below a float's precision.
+// The rest of a segment that is seen through less than this is left out: it is far below a float's
+// precision.
 constexpr double least_transmittance = 1e-12;
 
 // Integrals over the scalars.
@@ -81,7 +82,7 @@ class ExactLayers {
     }
 
   private:
-    // All nodes on one side of `front`, with running sums over the pieces that lie whole between.
+    // Fills in all nodes on one side of `front`, with running sums over the pieces between.
     void fill_side(int front, int direction) {
         const int count = table_.request.scalar_nodes;
         const double start = nodes_[front], end = direction > 0 ? nodes_.back() : nodes_.front();
@@ -127,7 +128,8 @@ class ExactLayers {
         for (int layer = 0; layer < layer_count_; ++layer) {
             const double length = table_.length_of(layer);
             const double alpha = opacity_from_depth(run.extinction * length);
-            // Homogeneous, of length 0, or of a depth that underflows: the limit.
+            // The limit is taken where the run is homogeneous, has length 0, or has a depth that
+            // underflows.
             const bool at_limit = run.width == 0 || !(alpha > std::numeric_limits<double>::min());
             const std::size_t nodes = nodes_.size();
             float* texel =

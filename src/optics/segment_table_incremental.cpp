@@ -83,7 +83,7 @@ class IncrementalLayers {
             static_cast<float>(first.alpha + (1 - first.alpha) * second.alpha);
     }
 
-    // `share`: the first part's, of `length`.
+    // `share` is the first part's share of `length`.
     void store_emission(const Part& first, const Part& second, double share, double length,
                         float* texel) const {
         const auto mean = [&](double a, double b) { return a * share + b * (1 - share); };

@@ -17,7 +17,7 @@ namespace lamina {
 
 namespace {
 
-// Differences of scalars stay finite below this.
+// Differences of scalars below this stay finite.
 constexpr double largest_value = 1e300;
 
 void check_optics(const OpticalProperties& optics, std::size_t index) {
@@ -52,7 +52,8 @@ void check(std::span<const TransferKnot> points) {
     }
 }
 
-// But for roundings: terms of interpolate() are >= 0, so it is good to a few of them.
+// Returns whether `between` lies on the straight line from a to b, up to rounding. All terms of
+// interpolate() are >= 0, so its results are good to a few roundings.
 bool on_line(const TransferKnot& a, const TransferKnot& between, const TransferKnot& b) {
     constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
     if (!(a.value < between.value && between.value < b.value)) return false;
@@ -81,7 +82,7 @@ void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, co
     if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
 }
 
-// Whether key(part) is the same for all parts that meet [lo, hi], of those for which `counts`
+// Returns whether key(part) is the same for all parts that meet [lo, hi] and for which `counts`
 // holds.
 template <typename Key, typename Counts>
 bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, const Key& key,
@@ -124,8 +125,8 @@ TransferFunction TransferFunction::nearest(const std::vector<TransferKnot>& poin
     for (std::size_t i = 1; i < points.size(); ++i) {
         const double step = std::midpoint(points[i - 1].value, points[i].value);
         const bool at_step_before = knots.size() > 1 && knots.back().value == step;
-        // Points so close that two midpoints round to one number: the plateau between them has no
-        // width.
+        // Two points may be so close that two midpoints round to one number. The plateau between
+        // them then has no width.
         if (at_step_before)
             knots.pop_back();
         else
@@ -156,7 +157,7 @@ TransferFunction TransferFunction::attenuated(double factor) const {
 
 double TransferFunction::max_extinction(double lo, double hi) const {
     double largest = std::max(at(lo).extinction, at(hi).extinction);
-    // Asked for every brick of a volume: not of all knots.
+    // This is asked for every brick of a volume, so it does not visit all knots.
     for (auto knot = std::ranges::lower_bound(knots_, lo, {}, &TransferKnot::value);
          knot != knots_.end() && knot->value <= hi; ++knot) {
         largest = std::max(largest, knot->optics.extinction);

@@ -16,9 +16,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int magnification = 12;
-constexpr double least_range = 16.0 / 255;  // that fills an inset's contrast
-constexpr double inset_mean = 0.35;         // linear light: where an inset's mean goes
-// A difference is darkest where this share of the first variant's components is off by less.
+constexpr double least_range = 16.0 / 255;  // an inset's contrast shows at least this range
+constexpr double inset_mean = 0.35;         // an inset's mean goes to this, in linear light
+// Differences are darkest at the value that this share of the first variant's components does not
+// exceed.
 constexpr double shown_share = 0.995;
 
 struct Inset {
@@ -27,8 +28,8 @@ struct Inset {
 
 using Rgb = std::array<double, 3>;
 
-// How much an inset is spread so that what the exact picture has there fills two thirds of the
-// range.
+// Returns the factor by which an inset's contrast is enlarged, so that the exact picture there
+// fills two thirds of the range.
 double gain_of(const Image& exact, const Inset& inset) {
     double range = least_range;
     for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -44,7 +45,7 @@ double gain_of(const Image& exact, const Inset& inset) {
     return 1 / range;
 }
 
-// The mesh covers the window: silhouettes are no artifacts.
+// Returns whether the mesh covers the window. Silhouettes are not artifacts.
 bool covered(const Image& exact, const Inset& inset) {
     for (int y = inset.row; y < inset.row + inset.height; ++y) {
         for (int x = inset.column; x < inset.column + inset.width; ++x) {
@@ -66,7 +67,7 @@ Rgb mean_within(const Image& image, const Inset& inset) {
     return mean;
 }
 
-// The variance of the error in the window, as its gain shows it.
+// Returns the variance of the error in the window, with the window's gain.
 double structure_within(const Image& image, const Image& exact, const Inset& inset) {
     const Rgb mean = mean_within(image, inset), exact_mean = mean_within(exact, inset);
     double sum = 0;
@@ -101,7 +102,8 @@ Inset worst_inset(const Image& image, const Image& exact) {
     return worst;
 }
 
-// As large as the picture, nearest pixels, about the window's own mean.
+// Magnifies the window to the size of the picture, with nearest pixels, and its contrast about the
+// window's mean.
 CodedImage magnified(const Image& image, const Inset& inset, double gain) {
     const Rgb mean = mean_within(image, inset);
     Image large(image.width, image.height);

@@ -43,7 +43,8 @@ std::string svg_of(const std::string& title, const std::vector<NamedCurve>& curv
     return plot.svg();
 }
 
-// Strips 32 pixels high, one above the other, white between them; values are the codes themselves.
+// Draws strips 32 pixels high, one above the other, with white between them. The values are the
+// codes themselves.
 CodedImage strips_of(const std::vector<NamedCurve>& curves) {
     constexpr int strip = 32, gap = 4;
     const int count = static_cast<int>(curves.size());

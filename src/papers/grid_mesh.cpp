@@ -14,7 +14,7 @@
 namespace lamina::papers {
 namespace {
 
-// The points of an index-space grid with `cells` cells go to place(index), where the scalar is
+// Moves the points of an index-space grid with `cells` cells to place(index), where the scalar is
 // field(index).
 template <typename Place, typename Field>
 SceneMesh split_grid(const std::array<std::int32_t, 3>& cells, const Place& place,
@@ -46,8 +46,8 @@ double blobs(const glm::dvec3& p) {
            0.5 * blob({.35, .75, .7}, .12);
 }
 
-// Heights of layers 0..count above the body: thicknesses first, first * growth, ..., the last one
-// as thick as columns are wide.
+// Returns the heights of layers 0..count above the body. Thicknesses are first, first * growth,
+// ..., and the last one equals the width of columns.
 std::vector<double> layer_heights(std::int32_t count, double first, double last) {
     const double growth = std::pow(last / first, 1.0 / (count - 1));
     std::vector<double> heights{0};
@@ -59,7 +59,7 @@ std::vector<double> layer_heights(std::int32_t count, double first, double last)
     return heights;
 }
 
-// The body's height, for a bump of height 1.
+// Returns the body's height, for a bump of height 1.
 double bump_at(double x, double y) {
     return std::exp(-10 * ((x - .5) * (x - .5) + (y - .5) * (y - .5)));
 }
@@ -78,8 +78,8 @@ SceneMesh make_box_mesh(const std::array<std::int32_t, 3>& cells) {
 }
 
 SceneMesh make_graded_mesh(std::int32_t cells, std::int32_t layers, double ratio, double bump) {
-    // The longest edge is a diagonal of an outermost cell; the first layer's thickness hardly
-    // matters to it.
+    // The longest edge is a diagonal of an outermost cell, which hardly depends on the thickness of
+    // the first layer.
     const double width = 1.0 / cells;
     const auto made = [&](double first) {
         const std::vector<double> heights = layer_heights(layers, first, width);

@@ -6,7 +6,7 @@
 namespace lamina::papers {
 namespace {
 
-// The files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
+// Returns the files of an item that shows meshes one by one: NAME_MESH.png and .csv, and `also`.
 std::vector<std::string> files_of_meshes(const std::string& name,
                                          const std::vector<std::string>& meshes,
                                          std::vector<std::string> also = {}) {

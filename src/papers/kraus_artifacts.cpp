@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kraus 2004, section 5.2: what each remedy is worth, on all meshes.
+// Kraus 2004, section 5.2: the effect of each remedy, on all meshes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr const char* all_remedies = "all remedies";
 constexpr double visible = 1;    // from this error on, in 1/255
 constexpr double graded = 1000;  // edge ratio, from which a mesh counts as graded
 
-// `scene` has every remedy; the last one has ours, too.
+// `scene` has every remedy of the paper. The last variant has ours, too.
 std::vector<Variant> ladder(const Scene& scene) {
     return {{all_remedies, scene},
             {"linear interpolation", with_linear_interpolation(scene)},
@@ -42,7 +42,7 @@ std::vector<Variant> ladder(const Scene& scene) {
             {"default", with_default_integration(scene)}};
 }
 
-// Buffers again, for `faint` tets.
+// The variants of the frame buffer, for tets of low opacity.
 std::vector<Variant> buffers(const Scene& scene) {
     return {{all_remedies, scene},
             {"fixed8 buffer", with_target(scene, Target::fixed8)},
@@ -58,7 +58,7 @@ const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::s
     return *found;
 }
 
-// Each worse than the next, by L2.
+// Each variant should be worse than the next, by L2.
 void judge_chain(Findings& findings, const std::string& says,
                  const std::vector<VariantErrors>& errors, const std::vector<std::string>& names) {
     bool holds = true;

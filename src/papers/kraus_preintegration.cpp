@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Frames that are timed again and again are smaller.
+// Frames that are timed many times are smaller.
 int half(int pixels) {
     return std::max(1, pixels / 2);
 }
@@ -45,7 +45,8 @@ std::vector<Variant> ways(const Scene& scene) {
         {"analytic", closed_form}};
 }
 
-// Milliseconds to build the table that the scene asks for; null where it has none of its own.
+// Returns the milliseconds to build the table that the scene asks for, or null where it has none of
+// its own.
 Json build_ms(const study::TracedMesh& mesh, const Scene& scene, const Capabilities& capabilities) {
     SceneRenderer frames(scene, mesh.data(), capabilities);
     const Plan& plan = frames.plan();

@@ -24,7 +24,7 @@ struct KrausSizes {
     int rounds = 3;
 };
 
-// What the items share: the current context, and meshes with their traced pictures.
+// The context that is current, and meshes with their traced pictures, for all items of the paper.
 class KrausStage {
   public:
     // Meshes of data sets are read from `data`, unless it is empty or lacks them.

@@ -11,7 +11,7 @@ namespace lamina::papers {
 namespace {
 
 constexpr double faint_opacity = 0.1;
-constexpr double smooth_opacity = 0.48;  // found on a coarse picture: a finer one has a little more
+constexpr double smooth_opacity = 0.48;  // measured on a coarse picture
 constexpr double dense_opacity = 0.95;
 constexpr int coarse = 4;  // pixels
 
@@ -19,7 +19,8 @@ TransferKnot knot(double value, const glm::dvec3& color, double extinction) {
     return {value, {color, extinction}};
 }
 
-// Blue below, orange above: an isosurface of which the two sides can be told apart.
+// The colours are blue below the value and orange above it, so that the two sides of an isosurface
+// can be told apart.
 std::vector<TransferKnot> peak(double value, double half_width) {
     const glm::dvec3 below(.1, .35, 1), above(1, .55, .1);
     return {knot(value - half_width, below, 0), knot(value, 0.5 * (below + above), 1),
@@ -49,7 +50,8 @@ TransferFunction scaled(std::span<const TransferKnot> knots, double factor) {
     return TransferFunction::linear(std::move(changed));
 }
 
-// Of all rays of a coarse picture, with extinctions `thin` times those of `knots`.
+// Returns the largest depth of all rays of a coarse picture, with extinctions `thin` times those of
+// `knots`.
 double largest_depth(study::TracedMesh& mesh, Scene scene, const std::vector<TransferKnot>& knots,
                      double thin) {
     scene.width = std::max(1, scene.width / coarse);
@@ -115,7 +117,7 @@ KrausSubject make_kraus_subject(SceneMesh mesh, const KrausView& view, bool meas
     scene.width = width;
     scene.height = height;
     scene.project.table = paper_table();
-    // Optical depth is proportional to extinction; the relative ones are some 1.
+    // Optical depth is proportional to extinction. The relative extinctions are about 1.
     const auto& bounds = subject.mesh.tets().bounds();
     const double thin = 1e-3 / glm::distance(bounds.min, bounds.max);
     const auto with = [&](const std::vector<TransferKnot>& knots, double depth, double opacity) {

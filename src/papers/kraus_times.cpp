@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A technique of Table 1 and what the paper prints for it; 0: nothing.
+// A technique of Table 1, with the numbers that the paper prints for it; 0: it prints none.
 struct Technique {
     std::string name;
     Scene scene;
@@ -73,7 +73,7 @@ std::string against(double measured, double paper) {
     return fmt::format("{:.2f} times as long; the paper's: {:.2f}", measured, paper);
 }
 
-// Rows as techniques() has them.
+// The rows are in the order of techniques().
 void judge_table1(Findings& findings, const Json& rows) {
     enum : std::size_t { basic, perspective, fixed16, log2, octave, alpha, after, half, full };
     const auto overhead = [&](const char* says, std::size_t of, std::size_t to, double paper) {
@@ -100,7 +100,7 @@ void judge_table1(Findings& findings, const Json& rows) {
         fmt::format("{:.2f} times as long", ratio(rows, half, log2)));
 }
 
-// Of the picture that tells how dense the boxes have to be.
+// The size of the picture that determines how dense the boxes have to be.
 constexpr int coarse_width = 160, coarse_height = 120;
 
 // A mesh of Table 2.
@@ -131,7 +131,7 @@ Json printed_table2() {
     return printed;
 }
 
-// Boxes first, from small to large; then data sets.
+// Boxes come first, from small to large, then data sets.
 std::vector<TimedMesh> meshes_of_table2(KrausStage& stage, std::deque<study::TracedMesh>& boxes) {
     std::vector<TimedMesh> meshes;
     const Scene box_scene =
@@ -221,7 +221,7 @@ Json draw_kraus_table2(const std::filesystem::path& folder, KrausStage& stage) {
     double least = INFINITY, most = 0, order = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         order = std::max(order, rows[i]["order_share"].get<double>());
-        if (i == 0 || i >= boxes.size()) continue;  // of the paper's sizes
+        if (i == 0 || i >= boxes.size()) continue;  // boxes of the paper's sizes only
         least = std::min(least, rows[i]["tets_per_second"].get<double>());
         most = std::max(most, rows[i]["tets_per_second"].get<double>());
     }

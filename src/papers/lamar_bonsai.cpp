@@ -32,7 +32,7 @@ Json skipped() {
             {"checks", Json::array()}};
 }
 
-// Lengths are voxels; thin leaves, denser wood.
+// Lengths are in voxels. Leaves are thin and wood is denser.
 Scene bonsai_scene() {
     Scene scene;
     const auto knot = [](double value, const glm::dvec3& color, double extinction) {

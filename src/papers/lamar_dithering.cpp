@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LaMar 2004, section 5, leaves open on dithering along depth.
+// Questions on dithering along depth that LaMar 2004, section 5, leaves open.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ void append(Json& row, const ErrorNorms& e) {
     row["l2"] = e.l2;
 }
 
-// The first column of the ramp whose opacity a sample, 1 / (255 P) or more, leaves a mark in a
-// pattern of period P.
+// Returns the first column of the ramp whose opacity a sample is 1 / (255 P) or more, which a
+// pattern of period P shows.
 int predicted_first_shown(int samples, int period) {
     for (int x = 1; x < ramp_width; ++x) {
         const double code = 255 * opacity_over(x / 255.0, 1.0 / samples);
@@ -51,8 +51,8 @@ Json measure_period(int samples, int period, double color, OverRounding over) {
     return row;
 }
 
-// Opacity rounds in the same way whatever the rounding of OVER, and colour 1 as it does: those rows
-// would be the same.
+// The rounding of OVER does not change how opacity is rounded, and colour 1 is rounded as opacity
+// is. Those rows would be equal.
 struct ColorCase {
     double color;
     OverRounding over;
@@ -83,7 +83,8 @@ Json measure_increment(const RampSetting& setting) {
     return row;
 }
 
-// With periods N, and N times the increment: a pattern of increment k shows k / (255 P) or more.
+// Measures periods N with increments of N times the first. A pattern of increment k shows
+// k / (255 P) or more.
 Json measure_increments() {
     Progress progress("dithering: increments", 5 * 4 * 5);
     Json rows = Json::array();
@@ -128,7 +129,7 @@ Json measure_spans() {
     return rows;
 }
 
-// The rows where every given key has the given value.
+// Returns the rows where every given key has the given value.
 std::vector<Json> select(const Json& rows, const Json& wanted) {
     std::vector<Json> found;
     for (const Json& row : rows) {
@@ -140,7 +141,7 @@ std::vector<Json> select(const Json& rows, const Json& wanted) {
     return found;
 }
 
-// L2 of colour 1 against `key`, a line a sample depth.
+// Plots L2 of colour 1 against `key`, with one line a sample depth.
 std::string error_plot(const Json& rows, const std::string& title, const study::PlotAxis& x_axis,
                        const std::string& key) {
     study::LinePlot plot(title, x_axis, {"L2, in 1/255", 1, 256, true});

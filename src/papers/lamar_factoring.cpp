@@ -23,8 +23,8 @@ struct Tree {
     const char* name;  // factors, or no tree
     bool shown;        // in the picture, which is the paper's
 };
-// "1 group of 1024 slices", "4 groups of 256", "8 groups of 8 groups of 16", height 10; and, for
-// what the text says of factors, others of two levels and of four and five.
+// The trees of the paper: "1 group of 1024 slices", "4 groups of 256", "8 groups of 8 groups of
+// 16", height 10. Others of two, four and five levels test what the text says of factors.
 constexpr Tree trees[] = {{"straight", true}, {"4x256", true},  {"256x4", false},
                           {"16x64", false},   {"64x16", false}, {"32x32", false},
                           {"8x8x16", true},   {"4^5", false},   {"2^10", true}};
@@ -72,7 +72,7 @@ void judge(Findings& findings, const Errors& truncated, const Errors& nearest) {
                              t.linf, t.l2, n.linf, n.l2));
 }
 
-// Beyond the paper: nodes computed in a shader, which carry colour.
+// This goes beyond the paper: nodes are computed in a shader, and carry colour.
 ErrorNorms shader_tree_error(LamarStage& stage, const Scene& exact_scene, const Image& exact,
                              Image& image) {
     Scene scene = exact_scene;

@@ -40,7 +40,7 @@ float largest(const Image& image, std::size_t channel) {
     return 255 * found;
 }
 
-// Mean over the leftmost tenth, where the liquid is light, in 1/255.
+// Returns the mean over the leftmost tenth, where the liquid is light, in 1/255.
 double mean_on_the_left(const Image& image, std::size_t channel) {
     double sum = 0;
     const int columns = std::max(1, image.width / 10);
@@ -184,7 +184,7 @@ Json draw_figure6(const std::filesystem::path& folder, LamarStage& stage) {
     return findings.result(values, nullptr, data_note);
 }
 
-// Small pictures: what is wanted are norms.
+// The pictures are small, because only norms are wanted.
 Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
     const int pixels = std::min(96, stage.pixels());
     Progress progress("order: mixing liquids", 2 * 2 * 3 * 2 * 2);

@@ -30,7 +30,7 @@ constexpr double same_share = 0.05;
 
 struct Profile {
     const char* name;
-    // Largest opacity code of sample i; m is the ray's.
+    // Returns the largest opacity code of sample i; m is the ray's.
     int (*largest)(int i, int m);
 };
 const Profile profiles[] = {
@@ -91,7 +91,7 @@ OrderErrors measure_orders(const OrderCase& order_case) {
     return {error_of(front, exact), error_of(back, exact)};
 }
 
-// How many cases each order is better in, by L2.
+// The number of cases in which each order is better, by L2.
 struct Score {
     int front = 0, equal = 0, back = 0;
     const char* add(const OrderErrors& errors) {
@@ -121,7 +121,7 @@ std::vector<OrderCase> order_cases() {
     return cases;
 }
 
-// Even profile, random colours, opacities truncated: the errors a picture shows.
+// The errors that the picture shows: an even profile, random colours, truncated opacities.
 class OrderPlot {
   public:
     void add(const OrderCase& order_case, const OrderErrors& errors) {
@@ -153,7 +153,7 @@ class OrderPlot {
     Curves separate_, fused_;
 };
 
-// Columns of ramps of equal fragments that differ between the orders.
+// Finds the columns of ramps of equal fragments that differ between the orders.
 Json equal_fragments() {
     Json rows = Json::array();
     for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {

@@ -22,7 +22,7 @@ std::string depth_name(int samples) {
     return fmt::format("N={}", samples);
 }
 
-// The paper dithers colour beside opacity (section 5).
+// The paper dithers colour as well as opacity (section 5).
 Dither paper_dither() {
     Dither dither;
     dither.period = paper_period;
@@ -38,8 +38,8 @@ ErrorNorms error_of(const NamedCurve& named, const std::vector<NamedCurve>& curv
     return papers::error_of(named.curve, curves.front().curve);
 }
 
-// Slope of the straight line through columns 0 .. 127, by least squares; 1 is a right ramp of
-// colour 1.
+// Returns the slope of the straight line through columns 0 .. 127, by least squares. A right ramp
+// of colour 1 has slope 1.
 double slope_of_first_half(const Curve& curve) {
     constexpr int count = ramp_width / 2;
     constexpr double middle = 0.5 * (count - 1);

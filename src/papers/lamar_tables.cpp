@@ -91,7 +91,7 @@ const std::vector<Table3Row>& table3_printed() {
     return rows;
 }
 
-// The fragment over 0, over the result, and so on, until nothing changes.
+// Composites the fragment over 0, then over the result, and so on, until nothing changes.
 std::vector<std::uint32_t> repeated(std::uint32_t fragment) {
     std::vector<std::uint32_t> row{over4(fragment, 0)};
     for (std::uint32_t next; (next = over4(fragment, row.back())) != row.back();) {
@@ -100,8 +100,8 @@ std::vector<std::uint32_t> repeated(std::uint32_t fragment) {
     return row;
 }
 
-// Where a printed row differs from the operator: by one entry, which the row then leaves out of
-// step, or not at all.
+// Returns how a printed row differs from the operator: in one entry, after which the row is
+// shifted, or not at all.
 Json table3_misprint(const Table3Row& row, const std::vector<std::uint32_t>& right) {
     const auto [printed, correct] =
         std::mismatch(row.printed.begin(), row.printed.end(), right.begin(), right.end());

@@ -22,8 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr int timed_pixels = 512, slices = 1024, rounds = 3;
 constexpr int barrier_pixels = 64;
 constexpr int palette_period = 16;
-// The volume's square covers a quarter of the picture; what a tree does once a node is done over
-// all of it.
+// The volume's square covers a quarter of the picture. A tree's work after each node covers all of
+// it.
 constexpr double volume_in_picture = 0.5;
 constexpr double nearly_nothing = 64;  // times the camera's height
 
@@ -42,7 +42,7 @@ Scene timed_scene(bool white) {
     return scene;
 }
 
-// How to composite; `blend` keeps float32 from being marched in registers.
+// A way of compositing. `blend` keeps float32 from being marched in registers.
 struct TimedWay {
     std::string name;
     Target target = Target::fixed8;
@@ -82,7 +82,7 @@ Scene scene_of(const TimedWay& technique) {
     return scene;
 }
 
-// The same of next to nothing in the picture is drawn by a renderer of its own: a change of the
+// The frame with next to nothing in the picture has a renderer of its own, because a change of the
 // camera would be part of the times.
 study::TimedFrame frame_of(const std::string& name, const std::shared_ptr<const VolumeData>& volume,
                            const Scene& scene, const Capabilities& capabilities,
@@ -127,7 +127,7 @@ Json time_barriers(const std::shared_ptr<const VolumeData>& volume,
     return study::time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
 }
 
-// Section 5 leaves open what a palette for every slice costs.
+// Section 5 leaves open how much a palette for every slice costs.
 Json time_palettes(bool& same_picture) {
     using Way = PaletteSlices::Way;
     std::vector<study::TimedFrame> frames;

@@ -14,7 +14,8 @@ namespace {
 constexpr int entries = 256;
 constexpr std::size_t row_bytes = 4 * entries;
 
-// White; entry i has .004 i codes of opacity, dithered, so that one code at most is shown.
+// Colours are white. Entry i has an opacity of .004 i codes, dithered, so that at most one code is
+// shown.
 std::vector<std::uint8_t> dithered_palettes(int period) {
     const std::vector<std::uint32_t> ranks = dither_ranks(period, 1);
     std::vector<std::uint8_t> palettes;

@@ -12,7 +12,7 @@
 namespace lamina::papers {
 namespace {
 
-// 255 is also what 16-bit codes are reported in.
+// Codes of 16 bits are reported in units of 1/255, too.
 double in_255ths(std::uint32_t code, int bits) {
     return 255.0 * code / largest_code(bits);
 }

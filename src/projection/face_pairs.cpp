@@ -8,26 +8,27 @@
 namespace lamina {
 namespace {
 
-// Beyond the picture: rounded corners there must not uncover a pixel's centre.
+// Polygons reach this far beyond the picture, because rounded corners there must not uncover a
+// pixel's centre.
 constexpr double guard = 2;  // pixels
 
-// Corners nearer to each other than this are one.
+// Corners nearer to each other than this count as one.
 constexpr double same = 1e-9;  // pixels
 
-// The share of each corner of a face that is seen edge-on.
+// The shares of the corners of a face that is seen edge-on.
 constexpr glm::dvec3 nowhere(0, 0, -1);
 
 }  // namespace
 
 // The ray z (x, y, 1) of a place meets the face a, b, c where it is a positive combination of the
-// three: the share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer 1997, section 3:
-// right with corners behind the eye, too). Parallel rays: areas in place of volumes. right, up,
-// forward are left-handed: the divisor is positive for fronts.
+// three. The share of a is det(ray, b, c) / det(a, b, c), over z (Olano and Greer 1997, section 3;
+// this holds with corners behind the eye, too). For parallel rays areas take the place of volumes.
+// right, up, forward are left-handed, so the divisor is positive for fronts.
 FacePairs::FacePairs(const WindowView& window, double near_depth, const Tet& tet,
                      const std::array<glm::dvec3, 4>& seen, const Fronts& fronts)
     : window_(window), near_depth_(near_depth), seen_(seen), fronts_(fronts) {
     const bool perspective = window.perspective();
-    // The same numbers, with the other sign, for all faces of the edge in all tets.
+    // All faces of the edge, in all tets, get the same numbers up to their sign.
     const auto edge = [&](std::size_t i, std::size_t j) {
         const double sign = tet[i] < tet[j] ? 1 : -1;
         if (tet[i] > tet[j]) std::swap(i, j);
@@ -40,7 +41,7 @@ FacePairs::FacePairs(const WindowView& window, double near_depth, const Tet& tet
         const std::array<Linear, 3> opposite{edge(b, c), edge(c, a), edge(a, b)};
         const glm::dvec3 at = perspective ? seen[a] : glm::dvec3(seen[a].x, seen[a].y, 1);
         const double sign = fronts[face] ? 1 : -1, volume = sign * glm::dot(opposite[0], at);
-        // A face through the eye is met nowhere: rays begin inside.
+        // A face through the eye is not met, because rays begin inside the tet.
         any_front_ = any_front_ || (fronts[face] && volume > 0);
         for (std::size_t i = 0; i < 3; ++i) {
             shares_[face][i] = volume > 0 ? opposite[i] / volume * sign : nowhere;
@@ -58,7 +59,7 @@ glm::dvec3 FacePairs::ray_at(const glm::dvec2& place) const {
     return {(place - window_.middle()) * window_.view().pixel, 1};
 }
 
-// The part where the function is not negative (Sutherland and Hodgman 1974).
+// Returns the part where the function is not negative (Sutherland and Hodgman 1974).
 FacePairs::Polygon FacePairs::cut(const Polygon& polygon, const Linear& function) const {
     Polygon part;
     const auto add = [&](const glm::dvec2& corner) {
@@ -98,7 +99,7 @@ FacePairs::Linear FacePairs::depth_of(std::size_t face) const {
     return depth;
 }
 
-// Where a face is met behind the near plane, or in front of it.
+// Returns the part where the face is met behind the near plane, or in front of it.
 FacePairs::Polygon FacePairs::limited(const Polygon& polygon, std::size_t face,
                                       bool behind_near) const {
     if (!cut_ || polygon.count == 0) return polygon;

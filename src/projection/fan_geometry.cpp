@@ -12,8 +12,8 @@
 namespace lamina {
 namespace {
 
-// Corners of fans this far beyond the picture, in pixels, keep what float32 and rasterisers have of
-// sub-pixel digits.
+// Up to this distance from the picture, in pixels, corners of fans keep the sub-pixel digits of
+// float32 and of rasterisers.
 constexpr double farthest_beyond = 1024;
 
 }  // namespace
@@ -73,7 +73,8 @@ FanGeometry::Point FanGeometry::mix(std::span<const Point> points,
     return sum;
 }
 
-// `inverse_difference`: of inverse depths in perspective views, of depths in orthographic ones.
+// `inverse_difference` is that of inverse depths in perspective views, and of depths in
+// orthographic ones.
 FanVertex FanGeometry::thick_vertex(const glm::dvec2& window, const Point& front, const Point& back,
                                     double inverse_difference) const {
     const double difference = std::max(inverse_difference, 0.0);
@@ -125,7 +126,8 @@ bool FanGeometry::make_fan(const Corners& corners, const Fronts& fronts, Fan& fa
                                 {back_faces[0], back_faces[1]}, fan);
 }
 
-// Classes 1a and 1b (Kraus 2004, Figure 1): a corner is seen inside the face opposite.
+// Makes classes 1a and 1b (Kraus 2004, Figure 1), in which a corner is seen inside the face
+// opposite.
 bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_face, bool front,
                                      Fan& fan) const {
     const Corner& apex = corners[lone_face];
@@ -141,8 +143,8 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
         area += weights[i];
     }
     if (area == 0 || !std::isfinite(area)) return false;
-    // How much deeper (perspective: less in 1/z) the apex is than the face; differences of 1/z from
-    // differences of z (docs/numerics.md, section 6).
+    // How much deeper (perspective: less in 1/z) the apex is than the face. Differences of 1/z come
+    // from differences of z (docs/numerics.md, section 6).
     double deeper = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         weights[i] = std::clamp(weights[i] / area, 0.0, 1.0);
@@ -158,8 +160,8 @@ bool FanGeometry::make_around_corner(const Corners& corners, std::size_t lone_fa
     return true;
 }
 
-// Class 2: two edges cross. The two front faces share the edge of the other two corners, and so do
-// the back faces.
+// Makes class 2, in which two edges cross. The two front faces share the edge of the other two
+// corners, and so do the back faces.
 bool FanGeometry::make_around_crossing(const Corners& corners,
                                        const std::array<std::size_t, 2>& front_faces,
                                        const std::array<std::size_t, 2>& back_faces,
@@ -229,7 +231,7 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
     if (behind > 0) return write_pairs(owner, corners, place);
     const glm::dvec2 size = 2.0 * window_.middle();
     if (hi.x < 0 || hi.y < 0 || lo.x > size.x || lo.y > size.y) return {};
-    // Linear interpolation is the paper's between the corners of whole tets alone.
+    // Linear interpolation is the paper's only between the corners of whole tets.
     const glm::dvec2 beyond = glm::max(-lo, hi - size);
     const bool exact = divided_ || !window_.perspective();
     if (exact && std::max(beyond.x, beyond.y) > farthest_beyond)

@@ -116,7 +116,7 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     stream_->set_barriers(plan_.blending == Blending::barrier);
 }
 
-// Samples are the parts: as many in every view.
+// The samples of a ray are the parts, as many in every view.
 void GlProjectRenderer::make_tree() {
     CompositingPlan nodes = plan_;
     if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
@@ -194,7 +194,7 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
                                          view, plan_.near_depth, margin_));
     }
     const TetGeometry& geometry = fans ? static_cast<const TetGeometry&>(*fans) : *silhouettes;
-    // The next kind that has a program; fans are all plain.
+    // A kind without a program is drawn by the next kind that has one. Fans are all plain.
     GlTetStream::Programs programs{};
     gl::Program* last = nullptr;
     for (std::size_t i = fragment_kinds; i-- > 0;) {

@@ -14,7 +14,8 @@
 namespace lamina {
 namespace {
 
-// Small enough that the second core has work soon, large enough that a draw costs little.
+// Batches are small enough that the second core soon has work, and large enough that a draw costs
+// little.
 constexpr std::size_t most_batch_parts = 32768;
 constexpr std::size_t chunk_parts = 64;
 
@@ -148,8 +149,8 @@ const gl::Program* GlTetStream::program_of(const Chunk& chunk, const Programs& p
     return programs[static_cast<std::size_t>(chunk.kind)];
 }
 
-// Runs of chunks with the same program. Empty ones are left out: at a draw of no indices Mesa 22.3
-// forgets the rest of a multi-draw.
+// Submits runs of chunks with the same program. Empty chunks are left out, because at a draw of no
+// indices Mesa 22.3 forgets the rest of a multi-draw.
 void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
     for (std::size_t chunk = 0; chunk < chunks;) {
         const gl::Program* const program = program_of(chunks_[chunk], programs);

@@ -23,7 +23,7 @@ PartField::PartField(const Corners& corners, const Values& values, const LinearP
     gradient_ = ((values[1] - values[0]) * n1 + (values[2] - values[0]) * glm::cross(e3, e1) +
                  (values[3] - values[0]) * glm::cross(e1, e2)) /
                 glm::dot(e1, n1);
-    // A tet without volume shows nothing, whatever its scalar.
+    // A tet without volume is not seen, whatever its scalar.
     const auto largest_of = [](const glm::dvec3& v) {
         return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     };

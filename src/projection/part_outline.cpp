@@ -11,23 +11,24 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of all pairs of a front and a back face, by the number of front faces.
+// The front face and the back face of each pair of one of either kind, by the number of front
+// faces.
 alignas(16) constexpr std::int32_t front_of[4][4] = {
     {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 1}, {0, 1, 2, 2}};
 alignas(16) constexpr std::int32_t back_of[4][4] = {
     {0, 0, 0, 0}, {1, 2, 3, 3}, {2, 2, 3, 3}, {3, 3, 3, 3}};
 
-// More than all roundings of depths and of the bounds, of depths and per pixel from the center:
-// what the outline leaves out must not be seen.
+// These are more than all rounding errors of depths and of the bounds, in depth and per pixel from
+// the center, because what the outline leaves out must not be seen.
 constexpr float rounding = 1e-6f, least_slack = 1e-3f;
 
-// Lines along rows are made a little oblique, so that they bound columns.
+// Lines along rows are made a little oblique, so that they bound columns, too.
 constexpr float oblique = 1e-4f;
 
 }  // namespace
 
-// The difference of depth at the corner of a square where it is largest is most + c X - r Y, for
-// the square X columns and Y rows from the area's first pixel; a lane for each line.
+// The largest difference of depth at a corner of the square X columns and Y rows from the area's
+// first pixel is most + c X - r Y. There is a lane for each line.
 PartOutline outline_of(const TetRecord& record, const PixelArea& area, int image_rows) {
     constexpr float middle = 0.5f * (TileGrid::block - 1);
     const float columns = static_cast<float>(area.last_column - area.first_column),

@@ -17,10 +17,10 @@ constexpr std::size_t most_points = 8;
 // Corners farther out than this are cut off, so that rasterisers keep their sub-pixel digits.
 constexpr double guard = 2;  // pixels
 
-// Corners nearer to each other than this are one.
+// Corners nearer to each other than this count as one.
 constexpr double same = 1e-9;  // pixels
 
-// Corners of the enlarged polygon stick out by at most 1 / sqrt((1 + this) / 2) margins; sharper
+// Corners of the enlarged polygon stick out by at most 1 / sqrt((1 + this) / 2) margins. Sharper
 // ones are cut off square.
 constexpr double sharpest = -0.96;
 
@@ -33,7 +33,7 @@ struct Hull {
     std::array<glm::dvec2, most_points + 5> corners;
 };
 
-// Andrew's monotone chain: counter-clockwise, without corners on straight edges.
+// Andrew's monotone chain. The hull is counter-clockwise, without corners on straight edges.
 Hull convex_hull(std::span<const glm::dvec2> points) {
     std::array<glm::dvec2, most_points> sorted;
     const std::size_t count = points.size();
@@ -66,8 +66,8 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     return hull;
 }
 
-// The part where the coordinate `axis` is at most `limit`, or at least where `sign` is -1
-// (Sutherland and Hodgman 1974).
+// Returns the part where the coordinate `axis` is at most `limit` or, where `sign` is -1, at least
+// `limit` (Sutherland and Hodgman 1974).
 Hull cut(const Hull& hull, int axis, double limit, double sign) {
     Hull part;
     for (std::size_t i = 0; i < hull.count; ++i) {
@@ -110,8 +110,8 @@ bool is_convex(const Hull& hull) {
     return true;
 }
 
-// The hull's edges moved outwards by `margin`, its corners on a grid of half of that: coordinates
-// and cross products are exact there.
+// Moves the hull's edges outwards by `margin`. The corners lie on a grid of half of that, on which
+// coordinates and cross products are exact.
 ScreenPolygon enlarged(const Hull& hull, double margin) {
     const double step = margin / 2;
     Hull larger;
@@ -162,7 +162,7 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
         if (bounds.max[axis] > hi[axis]) hull = cut(hull, axis, hi[axis], 1);
     }
     if (hull.count == 0) return {};
-    // What a rectangle covers beside the tet is found there to have no thickness.
+    // A rectangle may cover more than the tet: fragments beside the tet find no thickness there.
     if (hull.count == 1 || hull.count > 6)
         return rectangle(bounds_of({hull.corners.data(), hull.count}, margin), margin / 2);
     return enlarged(hull, margin);

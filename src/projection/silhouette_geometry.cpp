@@ -12,7 +12,7 @@ TetGeometry::Size SilhouetteGeometry::largest_size() {
 
 TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
     ScreenOutline outline;
-    TetRecord record;  // not written where it goes: that memory may be slow to read
+    TetRecord record;  // not written in place: that memory may be slow to read
     const std::optional<FragmentKind> kind = projector_.project(part, record, outline);
     if (!kind) return {};
     const ScreenPolygon polygon = surround(outline.points(), projector_.margin(),

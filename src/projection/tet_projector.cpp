@@ -11,17 +11,17 @@
 namespace lamina {
 namespace {
 
-// A face seen edge-on is taken as inclined by this angle, so that its depth per pixel is a number;
-// it is far below what moves rays aside that run along faces (GlProjectRenderer).
+// A face seen edge-on is taken as inclined by this angle, so that its depth per pixel is a number.
+// The angle is far below the perturbation of rays that run along faces (GlProjectRenderer).
 constexpr double least_inclination = 1e-16;
 
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// A needle thinner than this share of its distance: seen from the eye, its corners are rounded by
-// some 1000th of its width, and planes through them may lie anywhere along it. No ray meets it, but
-// by a chance of about this share.
+// A tet thinner than this share of its distance is a needle. Seen from the eye, its corners are
+// rounded by some 1000th of its width, and planes through them may lie anywhere along it. A ray
+// meets it only by a chance of about this share.
 constexpr double least_width = 0x1p-42;
 
 bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
@@ -36,7 +36,8 @@ bool is_too_thin(const std::array<glm::dvec3, 4>& corners) {
     return widest <= least_width * reach * longest;
 }
 
-// The corners of a face in the order of their numbers, the same for both tets that share it.
+// Returns the corners of a face in the order of their numbers, which is the same for both tets that
+// share it.
 std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     std::array<std::size_t, 3> corners = face_corners[face];
     const auto sort = [&](std::size_t& low, std::size_t& high) {
@@ -57,7 +58,7 @@ float finite_float(double value) {
     return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));
 }
 
-// No run through a part has more optical depth.
+// Returns a bound on the optical depth of all runs through a part.
 double largest_depth(const std::array<glm::dvec3, 4>& corners, const TetRecord& record) {
     double longest = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -86,9 +87,9 @@ TetProjector::TetProjector(const TetMesh& mesh, std::span<const double> scalar,
       near_depth_(near_depth),
       margin_(margin) {}
 
-// The plane through A, B, C with normal n is met by the ray z (x, y, 1) of the window place (x, y)
-// at 1/z = n.(x, y, 1) / n.A, and by the parallel ray (x, y, z) at z = (n.A - n.(x, y, 0)) / n_z.
-// Nothing but the face's own corners goes in, in the order of their numbers: the two tets of a face
+// The ray z (x, y, 1) of the window place (x, y) meets the plane through A, B, C with normal n at
+// 1/z = n.(x, y, 1) / n.A, and the parallel ray (x, y, z) at z = (n.A - n.(x, y, 0)) / n_z. Only
+// the face's own corners are used, in the order of their numbers, so that the two tets of a face
 // compute the same numbers, and no ray leaves one before or after it enters the other.
 TetProjector::DepthPlane TetProjector::depth_plane(const Tet& tet, std::size_t face,
                                                    FaceSigns signs,
@@ -99,9 +100,9 @@ TetProjector::DepthPlane TetProjector::depth_plane(const Tet& tet, std::size_t f
     const Seen& c = corners[sorted[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     const double distance = glm::dot(normal, a);
-    // Of the exact sign, where the face is not edge-on; the same for both tets where it is.
+    // This is the exact sign where the face is not edge-on, and the same for both tets where it is.
     const bool front = is_front(tet, face, signs);
-    // right, up, forward are left-handed: determinants have the other sign than in the world.
+    // right, up, forward are left-handed, so determinants have the other sign than in the world.
     const double sign = front == turned_by_sorting(tet, face) ? -1 : 1;
     const double rounded = window_.perspective() ? distance : normal.z;
     const double reach = window_.perspective() ? std::max({largest(a), largest(b), largest(c)}) : 1;
@@ -140,8 +141,9 @@ double TetProjector::depth_at_center(const DepthPlane& plane, const TetRecord& r
            static_cast<double>(record.center_depth);
 }
 
-// Depth at the record's center, per column and per row. A level that passes through the eye is seen
-// edge-on: all three are huge, and what counts is on which side of the edge a pixel lies.
+// Returns the depth at the record's center, per column and per row. A level that passes through the
+// eye is seen edge-on: all three are huge, and only the side of the edge on which a pixel lies
+// counts.
 std::array<float, 3> TetProjector::plane_at_center(const DepthPlane& plane,
                                                    const TetRecord& record) const {
     const glm::dvec3 exact(depth_at_center(plane, record), plane.per_column, plane.per_row);
@@ -150,7 +152,7 @@ std::array<float, 3> TetProjector::plane_at_center(const DepthPlane& plane,
 }
 
 // With the scalar e at the eye and its gradient g, the ray z (x, y, 1) meets a level at
-// 1/z = g.(x, y, 1) / (level - e). A front to what lies above it where the level lies above e.
+// 1/z = g.(x, y, 1) / (level - e). Where the level lies above e, it is a front to larger scalars.
 TetProjector::DepthPlane TetProjector::level_plane(const PartField& field, double level) const {
     const glm::dvec3& gradient = field.gradient();
     const double above_eye = level - field.at(glm::dvec3(0));
@@ -162,18 +164,18 @@ TetProjector::DepthPlane TetProjector::level_plane(const PartField& field, doubl
             gradient.y * per_pixel, front};
 }
 
-// `Depth` of a z, and z of a depth.
+// Returns the depth of a z, and the z of a depth.
 double TetProjector::inverted(double value) const {
     return window_.perspective() ? -1 / value : value;
 }
 
-// The scalar less `origin`, over `width`.
+// Sets the scalar as (scalar - origin) / width.
 void TetProjector::set_scalars(const PartField& field, double origin, double width,
                                TetRecord& record) const {
     const double scale = width > 0 ? 1 / width : 0;
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
-                 // Where shaders reckon depths from; center_z is rounded, by much of a small tet
+                 // Shaders measure depths from here. center_z is rounded, by much of a small tet
                  // far away.
         z = inverted(static_cast<double>(record.center_depth));
     const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
@@ -191,7 +193,7 @@ void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
     const DepthPlane before_all{-beyond_all, 0, 0, true};
     const DepthPlane lower = field.cut_low() ? level_plane(field, field.least()) : before_all;
     DepthPlane upper = before_all;
-    if (field.cut_high()) {  // what is drawn lies below
+    if (field.cut_high()) {  // the part lies below this cut
         upper = level_plane(field, field.largest());
         upper.front = !upper.front;
     }
@@ -265,7 +267,8 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
     return thin ? FragmentKind::thin : FragmentKind::plain;
 }
 
-// The same for all parts of a tet, so that they find their common cuts at the same depth.
+// The center is the same for all parts of a tet, so that they find their common cuts at the same
+// depth.
 TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
                                                 TetRecord& record) const {
     glm::dvec2 lo(INFINITY), hi(-INFINITY);
@@ -285,7 +288,7 @@ TetProjector::Extent TetProjector::place_center(const VisibleCorners& visible,
     record.center = {static_cast<float>(center.x), static_cast<float>(center.y)};
     record.center_depth = static_cast<float>(inverted(z));
     record.center_z = static_cast<float>(inverted(static_cast<double>(record.center_depth)));
-    // A change of 1/z means most at the far end.
+    // A change of 1/z changes z most at the far end.
     const double range = (farthest - nearest) / (window_.perspective() ? farthest * farthest : 1);
     return {hi.x - lo.x, hi.y - lo.y, range, nearest <= near_depth_};
 }

@@ -53,9 +53,9 @@ float to_float(const TetSetup::Lanes::Row& row, std::size_t lane) {
 
 }  // namespace
 
-// The mesh is in no order that a view's order follows: its next tets' corners, and the tets after
-// these, are fetched while this one's are in use. Inlined: calls of a function that only prefetches
-// are dropped by GCC 12, to which it has no effect.
+// The order of a view does not follow the mesh's, so the corners of the next tets, and the tets
+// after these, are prefetched while this one's are in use. It is inlined because GCC 12 drops calls
+// of a function that only prefetches, in which it sees no effect.
 void TetSetup::prefetch(std::span<const TetPart> next) const {
     for (std::size_t i = 0; i < std::min(next.size(), most_parts); ++i) {
         for (const std::int32_t corner : tets_[static_cast<std::size_t>(next[i].tet)]) {
@@ -131,7 +131,8 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
         TetRecord& record = records[lane];
         store_faces(lanes, lane, record);
         record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
-        // One by one: a whole area that is copied waits for what has just been written of it.
+        // The members are written one by one: a copy of the whole area would wait for what has just
+        // been written of it.
         PartArea& area = result.areas[lane];
         area.first_column = pixel(lanes.first_column);
         area.last_column = pixel(lanes.last_column);
@@ -167,7 +168,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
             record.high[channel] = to_float(lanes.high[channel], lane);
         }
     }
-    // Not above, for the same reason.
+    // This is a loop of its own for the same reason.
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         PartArea& area = result.areas[lane];
         if (result.outcomes[lane] == Outcome::done)

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Coloured parts in perspective, put over a float32 target.
+// Draws coloured parts in perspective over a float32 target.
 struct PartShader {
     static constexpr bool cut = true, scalars = true, perspective = true, opacity_only = false;
 

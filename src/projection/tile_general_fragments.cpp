@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What a pixel of the paper's triangles knows: shaders/projection/fan.glsl.
+// Draws pixels of the paper's triangles, as shaders/projection/fan.glsl does.
 class TriangleDrawing {
   public:
     TriangleDrawing(const TetFragments& fragments, const TetTile& tile)

@@ -16,12 +16,13 @@
 namespace lamina {
 namespace {
 
-// Pixel centres this near to the corners' outline are looked at: more than its rounding.
+// Pixels are examined whose centres are this near to the corners' outline. It is more than its
+// rounding errors.
 constexpr double margin = 1e-3;
 
-// Chunks in a batch: enough for the tiles of all threads to find work, few enough for the caches
-// (2 MB with 800 x 600 pixels), and for two batches to take less memory than a fourth of the
-// mesh's parts.
+// The chunks of a batch are enough for the tiles of all threads to find work, few enough for the
+// caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory than a
+// fourth of the mesh's parts.
 std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
     return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 12);
 }
@@ -78,7 +79,7 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     }
 }
 
-// As many as fit whatever the view is.
+// So many parts fit into a chunk in every view.
 std::size_t TileProjectRenderer::parts_a_chunk() const {
     return is_fan() ? 3 * TileChunk::most_parts / FanGeometry::most_indices : TileChunk::most_parts;
 }
@@ -156,7 +157,7 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<con
     }
 }
 
-// Samples are the parts, the last one the farthest.
+// The samples of a ray are the parts, the last one the farthest.
 void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
                                     Progress* progress) {
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
@@ -230,7 +231,7 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         const auto group =
             parts.subspan(first, std::min(TetSetup::most_parts, parts.size() - first));
         TetSetup::Parts done;
-        // Where they stay, unless one before them is not drawn.
+        // Records are written in place, and moved where one before them is not drawn.
         TetRecord* const records = &chunk.next();
         projectors.setup.set_up(group, parts.subspan(first + group.size()), records, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
@@ -251,8 +252,8 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
     const auto kind = projector.project(part, chunk.next(), outline);
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
-    // Careful, whatever the kind: right for all, and few parts are doubtful where others are not.
-    // Where all are drawn so, by the table (the plan's weight_error).
+    // Doubtful parts are drawn as careful ones, which is right for every kind. They are few, unless
+    // all parts are drawn so; then the table gives the weights (the plan's weight_error).
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,

@@ -55,7 +55,7 @@ void TileTetTree::clear(Node& node) const {
     }
 }
 
-// What has no opacity adds none, however it is rounded.
+// A sample without opacity adds none, however it is rounded.
 void TileTetTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& parent) {
     const Node& from = nodes_[static_cast<std::size_t>(level) + 1];
     Node& to = nodes_[static_cast<std::size_t>(level)];

@@ -8,10 +8,11 @@
 namespace lamina {
 namespace {
 
-constexpr double grid_steps = 4096;  // a pixel; sixteen times as many as most rasterisers have
+constexpr double grid_steps = 4096;  // per pixel, sixteen times as many as most rasterisers have
 
-// From its lesser corner on, for both triangles alike. The top-left rule of rasterisers whose rows
-// run upwards: what lies on an edge is of the triangle to the right, on horizontal ones above.
+// An edge starts at its lesser corner, so that both of its triangles compute the same numbers. The
+// top-left rule of rasterisers whose rows run upwards decides: a point on an edge belongs to the
+// triangle to the right, on horizontal edges to the one above.
 TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& inside) {
     if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
     const glm::dvec2 along = b - a;
@@ -20,7 +21,7 @@ TriangleRecord::Edge edge_of(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& insid
     return {a.x, a.y, -sign * along.y, sign * along.x, along.y > 0 ? !left : left};
 }
 
-// Of a triangle with twice the area `area`, which may be negative.
+// `area` is twice the triangle's area, and may be negative.
 TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double area) {
     const glm::dvec2 along = (b - a) / area;
     return {a.x, a.y, -along.y, along.x};
@@ -28,7 +29,7 @@ TriangleRecord::Share share_of(const glm::dvec2& a, const glm::dvec2& b, double 
 
 }  // namespace
 
-// Exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
+// The result is exact up to 2^44 pixels, so that edge functions below are exact up to 2^17.
 glm::dvec2 rounded_to_grid(const glm::vec2& window) {
     const auto rounded = [](float v) {
         return std::floor(static_cast<double>(v) * grid_steps + 0.5) / grid_steps;
@@ -47,8 +48,8 @@ bool make_triangle(const std::array<const FanVertex*, 3>& vertices, TriangleReco
     };
     const double rounded_area = area_of(places);
     if (!(std::abs(rounded_area) > 0) || !std::isfinite(rounded_area)) return false;
-    // Rounding widens slivers and may turn them over: far outside their exact corners nothing can
-    // be interpolated, and it is done between the rounded ones.
+    // Rounding widens slivers and may turn them over. Far outside their exact corners nothing can
+    // be interpolated, so interpolation is between the rounded corners.
     const bool is_sliver = area_of(exact) * rounded_area <= 0.01 * rounded_area * rounded_area;
     const std::array<glm::dvec2, 3>& between = is_sliver ? places : exact;
     const double area = area_of(between);

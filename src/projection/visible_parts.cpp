@@ -37,7 +37,7 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
                                                           : pieces_.visible(scalar_, tets[tet]);
             spans_[tet] = {span, span.first};
         });
-        // Of no volume, and of planes that say nothing.
+        // Flat tets have no volume, and planes that bound nothing.
         for (const std::int32_t tet : mesh.flat_tets())
             spans_[static_cast<std::size_t>(tet)].span = {};
         count_ = std::transform_reduce(
@@ -48,7 +48,7 @@ VisibleParts::VisibleParts(const TetMesh& mesh, std::span<const double> scalar,
     firsts_.reserve(tets.size() / block + 2);
 }
 
-// In the mesh's own order, in which corners lie near one another.
+// The tets are visited in the mesh's own order, in which corners lie near one another in memory.
 void VisibleParts::look_from(const Eye& eye) {
     if (!cut_) return;
     parallel_for(static_cast<std::int64_t>(spans_.size()), block, [&](std::int64_t index) {
@@ -63,7 +63,7 @@ std::span<const TetPart> VisibleParts::list(std::span<const std::int32_t> order,
     return list_tets(order);
 }
 
-// How many parts a tet has does not depend on the eye: each task knows where its own begin.
+// The number of parts of a tet does not depend on the eye, so each task knows where its own begin.
 std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> order) {
     const std::size_t blocks = (order.size() + block - 1) / block;
     const auto tets_of = [&](std::size_t number) {
@@ -100,7 +100,7 @@ std::span<const TetPart> VisibleParts::sorted(VisibilityOrder& order, const Eye&
 }
 
 void VisibleParts::scatter() {
-    // Whatever the eye.
+    // They are sorted first, so that the order does not depend on the eye.
     std::ranges::sort(parts_, {},
                       [](const TetPart& part) { return std::pair(part.tet, part.piece); });
     SplitMix64 random(1);
@@ -121,9 +121,9 @@ std::size_t VisibleParts::parts_of(std::int32_t tet) const {
                : static_cast<std::size_t>(parts_in(spans_[static_cast<std::size_t>(tet)].span));
 }
 
-// Along every ray the scalar goes one way, away from what it would be at the eye: the part nearest
-// to that hides all others, those above it hide those farther above, those below it those farther
-// below, and no ray meets both.
+// Along every ray through a tet the scalar changes monotonically, away from the value that the
+// tet's linear field has at the eye. So the part nearest to that value hides all others. Parts
+// above it hide those farther above, parts below it those farther below, and no ray meets both.
 std::int32_t VisibleParts::nearest_piece(std::size_t tet, const Eye& eye) const {
     const TetPieces::Span& span = spans_[tet].span;
     const double at_eye = scalar_at_eye(mesh_.tets()[tet], eye);
@@ -149,7 +149,7 @@ TetPart* VisibleParts::list_parts(std::int32_t tet, TetPart* next) const {
     return next;
 }
 
-// Of an eye at infinity: below or above all.
+// For an eye at infinity it is below or above all scalars.
 double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
     PartField::Corners corners;
     PartField::Values values;

@@ -26,8 +26,8 @@ DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
     return sum;
 }
 
-// Projection on one (orthogonal) grid axis, which is first scaled by a power of two: its square
-// must not underflow.
+// Projects on one (orthogonal) grid axis. The axis is first scaled by a power of two, so that its
+// square does not underflow.
 Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dvec3& step) {
     const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
     int exponent = 0;
@@ -50,8 +50,8 @@ struct Interval {
     DoubleDouble from, to;
 };
 
-// The part of z >= 0 where every coordinate is inside its closed range; from >= to where there is
-// none.
+// Returns the part of z >= 0 where every coordinate is inside its closed range. Where there is
+// none, from >= to.
 Interval clip(const Coordinate (&ray)[3], const glm::dvec3& lowest, const glm::dvec3& highest,
               int& entry_axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -84,8 +84,8 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
         if (!coordinates[axis].position.finite() || !coordinates[axis].slope.finite()) return {};
         steepest = std::max(steepest, std::abs(coordinates[axis].slope.hi));
     }
-    // A slope that moves the ray by less than 1e-30 voxels while it crosses the box only risks
-    // overflow.
+    // A slope that moves the ray by less than 1e-30 voxels while it crosses the box has no effect
+    // but a risk of overflow.
     for (Coordinate& coordinate : coordinates) {
         if (std::abs(coordinate.slope.hi) < 1e-40 * steepest) coordinate.slope = {};
     }

@@ -24,8 +24,8 @@ MonotoneParts monotone_parts(const Cubic& cubic) {
     return parts;
 }
 
-// Newton's method inside a bracket that is bisected where Newton's step would leave it or shrinks
-// too slowly.
+// Uses Newton's method inside a bracket. The bracket is bisected where Newton's step would leave it
+// or shrinks it too slowly.
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;

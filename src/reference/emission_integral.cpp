@@ -26,7 +26,7 @@ constexpr double weight15[8] = {
     0.1095784292007937482, 0.08575595456819569039, 0.04646359765756226884, 0.00850085981497013017};
 
 // Sums over a pair of nodes of w = extinction exp(-depth) and of x w. The integral of w is known in
-// closed form: a rule that misses a boundary layer is found out by it.
+// closed form, which shows where a rule misses a boundary layer.
 struct NodeValues {
     double w[8], xw[8];
 };

@@ -17,10 +17,10 @@
 namespace lamina {
 namespace {
 
-// Ends of segments are good to this many epsilons of the largest distance and coordinate on the ray
-// (mesh/ray_walk.cpp: 8 for a corner's place, as much for weights and parameter).
+// Ends of segments are accurate to this many epsilons of the largest distance and coordinate on the
+// ray (mesh/ray_walk.cpp: 8 for a corner's place, as much for weights and parameter).
 constexpr double place_epsilons = 16;
-// Interpolated scalars to this many epsilons of the values at the corners.
+// Interpolated scalars are accurate to this many epsilons of the values at the corners.
 constexpr double value_epsilons = 64;
 
 struct RowTotals {
@@ -77,7 +77,7 @@ class RowTracer {
     }
 
   private:
-    // The part in front of the eye (or of its plane).
+    // Adds the part of the segment in front of the eye, or of the eye's plane.
     void add_segment(const TetSegment& segment, double world_per_z, SegmentSum& sum) const {
         if (segment.out.at <= 0) return;
         if (!no_value_.empty() && no_value_[static_cast<std::size_t>(segment.tet)] != 0) return;
@@ -91,7 +91,7 @@ class RowTracer {
         sum.add(front, back, (segment.out.at - from) * world_per_z, slack_of(segment.tet));
     }
 
-    // How far interpolation may be off inside a tet; constant ones are exact.
+    // Returns how far interpolation may be off inside a tet. Constant values are exact.
     double slack_of(std::int32_t tet) const {
         double lo = INFINITY, hi = -INFINITY;
         for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(tet)]) {
@@ -114,7 +114,7 @@ class RowTracer {
     double reach_;
 };
 
-// Marks tets with a value that is no finite number; empty where there are none.
+// Marks tets with a value that is not finite. The list is empty where there are none.
 std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double> scalar) {
     if (std::all_of(scalar.begin(), scalar.end(), [](double s) { return std::isfinite(s); }))
         return {};

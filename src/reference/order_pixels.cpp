@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-constexpr double visible = 1e-12;  // of the ray's way: see the header
+constexpr double visible = 1e-12;  // share of the ray's way: see the header
 
 // The part of a ray in one tet.
 struct Part {
@@ -19,7 +19,7 @@ struct Part {
     double in, out;
 };
 
-// One order: at which place each tet is drawn.
+// One order: the place at which each tet is drawn.
 struct Judged {
     const VisibilityOrder* order;
     std::vector<std::int32_t> places;
@@ -39,7 +39,7 @@ class PixelJudge {
   public:
     PixelJudge(const TetMesh& mesh, const FaceTree& open_faces) : walk_(mesh, open_faces) {}
 
-    // The tets on the ray in front of the eye, by where it enters them.
+    // Collects the tets on the ray in front of the eye, by where it enters them.
     bool look(const View::Ray& ray) {
         walk_.aim(ray.origin, ray.direction);
         walk_.list(listed_);
@@ -58,8 +58,8 @@ class PixelJudge {
         return !parts_.empty();
     }
 
-    // Is a tet drawn before one that lies wholly behind it? One pass: of all tets left so far, the
-    // one that is drawn first.
+    // Returns whether a tet is drawn before one that lies wholly behind it. One pass suffices: of
+    // all tets that the ray has left so far, it keeps the one that is drawn first.
     bool wrong(const Judged& judged) const {
         std::int32_t first_drawn = std::numeric_limits<std::int32_t>::max();
         std::size_t left = 0;

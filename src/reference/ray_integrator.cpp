@@ -28,8 +28,8 @@ EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, 
 
 }  // namespace
 
-// The errors allowed to pieces, by their share of the length and by their share of the opacity
-// (both add up to at most 1), add up to half of the tolerance.
+// The errors allowed to pieces, by their share of the length and by their share of the opacity, add
+// up to half of the tolerance, because the shares of either kind add up to at most 1.
 RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length)
     : transfer_(transfer),
       brightest_(std::max(1.0, transfer.brightest())),
@@ -52,7 +52,8 @@ void RayIntegrator::add_split(const Cubic& scalar, double length) {
         double from = parts.t[i], start = scalar(from);
         const double to = parts.t[i + 1], end = scalar(to);
         std::size_t interval = start <= end ? transfer_.above(start) : transfer_.below(start);
-        // Piece by piece up to each knot that is crossed, and then to the end of the monotone part.
+        // Advances piece by piece up to each knot that is crossed, and then to the end of the
+        // monotone part.
         const auto advance_to_knot = [&](std::size_t index) {
             const double knot = transfer_.knot(index);
             const double at = knot == start ? from : solve_monotone(scalar, knot, from, to);

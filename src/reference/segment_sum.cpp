@@ -11,9 +11,9 @@
 namespace lamina {
 namespace {
 
-// What is behind this transmittance, times the brightest colour, is lost in rounding.
+// What lies behind this transmittance, times the brightest colour, is lost in rounding.
 constexpr double least_transmittance = 1e-17;
-// Of a segment's colour and opacity, relative (optics/segment_integral.h).
+// The relative error of a segment's colour and opacity (optics/segment_integral.h).
 constexpr double segment_error = 1e-13;
 
 }  // namespace
@@ -33,7 +33,7 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
     const double transmittance = std::exp(-depth_.value());
     color_ += transmittance * segment.color;
-    // An end that is off moves this much depth from one side of it to the other.
+    // Where an end is off, this much depth moves from one side of it to the other.
     const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
     error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
     if (hi - lo <= slack && slack > 0)
@@ -41,8 +41,8 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     depth_.add(segment.optical_depth);
 }
 
-// What it would change if a segment's scalar, all but constant, were elsewhere in [lo, hi]: its
-// rounding may choose the side of a step of the transfer function.
+// Returns what would change if the scalar of a segment that is all but constant were elsewhere in
+// [lo, hi]: its rounding may choose the side of a step of the transfer function.
 double SegmentSum::side_error(double lo, double hi, double alpha, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);

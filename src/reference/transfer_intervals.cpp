@@ -9,7 +9,7 @@
 namespace lamina {
 namespace {
 
-// Opaque over any length; keeps products with lengths finite.
+// This extinction is opaque over any length, and its products with lengths stay finite.
 constexpr double largest_extinction = 1e200;
 
 double largest(const glm::dvec3& v) {

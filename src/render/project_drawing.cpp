@@ -27,8 +27,9 @@ void ProjectDrawing::measure_data(const Scene& scene) {
     facts_ = lamina::measure_data(scene, *mesh_);
 }
 
-// Trial rays decide between a table whose nodes lie on the transfer function's points and what is
-// right everywhere; elsewhere later views have nothing to choose.
+// Trial rays choose between a table whose nodes lie on the transfer function's points and
+// integration that is right everywhere. Where the plan has another source, later views have nothing
+// to choose.
 void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
     lamina::measure_view(scene, *mesh_, facts_);
     const bool settled = planned != nullptr && !planned->project.nothing_visible &&
@@ -45,7 +46,8 @@ Plan ProjectDrawing::plan(const Scene& scene, const Capabilities& capabilities,
     return make_plan(scene, facts_, capabilities, omissions);
 }
 
-// A tree takes leaves from all over the mesh where the order is automatic: that stays.
+// Where the order is automatic and there is a tree, the order stays automatic, because leaves of a
+// tree come from all over the mesh.
 Scene ProjectDrawing::resolved(Scene scene, const Plan& plan) const {
     const ProjectPlan& project = plan.project;
     ProjectSettings& settings = scene.project;

@@ -50,7 +50,7 @@ void SceneRenderer::set_size(int width, int height) {
     renderer_fits_ = false;
 }
 
-// A table is of one transfer function.
+// A table belongs to one transfer function, so it is chosen again.
 void SceneRenderer::set_transfer_function(const TransferFunction& transfer_function) {
     change([&](Scene& scene) { scene.transfer_function = transfer_function; });
     if (resolved_) resolved_->slice.table = asked_.slice.table;

@@ -19,7 +19,7 @@ void SliceDrawing::measure_data(const Scene& scene) {
     trials_ = {};
 }
 
-// The scene of a later view has its table, which needs no rays to be chosen.
+// The scene of a later view has its table already, so no rays are needed to choose one.
 void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
     lamina::measure_view(scene, facts_);
     if (planned != nullptr && scene.slice.table) {

@@ -21,7 +21,7 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
-// Takes the scalar out of the data; all others go.
+// Takes the scalar out of the data and drops all others.
 MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     const std::string file = name_of_mesh(scene);
     const auto find = [&](std::vector<MeshScalar>& scalars) {

@@ -29,7 +29,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
-// The nearest of the known words where it is likely to be meant, else all of them.
+// Returns the nearest of the known words where it is likely to be meant, else all of them.
 std::string suggestion(const std::set<std::string>& words, const std::string& word) {
     if (words.empty()) return "";
     const auto distance = [&](const std::string& known) { return edit_distance(known, word); };
@@ -40,7 +40,7 @@ std::string suggestion(const std::set<std::string>& words, const std::string& wo
     return fmt::format(", expected one of {}", fmt::join(words, ", "));
 }
 
-// The value as it stands in the file, cut where it is long.
+// Returns the value as it stands in the file, shortened where it is long.
 std::string shown(const nlohmann::json& value) {
     return shortened(json_text(value));
 }

@@ -21,7 +21,7 @@ TableSettings read_table(JsonReader reader) {
     return table;
 }
 
-// One polygon around a tet cannot carry what is interpolated between the vertices of a fan.
+// What is interpolated between the vertices of a fan cannot be drawn with one polygon around a tet.
 void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     if (project.geometry != ProjectGeometry::silhouette) return;
     if (project.interpolation == Interpolation::linear)

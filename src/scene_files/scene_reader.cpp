@@ -19,7 +19,7 @@
 namespace lamina {
 namespace {
 
-// Far beyond, squares of distances are no longer numbers.
+// Squares of distances far beyond this would overflow.
 constexpr double max_coordinate = 1e100;
 
 Camera read_camera(JsonReader reader) {
@@ -116,7 +116,7 @@ void read_render(JsonReader reader, Scene& scene) {
 }
 
 std::vector<std::string> parts_of(const std::string& key) {
-    // Parts make objects in each other, and these are held to the depth of a file.
+    // The parts of a key make nested objects, which are held to the depth limit of files.
     const auto count = static_cast<std::size_t>(std::ranges::count(key, '.')) + 1;
     if (count > most_json_depth) {
         throw UsageError(fmt::format("--set {}: found {} parts between dots, expected at most {}",
@@ -136,7 +136,7 @@ std::vector<std::string> parts_of(const std::string& key) {
     }
 }
 
-// JSON, or the text itself where it is none.
+// Returns `text` parsed as JSON, or the text itself where it is none.
 nlohmann::json value_of(const std::string& key, const std::string& text) {
     try {
         return parse_json(text);

@@ -50,8 +50,7 @@ double read_extinction(JsonReader& point, double unit_length, bool& opaque) {
     return extinction_from_opacity(opacity, unit_length);
 }
 
-// Interpolating towards opacity 1 means towards an arbitrary large extinction: the user should
-// know.
+// A ramp to opacity 1 interpolates to an arbitrarily large extinction, so the user is warned.
 void warn_of_opaque_ramp(const std::vector<TransferKnot>& points, const std::vector<bool>& opaque,
                          const JsonReader& reader, std::vector<std::string>* warnings) {
     if (warnings == nullptr) return;
@@ -66,11 +65,11 @@ void warn_of_opaque_ramp(const std::vector<TransferKnot>& points, const std::vec
     }
 }
 
-// Stretches the preset's own range to "colormap_range": presets often run from 0 to 1.
+// Stretches the preset's own range, which often is 0 to 1, to "colormap_range".
 void stretch(Colormap& colormap, JsonReader& reader) {
     if (!reader.has("colormap_range")) return;
     const nlohmann::json& range = reader.value("colormap_range");
-    // Beyond, differences are no longer finite (lamina/transfer_function.h).
+    // Differences of larger values are not finite (lamina/transfer_function.h).
     constexpr double most = 1e300;
     if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number() ||
         !(range[0].get<double>() < range[1].get<double>()) || range[0].get<double>() < -most ||
@@ -120,7 +119,8 @@ Points read_points(JsonReader& reader, double unit_length, bool colored) {
     return points;
 }
 
-// A preset's colours with the scene's points for extinction, or with the preset's own opacities.
+// Reads a preset's colours, with the scene's points for extinction or with the preset's own
+// opacities.
 TransferFunction read_with_colormap(JsonReader& reader, double unit_length) {
     Colormap colormap = read_paraview_colormap(reader.path_of("colormap"));
     stretch(colormap, reader);

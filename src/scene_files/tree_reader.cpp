@@ -8,7 +8,7 @@
 namespace lamina {
 namespace {
 
-// A list [root, ..., leaf], or as text for the command line: 32x32, 4^5, 1024.
+// Reads a list [root, ..., leaf], or a text from the command line: 32x32, 4^5, 1024.
 std::vector<int> read_factors(JsonReader& reader) {
     const std::string expected = fmt::format(
         "1 to {} bifurcation factors from 1 to {}, root first, as in [32, 32] or \"32x32\"",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many slabs: sums that must not drift.
+// Scenes of many slabs, whose sums must not drift.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +16,7 @@ SelftestScene slabs_scene(const std::string& name, int slabs, double extinction)
         fmt::format("{}_{}", name, slabs),
         fmt::format("{} slabs of a ramp of extinction up to {:g}, in colour", slabs, extinction));
     scene.scene.slice.samples = slabs;
-    scene.scene.max_error =
-        std::min(1.0, extinction);  // where little shows, little may be left out
+    scene.scene.max_error = std::min(1.0, extinction);  // faint pictures allow only small omissions
     scene.scene.transfer_function =
         optics_of({{0, {{.1, .3, 1}, 0}}, {1, {{1, .5, .1}, extinction}}});
     scene.scene.width = 12;

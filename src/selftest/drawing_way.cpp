@@ -7,13 +7,14 @@
 namespace lamina::selftest {
 namespace {
 
-// float32: some four roundings a blend. float16: fragment and result are stored with 11 bits, the
-// smallest ones in steps of 2^-24.
+// In float32 a blend has some four roundings. In float16 fragment and result are stored with 11
+// bits, the smallest ones in steps of 2^-24.
 constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
 constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
 
-// n bits: opacity truncated or rounded by chance, at most one code; colour and result one each,
-// whatever the driver rounds before and after its weights (docs/numerics.md, section 2).
+// With n bits, opacity is truncated or rounded at random, by at most one code. Colour and result
+// are off by one each, whatever the driver rounds before and after its weights (docs/numerics.md,
+// section 2).
 constexpr BlendRounding of_codes(int bits) {
     const double code = 1.0 / ((1 << bits) - 1);
     return {code, code, code, 0};
@@ -92,8 +93,8 @@ std::vector<DrawingWay> coarse_ways() {
 }
 
 DrawingWay tree_way(const std::string& name, const std::vector<int>& factors, Target target) {
-    // Slabs of a leaf are composited in float32; what an inner image's codes add is for the whole
-    // picture (picture_bounds.h).
+    // The slabs of a leaf are composited in float32. The error of the codes of inner images is
+    // added for the whole picture (picture_bounds.h).
     return slice("tree " + name + " " + name_of(target), [factors, target](Scene& scene) {
         scene.target = target;
         scene.slice.tree =

@@ -17,7 +17,7 @@ struct LayerRun {
     Interval parameters;
 };
 
-// The runs of a part of the ray through layers, nearest first.
+// Returns the runs of a part of the ray through layers, the nearest first.
 std::vector<LayerRun> runs_between(const LayeredBox& box, const BoxChord& chord,
                                    const Interval& part) {
     const double first_w = chord.w(part.lo), last_w = chord.w(part.hi);
@@ -59,16 +59,17 @@ PieceBounds exact_piece(const SegmentIntegral& integral) {
     return piece;
 }
 
-// How far a mean over scalars moves where its ends, `width` apart, move by `error` each: strips of
-// 2 * error enter and leave, in which nothing is further from the mean than the range is wide.
+// Returns how far a mean over scalars moves where its ends, `width` apart, move by `error` each.
+// Strips of 2 * error enter and leave, in which no value is farther from the mean than the range is
+// wide.
 double moved_mean_share(double width, double error) {
     const double rest = width - 2 * error;
     return rest > 0 ? std::min(1.0, 2 * error / rest) : 1.0;
 }
 
-// Everything met where w is between two values; `bent`: also by a straight run that stands for the
-// scalar there, moved by two thirds of its bend (Simpson), which is no more than the scalar's
-// range.
+// Returns the range of optics that are met where w is between two values. `bent`: also those of a
+// straight run in place of the scalar, moved by two thirds of its bend (Simpson), which is at most
+// the scalar's range.
 OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transfer_function,
                            Interval w, double scalar_error, bool bent = false) {
     w = w.within({0, 1});
@@ -93,7 +94,7 @@ OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transf
     return met;
 }
 
-// A ray with what is certain and what is possible of its part inside the box.
+// A ray with the certain and the possible part inside the box.
 struct UncertainChord {
     std::optional<BoxChord> exact, widest, narrowest;
 
@@ -102,7 +103,7 @@ struct UncertainChord {
           widest(box_chord(box, ray, position)),
           narrowest(box_chord(box, ray, -position)) {}
 
-    // World length inside a slab.
+    // Returns the world length inside a slab.
     Interval length_in(const Interval& slab) const {
         const auto overlap = [&](const std::optional<BoxChord>& chord) {
             if (!chord) return 0.0;
@@ -179,7 +180,8 @@ std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
         const OpticsRange shown = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(off), scalar_error);
         pieces.push_back({times(shown.extinction, lengths, precision.relative), shown.color});
-        // Where a slab's end lies elsewhere, its neighbour has what it has not.
+        // Where a slab's end lies elsewhere, the neighbouring slab has the part that this one
+        // lacks.
         const double half = 0.5 * part.width() * std::abs(any.step.z);
         const OpticsRange met = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(half + off), scalar_error);
@@ -249,7 +251,7 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                              precision.relative * exact.integral.optical_depth;
         PieceBounds piece = exact_piece(exact.integral);
         piece.depth = {certain ? std::max(0.0, piece.depth.lo - error) : 0, piece.depth.hi + error};
-        // Where a piece's depth is uncertain, so is whose colour it shows.
+        // Where a piece's depth is uncertain, so is the share of its colour.
         const double color_share = std::min(1.0, precision.color + 2 * share + error);
         for (std::size_t c = 0; c < 3; ++c) {
             const double by =

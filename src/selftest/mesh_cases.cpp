@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that try a renderer: needles, slivers, hubs, and what is no proper mesh.
+// Meshes that are hard for a renderer: needles, slivers, hubs, and meshes that are not proper.
 #include <cmath>
 #include <numbers>
 
@@ -82,7 +82,7 @@ MeshData sticks() {
     return tets_of(corners);
 }
 
-// Tets about one edge.
+// Tets around one edge.
 MeshData edge_fan(int count) {
     MeshData mesh;
     MeshScalar scalar{"scalar", {0, 1}};
@@ -97,7 +97,7 @@ MeshData edge_fan(int count) {
     return mesh;
 }
 
-// Small tets anywhere, which may cut one another.
+// Small tets at random places, which may overlap.
 MeshData islands(double size) {
     SplitMix64 bits(3);
     const auto uniform = [&] { return static_cast<double>(bits.next() >> 11) * 0x1p-52 - 1; };
@@ -124,7 +124,7 @@ MeshData with_hole() {
     return mesh;
 }
 
-// Face 0 1 2 with tets on it, on one side or on both.
+// Tets on face 0 1 2, on one side or on both.
 MeshData on_one_face(const std::vector<glm::dvec3>& tops) {
     MeshData mesh;
     mesh.points = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
@@ -179,7 +179,7 @@ std::vector<MeshScene> mesh_scenes() {
     }));
     MeshScene cyclic =
         one_color("cyclic", "Three tets, each before the next: no order is right", sticks);
-    // A second colour, too near to be seen, so that the order is asked for.
+    // The second colour is too near to the first to be seen, but makes the order matter.
     cyclic.scene.transfer_function =
         optics_of({{0, {{.3, .6, .9}, .5}}, {1, {{.3, .6, .9 - 1e-9}, 3}}});
     cyclic.scene.camera.eye = {0, 0, 4};

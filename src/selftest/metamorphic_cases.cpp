@@ -23,7 +23,8 @@ SelftestScene base_scene(const std::string& about = "") {
     return scene;
 }
 
-// Everything in the world, seen from the box.
+// Changes the places and directions of everything in the world: the box, and the camera that sees
+// it.
 template <typename Point, typename Direction>
 void move_world(SelftestScene& scene, const Point& point, const Direction& direction) {
     scene.box.corner = point(scene.box.corner);
@@ -44,7 +45,7 @@ SelftestScene translated() {
 
 SelftestScene rotated() {
     SelftestScene scene = base_scene("The world turned about an oblique axis");
-    // Columns of a rotation, in sevenths.
+    // The columns are those of a rotation, in sevenths.
     const auto turn = [](const glm::dvec3& d) {
         return (d.x * glm::dvec3(2, 6, -3) + d.y * glm::dvec3(3, 2, 6) +
                 d.z * glm::dvec3(6, -3, -2)) /

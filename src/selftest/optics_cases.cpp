@@ -23,13 +23,13 @@ void append_float_ways(std::vector<SelftestCase>& cases, const SelftestScene& sc
     append(cases, cases_of(optics_group, scene, float_ways()));
 }
 
-// Of optical depths up to `depth`; where little shows, little may be left out.
+// `depth` bounds the optical depths. Faint pictures allow only small omissions.
 void set_optics(SelftestScene& scene, const TransferFunction& transfer_function, double depth) {
     scene.scene.transfer_function = transfer_function;
     scene.scene.max_error = std::min(1.0, depth);
 }
 
-// A homogeneous box; for other shares of the depth see the ray's length, 0 to 1.7.
+// The box is homogeneous. Rays are 0 to 1.7 long, so that they have other shares of the depth, too.
 void append_depths(std::vector<SelftestCase>& cases) {
     for (const double depth : {1e-8, 1e-4, 1., 30., 1e3, 1e6}) {
         SelftestScene scene = plain_scene(
@@ -50,7 +50,7 @@ void append_depths(std::vector<SelftestCase>& cases) {
     }
 }
 
-// Samples in float32, so that a volume holds them exactly.
+// Samples are float32 numbers, so that a volume holds them exactly.
 void append_jumps(std::vector<SelftestCase>& cases) {
     SelftestScene jump = plain_scene(
         "jump_1e8", "Extinction 1e-4 and 1e4 in turn, from one sample to the next, 16 layers");
@@ -68,7 +68,7 @@ void append_jumps(std::vector<SelftestCase>& cases) {
 }
 
 void append_opacities(std::vector<SelftestCase>& cases) {
-    // As scene files give them (docs/scene.md): opacity 1 is 1e7 per unit length.
+    // Scene files give opacities (docs/scene.md): opacity 1 means 1e7 per unit length.
     const std::pair<const char*, double> opacities[] = {
         {"opacity_1", 1e7}, {"opacity_1_less_1e-12", -std::log(1e-12)}, {"opacity_1e-12", 1e-12}};
     for (const auto& [name, extinction] : opacities) {

@@ -20,7 +20,7 @@ void OpticsRange::include(const OpticsRange& other) {
 }
 
 OpticsRange optics_range(const TransferFunction& transfer_function, const Interval& scalars) {
-    // Linear between knots: the extremes lie at the ends and at the knots between.
+    // Optics are linear between knots, so the extremes lie at the ends and at the knots between.
     OpticsRange range = point(transfer_function.at(scalars.lo));
     range.include(point(transfer_function.at(scalars.hi)));
     for (const TransferKnot& knot : transfer_function.knots()) {

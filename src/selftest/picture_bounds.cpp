@@ -20,11 +20,11 @@ namespace {
 
 constexpr Interval everything{-1e30, 1e30};
 
-// Weights of colour come from a table of 256 x 256 whose cells a float32 divides into 2^24 parts;
-// opacity does not.
+// Weights of colour come from a table of 256 x 256, whose cells a float32 divides into 2^24 parts.
+// Opacity does not.
 constexpr double place_in_table = 0x1p-32;
 
-// Pieces that a tet is cut into, at most.
+// Returns the largest number of pieces that a tet is cut into.
 double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
 }
@@ -36,12 +36,12 @@ void widen(PixelBounds& pixel, double absolute, double relative, double of_color
     for (Interval& channel : pixel) channel.lo = std::max(channel.lo, 0.0);
 }
 
-// What the codes of a tree's inner images can do to a picture: a code off by e moves the final
-// opacity by at most Y e of its node's weight (docs/numerics.md, section 4), and the nodes of a
-// level together, seen through one another, by at most 7 Y e: e Y where sigma <= 1, since their
-// shares add up to 1; e Y where 1 < sigma <= 1/w, since depths in front of each other do not add up
-// to more; 1.58 Y beyond, a geometric sum of 1/e. Colours are moved by as much again through the
-// weights, and by e through their own codes.
+// Returns a bound on the effect of the codes of a tree's inner images on a picture. A code that is
+// off by e moves the final opacity by at most Y e of its node's weight (docs/numerics.md, section
+// 4). The nodes of a level together, seen through one another, move it by at most 7 Y e: by e Y
+// where sigma <= 1, since their shares add up to 1; by e Y where 1 < sigma <= 1/w, since depths in
+// front of each other do not add up to more; by 1.58 Y beyond, a geometric sum of 1/e. Colours move
+// by as much again through the weights, and by e through their own codes.
 double tree_error(const TreeSettings& tree, double code) {
     double sum = code;  // of the root
     double share = 1;
@@ -148,7 +148,8 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     const bool sliced = way.method == Method::slice;
     const Slabs slabs = slabs_of(box, view, scene.slice.samples.value_or(1));
     const bool post = scene.slice.classification == Classification::post;
-    // Rays may end where what is left cannot change the picture by more (docs/performance.md).
+    // Rays may end where the rest cannot change the picture by more than this
+    // (docs/performance.md).
     const double hidden_light = scene.max_error / 255 / 1024;
 
     return all_pixels(scene, [&](const View::Ray& ray, std::array<double, 4>& exact,

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "mesh/face_tree.h"
 #include "projection/project_renderer.h"
-#include "reference/mesh_tracer.h"
-#include "reference/volume_tracer.h"
+#include "reference/scene_tracer.h"
 #include "render/scene_renderer.h"
 
 namespace lamina::selftest {
@@ -22,21 +20,14 @@ PreciseImage to_precise(const Image& image) {
 }  // namespace
 
 PreciseImage PictureMaker::draw(const Scene& scene, const Volume& volume) const {
-    const View view(scene.camera, scene.width, scene.height);
-    if (scene.method == Method::trace)
-        return trace_volume(volume, scene.transfer_function, view, {scene.trace_tolerance}).image;
+    if (scene.method == Method::trace) return trace(scene, volume).image;
     SceneRenderer frames(scene, std::make_shared<const VolumeData>(volume), capabilities_);
     return to_precise(frames.draw_picture());
 }
 
 PreciseImage PictureMaker::draw(const Scene& scene, const SceneMesh& mesh,
                                 OrderReport* order) const {
-    const View view(scene.camera, scene.width, scene.height);
-    if (scene.method == Method::trace) {
-        const FaceTree open_faces(mesh.mesh, mesh.mesh.open_faces());
-        return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function, view)
-            .image;
-    }
+    if (scene.method == Method::trace) return trace(scene, mesh).image;
     // The mesh is the caller's, and outlives the renderer.
     SceneRenderer frames(scene, std::shared_ptr<const SceneMesh>(std::shared_ptr<void>(), &mesh),
                          capabilities_);

@@ -50,7 +50,7 @@ std::vector<SelftestCase> view_cases() {
         SelftestScene scene = view_scene(fmt::format("fov_{:g}", angle),
                                          fmt::format("A field of view of {:g} degrees", angle));
         scene.scene.camera = camera_at(scene.box, angle < 90 ? 20 / angle : .55, angle);
-        if (angle > 90) {  // at 45 degrees off the middle the picture has 1/11 of its width
+        if (angle > 90) {  // 45 degrees off the middle, where the picture has 1/11 of its width
             scene.scene.width = 96;
             scene.scene.height = 72;
         }

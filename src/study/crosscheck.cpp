@@ -33,7 +33,7 @@ Scene projection_scene(const Scene& scene, double tolerance) {
     return projected;
 }
 
-// What is drawn step by step, coarse to fine, with all renderers ready to be timed.
+// Draws step by step, coarse to fine, and keeps all renderers ready to be timed.
 class Crosschecker {
   public:
     Crosschecker(const Scene& scene, const CrosscheckSettings& settings,

@@ -39,7 +39,7 @@ std::string pair_text(const Crosscheck& crosscheck, const PairAt& at) {
         projection.method_part.all.l2);
 }
 
-// The cheapest pair whose pictures agree; none where no pair does.
+// Returns the cheapest pair whose pictures agree, or nothing where no pair does.
 std::optional<PairAt> cheapest_agreeing(const Crosscheck& crosscheck, double wanted) {
     std::optional<PairAt> best;
     double least = 0;

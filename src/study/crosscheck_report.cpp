@@ -28,7 +28,7 @@ Json times_json(const FrameTimes& times) {
     return {{"median", times.ms}, {"min", times.min}, {"max", times.max}, {"n", times.count}};
 }
 
-// Of either method, against the traced volume.
+// Describes a run of either method, compared with the traced volume.
 Json run_json(std::string name, Json keys, const ImageError& error, const FrameTimes& times,
               std::int64_t bytes, const Crosscheck& crosscheck) {
     Json json{{"id", name},

@@ -18,7 +18,8 @@ std::string volume_name(const Scene& scene) {
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));
 }
 
-// A mesh made from a volume stays coarse where the transfer function shows nothing.
+// The name includes the transfer function: a mesh made from a volume stays coarse where that shows
+// nothing.
 std::string mesh_name(const Scene& scene) {
     if (!scene.mesh_request) {
         const std::string file = scene.mesh_file.string();

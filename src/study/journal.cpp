@@ -23,7 +23,7 @@ struct CompleteLines {
     std::int64_t bytes = 0;
 };
 
-// Null where the line is no JSON that the program reads.
+// Returns null where the line is not JSON that the program reads.
 nlohmann::json record_of(const std::string& line) {
     try {
         return parse_json(line);
@@ -36,7 +36,7 @@ CompleteLines read_lines(const std::filesystem::path& path) {
     std::istringstream stream(read_file_bytes(path));
     CompleteLines lines;
     std::string line;
-    // getline meets the file's end where the newline is missing: that line is not complete.
+    // getline() meets the end of the file where the newline is missing: that line is incomplete.
     while (std::getline(stream, line) && !stream.eof()) {
         lines.records.push_back(record_of(line));
         if (!lines.records.back().is_object()) {
@@ -56,7 +56,7 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)) {
     descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail("{}: cannot write: {}", path_.string(), std::strerror(errno));
     try {
-        // Some file systems have no locks: there nothing keeps two processes apart.
+        // Some file systems have no locks. There nothing keeps two processes apart.
         if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             fail("{}: another lamina study is writing it", path_.string());
         CompleteLines lines = read_lines(path_);

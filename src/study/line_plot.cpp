@@ -12,7 +12,7 @@
 namespace lamina::study {
 namespace {
 
-// Pixels of the drawing; the plot's own rectangle within it.
+// The size of the drawing in pixels, and the rectangle of the plot within it.
 constexpr double drawing_width = 760, drawing_height = 440;
 constexpr double left = 70, top = 44, plot_width = 460, plot_height = 330;
 constexpr double right = left + plot_width, bottom = top + plot_height;
@@ -50,7 +50,7 @@ std::string escaped(const std::string& text) {
     return xml;
 }
 
-// About five steps of 1, 2 or 5 times a power of ten.
+// Returns a step of 1, 2 or 5 times a power of ten, for about five ticks.
 double tick_step(double range) {
     const double power = std::pow(10, std::floor(std::log10(range / 4)));
     for (const double factor : {1.0, 2.0, 5.0}) {
@@ -73,7 +73,7 @@ std::vector<double> ticks(const PlotAxis& axis) {
     return at;
 }
 
-// 0 at axis.low, 1 at axis.high.
+// Returns 0 at axis.low and 1 at axis.high.
 double share_of(const PlotAxis& axis, double value) {
     const double inside = std::clamp(value, axis.low, axis.high);
     return axis.powers_of_two ? std::log2(inside / axis.low) / std::log2(axis.high / axis.low)

@@ -9,7 +9,7 @@
 #include "base/json_text.h"
 #include "base/stopwatch.h"
 #include "image/npy.h"
-#include "reference/volume_tracer.h"
+#include "reference/scene_tracer.h"
 #include "scene_files/json_reader.h"
 #include "study/picture_key.h"
 #include "study/text_file.h"
@@ -31,16 +31,14 @@ std::string key_of(const Scene& scene, TraceOf of, DataStore& data) {
     return hash.hex();
 }
 
-Reference trace(const Scene& scene, TraceOf of, DataStore& data) {
+Reference traced(const Scene& scene, TraceOf of, DataStore& data) {
     const Stopwatch watch;
     const auto made = [&](auto result) {
         return Reference{
             {}, of, units * result.error_estimate, watch.milliseconds(), std::move(result.image)};
     };
     if (of == TraceOf::mesh) return made(data.mesh(scene).data.trace(scene));
-    return made(trace_volume(data.volume(scene).data->volume, scene.transfer_function,
-                             View(scene.camera, scene.width, scene.height),
-                             {scene.trace_tolerance}));
+    return made(trace(scene, data.volume(scene).data->volume));
 }
 
 std::string content_of(const PreciseImage& image) {
@@ -50,7 +48,7 @@ std::string content_of(const PreciseImage& image) {
     return hash.hex();
 }
 
-// All but the picture, and what names the picture.
+// Loads all but the picture, and returns what names the picture.
 std::pair<Reference, std::string> load_facts(const std::filesystem::path& folder,
                                              const std::string& id) {
     const std::filesystem::path file = folder / (id + ".json");
@@ -82,7 +80,7 @@ double ReferenceStore::error_estimate(const std::filesystem::path& folder, const
     return load_facts(folder, id).first.error_estimate;
 }
 
-// Nothing where it cannot be read: that is said once.
+// Returns nothing where the reference cannot be read, which is said once.
 std::optional<Reference> ReferenceStore::find(const std::string& id) {
     if (lost_.contains(id)) return std::nullopt;
     try {
@@ -102,10 +100,10 @@ Reference ReferenceStore::make(const std::string& id, const Scene& scene, TraceO
                                DataStore& data) const {
     std::optional<AtomicFile> picture;  // first: a file that cannot be written fails at once
     if (!folder_.empty()) picture.emplace(folder_ / (id + ".npy"));
-    Reference reference = trace(scene, of, data);
+    Reference reference = traced(scene, of, data);
     reference.id = id;
     if (!picture) return reference;
-    // The picture before the facts: what has its .json is complete.
+    // The picture is written before the facts, so that a reference with a .json is complete.
     write_npy(*picture, reference.image);
     picture->commit();
     const nlohmann::ordered_json facts{{"of", name_of(reference.of)},

@@ -12,9 +12,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As text between tags.
+// Escapes a text that stands between tags.
 std::string html_of(const std::string& text) {
-    // Through JSON and back, so that it is UTF-8.
+    // The text goes through JSON and back, so that it is UTF-8.
     const std::string valid = Json::parse(json_text(Json(text))).get<std::string>();
     std::string html;
     for (const char c : valid) {
@@ -38,8 +38,8 @@ std::string findings_of(const Json& report) {
     return html;
 }
 
-// JSON without "<", which occurs only within strings: no text can end the element or begin a
-// comment.
+// "<" occurs only within strings of the JSON and is escaped there, so that no text can end the
+// element or begin a comment.
 std::string document_of(const Json& report) {
     std::string json;
     for (const char c : json_text(report)) {
@@ -64,7 +64,7 @@ std::string_view file_named(std::string_view name) {
 std::string report_page(const Json& report) {
     std::string page;
     std::string_view rest = file_named("page.html");
-    // What is put in is not looked at again: it may hold "{{" itself.
+    // Inserted text is not searched, because it may hold "{{" itself.
     for (std::size_t at = rest.find("{{"); at != rest.npos; at = rest.find("{{")) {
         const std::size_t end = rest.find("}}", at);
         assert(end != rest.npos);

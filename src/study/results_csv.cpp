@@ -12,7 +12,7 @@ namespace {
 
 const std::vector<std::string> channel_names{"R", "G", "B", "A"};
 
-// All digits: what a front is made of can be checked.
+// All digits are written, so that the members of a front can be checked.
 std::string number(double value) {
     return fmt::format("{}", value);
 }

@@ -82,7 +82,7 @@ class Lister {
             ++list_.dropped.back().runs;
     }
 
-    // A rule that no run matches is a mistake in its values.
+    // A rule that matches no run has a mistake in its values.
     void check_drops() const {
         for (std::size_t i = 0; i < matched_.size(); ++i) {
             if (!matched_[i])
@@ -128,8 +128,8 @@ std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_
 }  // namespace
 
 std::string run_name(const Settings& settings) {
-    // These and lists of factors stand for themselves, all else needs its key's last part beside
-    // it.
+    // These values and lists of factors explain themselves. All others need the last part of their
+    // key beside them.
     static const std::set<std::string> plain{"target", "method", "context", "classification"};
     std::string name;
     for (const auto& [key, value] : settings) {

@@ -25,7 +25,8 @@ Settings read_settings(JsonReader& reader, const std::string& key) {
     return settings;
 }
 
-// A scene as the study uses it. `entry`: a path, or {"scene": path, "name": ..., "set": {...}}.
+// Reads a scene as the study uses it. `entry` is a path or
+// {"scene": path, "name": ..., "set": {...}}.
 StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
                                        const nlohmann::json& entry, const Settings& base) {
     const std::string at = fmt::format("scenes.{}", number);
@@ -62,7 +63,7 @@ void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
     }
 }
 
-// The keys that a study sweeps, to check others against.
+// The keys that a study sweeps, for comparison with other keys.
 class SweptKeys {
   public:
     explicit SweptKeys(const StudyFile& file) {
@@ -92,7 +93,8 @@ void read_drops(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
         drop.because = reader.text("because");
         for (auto& [key, value] : read_settings(reader, "where")) {
             swept.check(reader, "where", key);
-            // A list stands for its elements, and for itself: bifurcation factors are a list.
+            // A list stands for its elements and also for itself, because bifurcation factors are a
+            // list.
             std::vector<nlohmann::json> values{value};
             if (value.is_array()) values.insert(values.end(), value.begin(), value.end());
             drop.where.push_back({key, std::move(values)});

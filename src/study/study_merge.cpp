@@ -44,7 +44,7 @@ void copy_pictures(const std::filesystem::path& from, const std::filesystem::pat
     }
 }
 
-// Those that are whole: another shard may have one in place of what is damaged.
+// Copies the references that are complete. Another shard may have one in place of a damaged one.
 void copy_references(const std::filesystem::path& from, const std::filesystem::path& into,
                      const ReferenceStore::Say& say) {
     std::error_code error;
@@ -63,7 +63,7 @@ void copy_references(const std::filesystem::path& from, const std::filesystem::p
     }
 }
 
-// Throws Error where the folder's study is not the list's, or drew other data.
+// Throws Error where the folder's study is not that of the list, or drew other data.
 void check_list(RunList& list, const std::filesystem::path& list_of, const StudyFolder& folder) {
     const RunList other = read_list(folder);
     if (other.id() != list.id()) {
@@ -86,7 +86,7 @@ void add_journals(const StudyFolder& folder, Journals& journals) {
     }
 }
 
-// What is there of them is a beginning of them.
+// Throws Error unless the journals in `into` are beginnings of these.
 void check_journals(const Journals& journals, const StudyFolder& into) {
     for (const auto& [name, journal] : journals) {
         const std::filesystem::path there = into.path / name;
@@ -111,7 +111,7 @@ void merge_studies(const std::vector<std::filesystem::path>& from, const StudyFo
     if (std::filesystem::exists(into.run_list())) check_list(list, from.front(), into);
     check_journals(journals, into);
     into.make();
-    // Where it is one of the folders that are read, its list stays.
+    // The list stays where `into` is one of the folders that are read.
     if (!std::filesystem::exists(into.run_list())) write_run_list(into, list);
     for (const std::filesystem::path& path : from) {
         const StudyFolder folder(path);

@@ -23,14 +23,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of shards that write into one folder at a time only one reads the journals and writes results:
-// the last one's results have all records.
+// Of several shards that write into one folder only one at a time reads the journals and writes
+// results. So the results of the last one have all records.
 class FolderLock {
   public:
     explicit FolderLock(const std::filesystem::path& folder)
         : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
         if (descriptor_ < 0) fail("{}: cannot read: {}", folder.string(), std::strerror(errno));
-        // Where the file system has no locks, any other errno, nothing is waited for.
+        // Any other errno means that the file system has no locks. Then it does not wait.
         while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             check_interrupt();
             std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -52,8 +52,8 @@ Json run_to_json(const RunList& list, const RunResult& result) {
     return json;
 }
 
-// Of all differences of a scene: the median of the runs' L-infinity errors, so that half of the
-// pictures are shown whole and the others where they are worst.
+// Returns the scale of all differences of a scene: the median of the runs' L-infinity errors, so
+// that half of the pictures are shown without clipping, and the others where they are worst.
 double difference_scale(const std::vector<const RunResult*>& runs) {
     std::vector<double> largest;
     for (const RunResult* const run : runs) {
@@ -86,7 +86,7 @@ Json comparison_of(const StudyResults& results, std::size_t scene) {
     return json;
 }
 
-// Pictures of one comparison.
+// Adds the pictures of one comparison.
 void add_pictures_to(Json& comparison, const StudyFolder& folder) {
     std::map<std::string, Reference> references;
     for (Json& each : comparison["references"]) {

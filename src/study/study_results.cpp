@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Records = std::vector<nlohmann::json>;
 
-// Of one run in one journal.
+// The records of one run in one journal.
 struct RunRecords {
     const nlohmann::json* drawn = nullptr;
     std::map<int, const nlohmann::json*> rounds;  // the first record of each
@@ -53,7 +53,7 @@ ErrorNorms norms_from(const nlohmann::json& json) {
     return {json.at("linf"), json.at("l1"), json.at("l2")};
 }
 
-// Of rounds of one session: they were neighbours in time, on one machine.
+// Only rounds of one session are compared: they were neighbours in time, on one machine.
 std::optional<double> ratio_to(const RunRecords& run, const RunRecords& baseline) {
     std::vector<double> ratios;
     for (const auto& [place, ms] : run.ms) {
@@ -87,7 +87,8 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     return result;
 }
 
-// The first journal that has all of a run; without one, the message of its failure.
+// Adds the result of the first journal that has all of a run or, where there is none, the message
+// of its failure.
 void add_result(const RunList& list, std::size_t number,
                 const std::vector<JournalRecords>& journals, std::vector<RunResult>& results) {
     const StudyRun& run = list.runs[number];
@@ -123,7 +124,7 @@ void find_fronts(StudyResults& results) {
     }
 }
 
-// Processes may have run on several machines.
+// The environments are those of all journals, because processes may have run on several machines.
 Json environment_of(const std::vector<Records>& journals, const std::vector<RunResult>& runs) {
     std::map<std::string, std::set<std::string>> words;
     for (const Records& records : journals) {

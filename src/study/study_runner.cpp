@@ -21,7 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Renderers stay for the next round while all of them take less; beyond, they are made each time.
+// Renderers are kept for the next round while all of them together take less. Beyond that they are
+// made each time.
 constexpr std::int64_t kept_bytes = std::int64_t{1} << 30;
 
 }  // namespace
@@ -64,7 +65,7 @@ void StudyRunner::take_over(const std::vector<nlohmann::json>& records) {
     time_baselines_again();
 }
 
-// A power cut may keep a record and lose a picture.
+// A power cut may keep a record and lose its picture.
 bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& drawn) {
     const auto [found, added] =
         kept_references_.try_emplace(drawn.at("reference").get<std::string>());
@@ -72,7 +73,7 @@ bool StudyRunner::has_pictures(const std::string& run, const nlohmann::json& dra
     return found->second && std::filesystem::exists(folder_.picture(run));
 }
 
-// What is still to be timed needs the baseline beside it, in this session.
+// Runs that are still to be timed need their baseline timed in the same session.
 void StudyRunner::time_baselines_again() {
     for (std::size_t run = 0; run < list_.runs.size(); ++run) {
         if (!is_wanted(run) || is_finished(run)) continue;
@@ -104,7 +105,8 @@ std::size_t StudyRunner::finished() const {
     return count;
 }
 
-// Those of one context beside one another: making an OpenGL context takes longer than a frame.
+// Runs of one context follow one another, because making an OpenGL context takes longer than a
+// frame.
 std::vector<std::size_t> StudyRunner::runs_of(std::size_t scene) const {
     std::vector<std::size_t> runs;
     for (std::size_t run = 0; run < list_.runs.size(); ++run) {
@@ -139,7 +141,7 @@ void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
     data_.clear();
 }
 
-// What is wrong with one run is no reason to stop the others; what cannot be written is.
+// An error in one run does not stop the others. A failure to write does.
 void StudyRunner::visit(std::size_t run, int round) {
     Done& done = done_[run];
     const auto number = static_cast<std::size_t>(round);
@@ -196,7 +198,7 @@ StudyFrames& StudyRunner::frames_of(std::size_t run) {
 }
 
 void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured& measured) {
-    frames.draw();  // a second time: a first frame's stages are those of cold memory
+    frames.draw();  // a second time: the stages of a first frame are those of cold memory
     const Image image = frames.picture();
     const Scene& scene = frames.scene();
     const Reference& reference = references_.get(scene, reference_of(scene, file_), data_);
@@ -220,7 +222,7 @@ nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round,
         return watch.milliseconds();
     };
     std::vector<double> moving, still;
-    frames.draw();  // the warm-up: other runs have had the caches
+    frames.draw();  // the warm-up: other runs have filled the caches
     for (int i = 0; i < list_.frames; ++i) still.push_back(timed([&] { frames.draw(); }));
     for (int i = 1; i <= list_.frames; ++i)
         moving.push_back(timed([&] { frames.draw_turned(degrees_per_frame * i); }));

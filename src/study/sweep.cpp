@@ -17,7 +17,7 @@ constexpr std::int64_t largest_product = 65536;  // slabs of a tree
 constexpr std::int64_t most_levels = 16;
 constexpr std::size_t most_keys = 256;  // of a grid: more than a scene has
 
-// Stops where there are more than most_runs.
+// Stops after more than most_runs.
 void append_factorizations(int of, int levels, std::vector<int>& factors,
                            std::vector<std::vector<int>>& all) {
     if (levels == 1) {
@@ -34,8 +34,8 @@ void append_factorizations(int of, int levels, std::vector<int>& factors,
     }
 }
 
-// `listed`: how many factorizations there are so far. A short file could ask for more than any
-// memory holds.
+// `listed` is the number of factorizations so far: a short file could ask for more than any memory
+// holds.
 std::vector<nlohmann::json> read_values(JsonReader& grid, const std::string& key,
                                         std::size_t& listed) {
     const nlohmann::json& found = grid.value(key);

@@ -28,14 +28,14 @@ bool is_number(const std::string& cell) {
     return stop == end && error != std::errc::invalid_argument;
 }
 
-// Spreadsheets compute what begins so, and may start programs by that. With an apostrophe before
-// it, it is text to them.
+// Spreadsheets evaluate cells that begin so, which may even start programs. An apostrophe in front
+// makes them text.
 bool is_formula(const std::string& cell) {
     return !cell.empty() && std::string_view("=+-@\t\r").find(cell[0]) != std::string::npos &&
            !is_number(cell);
 }
 
-// RFC 4180: in quotes where it holds a comma, a quote or the end of a line.
+// RFC 4180: a cell with a comma, a quote or the end of a line is put in quotes.
 std::string quoted(const std::string& cell) {
     if (is_formula(cell)) return quoted("'" + cell);
     if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;

@@ -3,16 +3,17 @@
 
 #include <utility>
 
+#include "reference/scene_tracer.h"
 #include "study/picture_key.h"
 
 namespace lamina::study {
+
 TracedMesh::TracedMesh(SceneMesh mesh)
     : mesh_(std::make_shared<const SceneMesh>(std::move(mesh))),
       open_faces_(mesh_->mesh, mesh_->mesh.open_faces()) {}
 
 MeshTraceResult TracedMesh::trace(const Scene& scene) const {
-    return trace_mesh(mesh_->mesh, open_faces_, mesh_->scalar.values, scene.transfer_function,
-                      View(scene.camera, scene.width, scene.height));
+    return lamina::trace(scene, *mesh_, open_faces_);
 }
 
 const PreciseImage& TracedMesh::exact(const Scene& scene) {

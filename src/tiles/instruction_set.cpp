@@ -14,8 +14,8 @@ namespace {
 
 std::int64_t left_out = 0;  // by restrict_instructions()
 
-// Asked once: SupportedTargets() makes calls go to the machine's best target, whatever was left
-// out, until they are dispatched anew.
+// Highway is asked once, because SupportedTargets() makes calls go to the machine's best target,
+// whatever was left out, until they are dispatched anew.
 std::int64_t of_machine() {
     static const std::int64_t targets = [] {
         const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
@@ -25,7 +25,7 @@ std::int64_t of_machine() {
     return targets;
 }
 
-// Of Highway's targets the lower bit is the better one.
+// Of two of Highway's targets the one with the lower bit is better.
 std::vector<std::int64_t> listed(std::int64_t all) {
     std::vector<std::int64_t> targets;
     for (std::int64_t left = all; left != 0; left &= left - 1) targets.push_back(left & -left);

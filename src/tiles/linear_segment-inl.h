@@ -23,28 +23,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 // that of faint_front_weight().
 template <class D>
 HWY_INLINE hn::Vec<D> faint_opacity(D d, hn::Vec<D> depth) {
-    return hn::Mul(depth,
-                   polynomial(d, depth, {0.9999999f, -0.4999845f, 0.16627573f, -0.03848669f}));
+    return depth * polynomial(d, depth, {0.9999999f, -0.4999845f, 0.16627573f, -0.03848669f});
 }
 template <class D>
 HWY_INLINE hn::Vec<D> faint_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     const auto set = [d](float c) HWY_ATTR { return hn::Set(d, c); };
-    const auto pq = hn::Add(hn::Add(set(-0.07483143f), hn::Mul(p, set(0.01593537f))),
-                            hn::Mul(q, set(0.01098378f)));
-    const auto of_p =
-        hn::Add(hn::Add(set(0.33332185f),
-                        hn::Mul(p, hn::Add(set(-0.06649057f), hn::Mul(p, set(0.00875053f))))),
-                hn::Mul(q, pq));
-    const auto of_q = hn::Add(set(0.166663f),
-                              hn::Mul(q, hn::Add(set(-0.02493882f), hn::Mul(q, set(0.00273092f)))));
-    return hn::Add(hn::Mul(p, of_p), hn::Mul(q, of_q));
+    const auto pq = set(-0.07483143f) + p * set(0.01593537f) + q * set(0.01098378f);
+    const auto of_p = set(0.33332185f) + p * (set(-0.06649057f) + p * set(0.00875053f)) + q * pq;
+    const auto of_q = set(0.166663f) + q * (set(-0.02493882f) + q * set(0.00273092f));
+    return p * of_p + q * of_q;
 }
 
 // For optical depths up to thin_depth.
 template <class D>
 HWY_INLINE hn::Vec<D> thin_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
     const auto c0 =
-        hn::Mul(q, polynomial(d, q, {0.166777794f, -0.025093103f, 0.002890381f, -0.000196459f}));
+        q * polynomial(d, q, {0.166777794f, -0.025093103f, 0.002890381f, -0.000196459f});
     const auto c1 = polynomial(d, q, {0.333037217f, -0.074477034f, 0.011162302f, -0.000919007f});
     const auto c2 = polynomial(d, q, {-0.065656503f, 0.015676728f, -0.001696676f});
     const auto c3 = polynomial(d, q, {0.008428908f, -0.001502640f});
@@ -62,15 +56,14 @@ HWY_INLINE hn::Vec<D> front_weight(D d, const float* table, int nodes, hn::Vec<D
     q = hn::Min(q, finite);
     // 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), computed without a difference so that segments of
     // small optical depth keep their digits.
-    const auto root = hn::Sqrt(hn::Add(one, q));
-    const auto x = hn::Mul(last, hn::Div(p, hn::Add(one, p)));
-    const auto y = hn::Mul(last, hn::Div(hn::Div(q, root), hn::Add(one, root)));
+    const auto root = hn::Sqrt(one + q);
+    const auto x = last * (p / (one + p));
+    const auto y = last * (q / root / (one + root));
     const auto most = hn::Set(di, nodes - 2);
     const auto column = hn::Min(hn::ConvertTo(di, x), most),
                row = hn::Min(hn::ConvertTo(di, y), most);
-    const auto share_x = hn::Sub(x, hn::ConvertTo(d, column)),
-               share_y = hn::Sub(y, hn::ConvertTo(d, row));
-    const auto place = hn::Add(hn::Mul(row, hn::Set(di, nodes)), column);
+    const auto share_x = x - hn::ConvertTo(d, column), share_y = y - hn::ConvertTo(d, row);
+    const auto place = row * hn::Set(di, nodes) + column;
     const auto near =
         mix(hn::GatherIndex(d, table, place), hn::GatherIndex(d, table + 1, place), share_x);
     const auto far = mix(hn::GatherIndex(d, table + nodes, place),

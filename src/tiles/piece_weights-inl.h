@@ -31,22 +31,21 @@ HWY_INLINE hn::Vec<D> piece_front_weight(D d, hn::Vec<D> p, hn::Vec<D> q) {
                                  0.156173538520001f,  0.16511967750063f,   0.156173538520001f,
                                  0.130305348201468f,  0.0903240803474287f, 0.0406371941807872f};
     const V half = hn::Set(d, 0.5f), one = hn::Set(d, 1.0f), most_depth = hn::Set(d, 12.0f);
-    const V depth = hn::Add(hn::Mul(half, p), hn::Mul(half, q));
+    const V depth = half * p + half * q;
     // The place where the optical depth in front of it is most_depth, in units of depth.
-    const V slope = hn::Div(p, depth), share = hn::Div(most_depth, depth);
-    const V twice = hn::Add(share, share);
-    const V square =
-        hn::Add(hn::Mul(slope, slope), hn::Mul(twice, hn::Sub(hn::Div(q, depth), slope)));
+    const V slope = p / depth, share = most_depth / depth;
+    const V twice = share + share;
+    const V square = slope * slope + twice * (q / depth - slope);
     const V root = hn::Sqrt(hn::Max(square, hn::Zero(d)));
-    const V place = hn::Div(twice, hn::Max(hn::Add(slope, root), hn::Set(d, 1e-18f)));
+    const V place = twice / hn::Max(slope + root, hn::Set(d, 1e-18f));
     const V seen = hn::IfThenElse(hn::Gt(depth, most_depth), hn::Min(place, one), one);
     V sum = hn::Zero(d);
     for (std::size_t i = 0; i < std::size(nodes); ++i) {
-        const V x = hn::Mul(seen, hn::Set(d, nodes[i])), half_x = hn::Mul(half, x);
-        const V before = hn::Add(hn::Mul(p, hn::Sub(one, half_x)), hn::Mul(q, half_x));
-        sum = mul_add(hn::Set(d, weights[i]), opacity_from_depth(d, hn::Mul(x, before)), sum);
+        const V x = seen * hn::Set(d, nodes[i]), half_x = half * x;
+        const V before = p * (one - half_x) + q * half_x;
+        sum = mul_add(hn::Set(d, weights[i]), opacity_from_depth(d, x * before), sum);
     }
-    return hn::Add(hn::Sub(one, seen), hn::Mul(seen, sum));
+    return one - seen + seen * sum;
 }
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -19,7 +19,7 @@ Capabilities tile_capabilities() {
     capabilities.tiles = true;
     capabilities.max_texture_size = largest_edge;
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();
-    // Vectors of 32-bit numbers address what is gathered.
+    // Gathers address memory by vectors of 32-bit numbers.
     capabilities.max_texture_bytes = std::uint64_t{std::numeric_limits<std::int32_t>::max()};
     capabilities.max_array_layers = std::numeric_limits<int>::max();
     capabilities.framebuffer_fetch = true;  // a fragment may read its pixel

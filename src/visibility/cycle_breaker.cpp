@@ -8,8 +8,8 @@
 namespace lamina {
 namespace {
 
-// Edges looked at in the search for cycles, and again while edges are taken back: a second or two.
-// Tets that overlap all over may have more cycles than anybody can wait for.
+// The most edges that are examined in the search for cycles, and again while edges are taken back.
+// Where tets overlap everywhere there may be more cycles than can be broken in acceptable time.
 constexpr std::int64_t most_work = 200'000'000;
 
 }  // namespace
@@ -57,7 +57,7 @@ void CycleBreaker::collect(const OrderGraph& graph, std::span<const std::int32_t
     list_entering();
 }
 
-// Two tets may hide one another by several pairs of faces: that is one edge.
+// Several pairs of faces may make one tet hide another. They are one edge.
 void CycleBreaker::add(std::int32_t from, std::int32_t to, double area) {
     for (auto at = static_cast<std::size_t>(node(from).out); at < edges_.size(); ++at) {
         if (edges_[at].to != to) continue;
@@ -74,14 +74,14 @@ void CycleBreaker::list_entering() {
     entering_.resize(edges_.size());
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(edges_.size()); ++i)
         entering_[static_cast<std::size_t>(node(edge(i).to).in++)] = i;
-    // Each beginning has moved to its end, which is where the next one was.
+    // Each list's start has moved to its end, which is where the next list started.
     for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
     nodes_[0].in = 0;
 }
 
-// Looks for cycles in depth; takes the smallest area left on each off all its edges, and drops
-// those with nothing left. What is kept has no cycle; nodes get their places, the nearest first,
-// when all that is nearer is done.
+// Searches for cycles depth first, subtracts the smallest area left on each cycle from all its
+// edges, and drops the edges with nothing left. What is kept has no cycle. A node gets its place,
+// the nearest first, when all nearer nodes are done.
 void CycleBreaker::drop_edges() {
     dropped_.clear();
     path_.clear();
@@ -119,8 +119,8 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// The cycle runs along the path from depth `first` to its end and back. The search goes on from the
-// first edge of the path that is dropped.
+// The cycle is the path from depth `first` to its end, and the edge back. The search goes on from
+// the first edge of the path that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
     work_ += path_.end() - begin;
@@ -140,7 +140,7 @@ void CycleBreaker::thin_cycle(std::int32_t first) {
     path_.erase(cut + 1, path_.end());
 }
 
-// Edges that were dropped on the way, largest first, where they close no cycle.
+// Takes dropped edges back, the largest first, where they close no cycle.
 void CycleBreaker::take_back() {
     std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
         return edge(a).area != edge(b).area ? edge(a).area > edge(b).area : a < b;
@@ -153,8 +153,8 @@ void CycleBreaker::take_back() {
     }
 }
 
-// Changes the places so that the edge is kept with all others, if they can be (Pearce and Kelly, A
-// dynamic topological sort algorithm for directed acyclic graphs, 2007).
+// Changes the places so that the edge is kept with all others, if that is possible (Pearce and
+// Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007).
 bool CycleBreaker::keep(const Edge& edge) {
     nearer_.clear();
     farther_.clear();
@@ -177,7 +177,8 @@ bool CycleBreaker::keep(const Edge& edge) {
     return true;
 }
 
-// Collects what kept edges lead to before place `end`; false if that place itself is among it.
+// Collects the nodes that kept edges lead to before place `end`. Returns false if the node at that
+// place is among them.
 bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
     node(from).marked = true;

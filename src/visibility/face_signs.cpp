@@ -11,8 +11,8 @@ namespace lamina {
 namespace {
 
 // A determinant of three rounded differences is off by less than 8 half ulps of its permanent
-// (Shewchuk 1997, section 4.3), and that is at most 6 times the largest coordinate cubed. Twice
-// that, so that the rounding of the bound itself does not matter.
+// (Shewchuk 1997, section 4.3), which is at most 6 times the cube of the largest coordinate. The
+// bound is twice that, so that its own rounding does not matter.
 constexpr double error_bound = 96 * (std::numeric_limits<double>::epsilon() / 2);
 
 double largest(const glm::dvec3& v) {
@@ -45,7 +45,7 @@ FaceSigner::Rounded FaceSigner::rounded_at_infinity(const Tet& tet) const {
     }
     const glm::dvec3 d1 = glm::cross(d, p[0]), d3 = glm::cross(d, p[2]);
     const double d12 = glm::dot(d1, p[1]), d13 = glm::dot(d1, p[2]), d23 = -glm::dot(d3, p[1]);
-    // Face 0 is the sum of three: its bound is good for all.
+    // Face 0 is the sum of three determinants. Its bound is used for all faces.
     return {{d12 + d23 - d13, -d23, d13, -d12}, 4 * error_bound * largest(d) * reach * reach};
 }
 
@@ -55,7 +55,7 @@ int FaceSigner::exact(const Tet& tet, std::size_t face) const {
                         points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(c)]);
 }
 
-// Without branches on the signs, which nothing could predict.
+// There are no branches on the signs, because these cannot be predicted.
 FaceSigns FaceSigner::signs(std::size_t index) const {
     const Tet& tet = tets_[index];
     const Rounded seen = eye_.at_infinity ? rounded_at_infinity(tet) : rounded(tet);

@@ -33,7 +33,7 @@ std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t
     drawn_ = 0;
     broken_ = 0;
     for (const Start& start : starts_) draw(graph, start.tet, order);
-    // What no open face towards the eye leads to: an eye inside the mesh has nearer tets.
+    // An eye inside the mesh has tets that no open face towards it leads to.
     for (std::size_t tet = 0; tet < order.size(); ++tet)
         draw(graph, static_cast<std::int32_t>(tet), order);
     return broken_;
@@ -42,7 +42,8 @@ std::int64_t FarthestFirst::sort(const OrderGraph& graph, std::span<std::int32_t
 void FarthestFirst::draw(const OrderGraph& graph, std::int32_t root,
                          std::span<std::int32_t> order) {
     if (next_face_[static_cast<std::size_t>(root)] != unmet) return;
-    // The path grows from the end of `order`: what is drawn and what is on it are different tets.
+    // The path grows from the end of `order`. Both fit, because no tet is drawn and on the path at
+    // once.
     std::size_t top = order.size();
     order[--top] = root;
     next_face_[static_cast<std::size_t>(root)] = first_face;

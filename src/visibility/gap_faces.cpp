@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-// Faces that are looked at for each one, on average: real meshes take 2 to 29.
+// The average number of faces that may be examined for each face. Real meshes need far fewer.
 constexpr std::size_t looks_a_face = 100;
 
 class Search {
@@ -33,7 +33,7 @@ class Search {
                 found.push_back(face);
                 continue;
             }
-            // Of a flat side of the mesh once is enough.
+            // One face of a flat side of the mesh is enough.
             for (const std::int32_t other : in_plane_)
                 outermost[static_cast<std::size_t>(other)] = true;
         }
@@ -45,12 +45,12 @@ class Search {
         return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]);
     }
 
-    // If so, `in_plane_` has all other faces of its plane.
+    // If the face is outermost, `in_plane_` has all other faces of its plane.
     bool is_outermost(std::int32_t face) {
         const Triangle corners = triangle(face);
         const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
         in_plane_.clear();
-        // What was outside of the face before is outside of its neighbours mostly.
+        // A point outside of the last face is mostly outside of its neighbours, too.
         if (side_of(corners, plane, outside_) > 0) return false;
         const PlaneSide side(plane, corners[0], bounds_);
         bool outermost = true;
@@ -86,7 +86,7 @@ class Search {
         return outermost;
     }
 
-    // Is the direction of its normal known?
+    // Returns whether the direction of its normal is certain.
     static bool is_sure(const RoundedPlane& plane) { return norm1(plane.normal) > plane.error; }
 
     const TetMesh& mesh_;

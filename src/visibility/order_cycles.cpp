@@ -40,7 +40,7 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph) {
     }
 
     Found found;
-    // The numbers are done with: the breaker may use their memory.
+    // The numbers are not needed any more, so the breaker may use their memory.
     for (std::size_t id = 0; id < cyclic_.size(); ++id) {
         const auto [first, end] = cyclic_[id];
         const CycleBreaker::Broken broken =
@@ -86,8 +86,8 @@ void OrderCycles::visit(const OrderGraph& graph, std::int32_t tet) {
     path_.push_back({tet, graph.first_edge(tet)});
 }
 
-// The tet was the first of its component to be found: what is open since is the component. All
-// nearer components are complete, and stand behind it in the sequence.
+// The tet was the first of its component to be found, so the component is what is open since. All
+// nearer components are complete, and follow it in the sequence.
 void OrderCycles::finish(std::int32_t tet) {
     const std::size_t end = memory_.size() - sequence_.size();
     std::size_t first = end;

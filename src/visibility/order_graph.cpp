@@ -43,7 +43,7 @@ void OrderGraph::find_signs() {
 void OrderGraph::link_gaps() {
     std::fill(first_gap_.begin(), first_gap_.end(), -1);
     next_gap_.resize(gap_edges_.size());
-    // Backwards, so that each list runs forwards.
+    // The loop runs backwards, so that each list runs forwards.
     for (std::size_t i = gap_edges_.size(); i-- > 0;) {
         const auto& [exit, entry] = gap_edges_[i];
         const auto farther =

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// Points farther than this from the middle of the view, as a tangent, count as behind the eye.
+// Points whose tangent from the middle of the view is larger than this count as behind the eye.
 constexpr double widest = 1e3;
 
 }  // namespace

@@ -28,7 +28,7 @@ SeenTriangle::SeenTriangle(const Eye& eye, const Triangle& corners) : corners_(c
 int SeenTriangle::edge_sign(const Eye& eye, std::size_t corner, const glm::dvec3& point) const {
     const glm::dvec3 &from = corners_[corner], &to = corners_[after(corner)];
     if (const int sign = edges_[corner].sign(point - from)) return sign;
-    // Triangles that share a corner meet here most of the time.
+    // Most triangles that meet here share a corner.
     if (point == from || point == to) return 0;
     return sign_as_seen(eye, from, to, point);
 }
@@ -37,8 +37,8 @@ int SeenTriangle::face_sign(const glm::dvec3& point) const {
     return side_of(corners_, face_, point);
 }
 
-// 1: all corners of `other` on or outside this triangle's plane; -1: on or inside; 0: on both
-// sides.
+// Returns 1 where all corners of `other` are on or outside this triangle's plane, -1 where they are
+// on or inside, and 0 where they are on both sides.
 int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     bool outside = false, inside = false;
     for (const glm::dvec3& point : other.corners_) {
@@ -49,8 +49,8 @@ int SeenTriangle::all_on_one_side(const SeenTriangle& other) const {
     return !inside ? 1 : !outside ? -1 : 0;
 }
 
-// Are all corners of `other` on this triangle's side of the plane through the eye parallel to it?
-// (May say no wrongly.) Then the two pyramids lie in one open half-space.
+// Returns whether all corners of `other` are on this triangle's side of the plane through the eye
+// parallel to it, so that the two pyramids lie in one open half-space. It may wrongly return false.
 bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
     if (eye.at_infinity) return true;
     return std::all_of(other.corners_.begin(), other.corners_.end(), [&](const glm::dvec3& point) {
@@ -60,7 +60,7 @@ bool SeenTriangle::sees_ahead(const Eye& eye, const SeenTriangle& other) const {
 
 bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) const {
     for (std::size_t edge = 0; edge < 3; ++edge) {
-        // Rounded first: one corner that is surely on this side settles it.
+        // Rounded values come first: one corner that is surely on this side decides.
         std::array<int, 3> signs;
         for (std::size_t i = 0; i < 3; ++i)
             signs[i] = sign_ * edges_[edge].sign(other.corners_[i] - corners_[edge]);
@@ -74,8 +74,8 @@ bool SeenTriangle::separated_by_edge(const Eye& eye, const SeenTriangle& other) 
 }
 
 // Two triangles have no inner point in common if and only if a line along an edge of one of them
-// separates them. Of two pyramids that is true of planes along their faces if they lie in one
-// half-space; otherwise the plane may hold one edge of each.
+// separates them. The same holds for two pyramids in one half-space and planes along their faces.
+// Otherwise the separating plane may hold one edge of each.
 bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
     if (separated_by_edge(eye, entry) || entry.separated_by_edge(eye, *this)) return true;
     if (sees_ahead(eye, entry)) return false;
@@ -96,8 +96,8 @@ bool SeenTriangle::apart(const Eye& eye, const SeenTriangle& entry) const {
 }
 
 bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
-    // The face of an exit has its outside behind it, that of an entry before it: where one triangle
-    // lies on one side of the other's plane, the same sign means the same.
+    // An exit's face has its outside behind it, an entry's face before it. So where one triangle
+    // lies on one side of the other's plane, equal signs mean the same order.
     const auto surely_before = [&](const glm::dvec3& point) {
         return face_.sign(point - corners_[0]) < 0;
     };
@@ -111,8 +111,8 @@ bool SeenTriangle::shows(const Eye& eye, const SeenTriangle& entry) const {
     return of_exit != 0 ? of_exit > 0 : behind_where_mixed(eye, entry);
 }
 
-// The corners of the part seen through the triangle: corners of either inside the other, and
-// crossings of edges. Is the entry behind at one of them?
+// Returns whether the entry is behind at a corner of the part seen through the triangle. Such
+// corners are corners of either triangle inside the other, and crossings of edges.
 bool SeenTriangle::behind_where_mixed(const Eye& eye, const SeenTriangle& entry) const {
     const auto inside = [&](const SeenTriangle& triangle, const glm::dvec3& point) {
         for (std::size_t i = 0; i < 3; ++i) {

@@ -53,8 +53,8 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
     return order_;
 }
 
-// VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views too;
-// the distance from the eye is the better guess there, and needs no axis.
+// VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views, too.
+// The distance from the eye is the better estimate there, and needs no axis.
 void VisibilityOrder::sort_centroids(const Eye& eye) {
     const auto points = mesh_.points();
     parallel_for(static_cast<std::int64_t>(order_.size()), tets_per_task, [&](std::int64_t index) {
@@ -74,7 +74,7 @@ void VisibilityOrder::sort_centroids(const Eye& eye) {
 void VisibilityOrder::sort_farthest_first() {
     const std::int64_t broken = farthest_first_->sort(*graph_, order_);
     if (broken == 0) return;
-    find_cycles();  // for the report: the order stays the search's
+    find_cycles();  // for the report alone: the order is the search's
     report_.broken = broken;
     report_.broken_area = 0;
 }
@@ -87,9 +87,9 @@ void VisibilityOrder::sort_topologically() {
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
 
-// Draws every tet when all that are farther have been drawn (Kahn 1962), and returns how many: all,
-// unless there are cycles. Those that may be drawn wait on a stack, so that the next is mostly a
-// neighbour of the last one; it grows from the end of the order, which has room for both.
+// Draws every tet when all farther tets have been drawn (Kahn 1962), and returns their number: all,
+// unless there are cycles. Tets that may be drawn wait on a stack, so that the next is mostly a
+// neighbour of the last one. The stack grows from the end of the order, which has room for both.
 std::size_t VisibilityOrder::draw_free() {
     const auto counts = graph_->farther_counts();
     const auto neighbors = mesh_.neighbors();

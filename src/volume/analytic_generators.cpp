@@ -85,12 +85,13 @@ struct Blob {
     }
 };
 
-// In the unit box. The narrowest is 5 samples wide in 128^3.
+// Positions are in the unit box. The narrowest blob is 5 samples wide in 128^3.
 const Blob blobs[] = {{{0.50, 0.50, 0.50}, 0.17, 1.00}, {{0.24, 0.30, 0.66}, 0.07, 0.60},
                       {{0.74, 0.26, 0.38}, 0.05, 0.65}, {{0.70, 0.76, 0.72}, 0.09, 0.55},
                       {{0.30, 0.74, 0.28}, 0.04, 0.70}, {{0.52, 0.28, 0.82}, 0.06, 0.60}};
 
-// The maximum of the sum: the highest of the peaks that mean shift finds from every blob's centre.
+// The maximum of the sum is the highest of the peaks that mean shift finds from every blob's
+// centre.
 double highest_peak() {
     double highest = 0;
     for (const Blob& start : blobs) {

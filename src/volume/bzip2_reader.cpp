@@ -21,7 +21,7 @@ void Bzip2Reader::begin_member() {
 }
 
 bool Bzip2Reader::unpack(Input& from, Output& to) {
-    // libbz2 only reads what it calls char*.
+    // libbz2 takes char* but only reads.
     state_.next_in = const_cast<char*>(reinterpret_cast<const char*>(from.data()));
     state_.avail_in = static_cast<unsigned>(from.size());
     state_.next_out = reinterpret_cast<char*>(to.data());

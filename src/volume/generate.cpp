@@ -45,7 +45,7 @@ const Entry& entry_of(const std::string& name) {
     fail("unknown generator '{}': expected one of {}", name, fmt::join(generator_names(), ", "));
 }
 
-// Rounds to the nearest code of an integer type; 0..1 is its whole range.
+// Rounds to the nearest code of an integer type, whose whole range is 0..1.
 template <typename T>
 void quantize(const double* values, std::int64_t count, T* samples) {
     for (std::int64_t i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ void quantize(const double* values, std::int64_t count, T* samples) {
     }
 }
 
-// Slices [begin, end) into `samples`, which holds nothing else.
+// Fills `samples`, which holds nothing else, with the slices [begin, end).
 template <typename T>
 void fill_slices(const Generator& generator, const GridSize& size, std::int64_t begin,
                  std::int64_t end, T* samples, Progress& progress) {

@@ -15,12 +15,12 @@ std::uint64_t mix(std::uint64_t bits) {
     return bits ^ (bits >> 31);
 }
 
-// 21 bits to -1..1.
+// Maps 21 bits to -1..1.
 double component(std::uint64_t bits) {
     return static_cast<double>(bits & 0x1fffff) * 0x1p-20 - 1;
 }
 
-// A lattice coordinate in 21 bits: noise repeats beyond 2^21 cells.
+// Returns a lattice coordinate in 21 bits, so noise repeats beyond 2^21 cells.
 std::uint64_t lattice_bits(std::int64_t coordinate) {
     return static_cast<std::uint64_t>(coordinate) & 0x1fffff;
 }
@@ -55,8 +55,8 @@ struct Lines {
     }
 };
 
-// At a lattice coordinate of x, what the gradients there, interpolated over y and z, contribute at
-// distance d along x: value + slope * d.
+// The gradients at one lattice coordinate of x, interpolated over y and z, contribute value + slope
+// * d at distance d along x.
 struct Node {
     double value;
     double slope;

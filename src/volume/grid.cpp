@@ -40,8 +40,8 @@ glm::dvec3 Grid::to_index(const glm::dvec3& world) const {
 }
 
 glm::dvec3 Grid::direction_to_index(const glm::dvec3& world) const {
-    // The inverse of a matrix with orthogonal columns: project on each, which is first scaled by a
-    // power of two, so that its square neither vanishes nor overflows.
+    // The columns of the matrix are orthogonal, so its inverse projects on each of them. A column
+    // is first scaled by a power of two, so that its square neither vanishes nor overflows.
     glm::dvec3 index{0};
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec3& along = step[axis];

@@ -45,7 +45,7 @@ void draw_slice(const Grid& grid, const T* samples, const ValueRange& range, std
 }  // namespace
 
 CodedImage middle_slices(const Volume& volume, const ValueRange& range) {
-    // No structured binding: clang below 16 has none in lambdas.
+    // Clang before version 16 cannot capture structured bindings in lambdas.
     const std::int64_t nx = volume.grid().size[0];
     const std::int64_t ny = volume.grid().size[1], nz = volume.grid().size[2];
     const std::int64_t width = nx + room + nx + room + ny;

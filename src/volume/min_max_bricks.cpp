@@ -19,7 +19,8 @@ struct Extrema {
     explicit Extrema(std::size_t count)
         : lo(count, std::numeric_limits<T>::max()), hi(count, std::numeric_limits<T>::lowest()) {}
 
-    // Of each place of some lines, into element 0 .. size - 1: vectors of them at a time.
+    // Includes line[i] in the extrema of element i. The loop has no branches, so that it becomes
+    // vector instructions.
     void include(const T* line) {
         for (std::size_t i = 0; i < lo.size(); ++i) {
             T low = line[i], high = line[i];

@@ -57,7 +57,7 @@ class Mixing final : public Generator {
             const double stirred =
                 position_[x] - interface + stirring * strength_[x] * (coarse[x] + fine[x]);
             const double heavy = smooth_step(0.5 + stirred / (2 * interface_width));
-            // Eddies of one fluid in the other, where the interface is near.
+            // Eddies of one fluid in the other appear where the interface is near.
             const double nearness = smooth_step(1 - std::abs(stirred) / (4 * interface_width));
             values[x] =
                 std::clamp(heavy + entrainment * nearness * strength_[x] * fine[x], 0.0, 1.0);
@@ -65,7 +65,7 @@ class Mixing final : public Generator {
     }
 
   private:
-    // Noise of the coarser and of the finer half of the octaves.
+    // Adds the noise of the coarser and of the finer half of the octaves.
     void add_eddies(double py, double pz, double* coarse, double* fine) const {
         const auto begin =
             std::find_if(strength_.begin(), strength_.end(), [](double s) { return s > 0; });
@@ -98,7 +98,7 @@ class Mixing final : public Generator {
             frequency *= 2;
         }
         height = std::clamp(height, -1.0, 1.0);
-        // Spikes (towards small x) are narrow and long, bubbles broad and flat.
+        // Spikes (towards small x) are narrow and long, bubbles are broad and flat.
         const double shape = height < 0 ? -height * height * (1.5 + 0.5 * height)
                                         : 0.8 * height * (2 - height) * 0.8;
         return 0.5 + interface_reach * shape;

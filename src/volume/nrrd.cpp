@@ -31,7 +31,7 @@ Volume read_nrrd(const std::filesystem::path& path) {
 void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type) {
     std::string text = "NRRD0004\n";
     text += fmt::format("type: {}\n", name_of(type));
-    // Three dimensions without a named space: readers of medical images must not flip axes.
+    // No space is named, because readers of medical images would flip axes in some.
     text += "dimension: 3\nspace dimension: 3\n";
     text += fmt::format("sizes: {} {} {}\n", grid.size[0], grid.size[1], grid.size[2]);
     text += fmt::format("space directions: {} {} {}\n", vector_text(grid.step[0]),

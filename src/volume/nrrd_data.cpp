@@ -22,9 +22,9 @@ namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-// At most so many bytes can come out of one byte: deflate codes 258 bytes in 2 bits (zlib,
-// "Technical details": 1032:1); bzip2 codes a block of 900,000 bytes, each 5 of them a run of 259,
-// in no less than 40 bytes.
+// One byte gives at most so many bytes. Deflate codes 258 bytes in 2 bits (zlib, "Technical
+// details": 1032:1). bzip2 codes a block of 900,000 bytes, each 5 of them a run of 259, in no less
+// than 40 bytes.
 constexpr std::uint64_t gzip_expansion = 1032;
 constexpr std::uint64_t bzip2_expansion = 900000 / 5 * 259 / 40;
 
@@ -63,7 +63,7 @@ File open_data(const NrrdHeader& header) {
     return file;
 }
 
-// The most bytes of samples that `stored` bytes can give.
+// Returns the most bytes of samples that `stored` bytes can give.
 std::uint64_t capacity(const NrrdHeader& header, std::uint64_t stored) {
     switch (header.encoding) {
         case NrrdEncoding::raw:
@@ -124,7 +124,7 @@ void read_raw(const NrrdHeader& header, std::FILE* file, unsigned char* samples,
         if (got == wanted) continue;
         fail("{}: found {} bytes of data, expected {}", header.data_path.string(), done, count);
     }
-    // Counted from the end, data have as many bytes behind them as the header says.
+    // Where data are counted from the end of the file, the header says how many bytes follow them.
     const std::uint64_t surplus = header.byte_skip < 0 ? 0 : bytes_left(file);
     if (surplus > 0) warn_of_surplus(header, fmt::format("{} bytes more", surplus));
 }
@@ -196,7 +196,7 @@ std::shared_ptr<const void> read_nrrd_samples(const NrrdHeader& header) {
     }
     if (skips_stored) skip_bytes(header, file.get(), count);
 
-    // malloc, not a vector: gigabytes need not be zeroed before they are filled.
+    // malloc() does not zero the memory as a vector would: gigabytes are filled right afterwards.
     const std::shared_ptr<void> samples(std::malloc(count), &std::free);
     if (!samples) throw std::bad_alloc();
     auto* const bytes = static_cast<unsigned char*>(samples.get());

@@ -15,11 +15,11 @@
 namespace lamina {
 namespace {
 
-// Cosine up to which directions count as orthogonal: what remains of 6 printed digits, and below a
-// hundredth of a voxel over 1000 voxels.
+// Directions count as orthogonal up to this cosine: headers print some 6 digits, and it moves
+// samples by less than a hundredth of a voxel over 1000 voxels.
 constexpr double orthogonal_cosine = 1e-5;
 
-// Lengths of steps outside of this range would overflow or vanish when squared.
+// Steps outside of this range would overflow or vanish when squared.
 constexpr double shortest_step = 1e-100;
 constexpr double longest_step = 1e100;
 
@@ -27,8 +27,8 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
     return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
-// The three axes that make the volume: all, or what is left when axes of one sample are dropped,
-// first those that have no direction in space.
+// Returns the three axes that span the volume. Where there are more, axes of one sample are
+// dropped, first those without a direction in space.
 std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     std::vector<unsigned> axes(nrrd.dim);
     std::vector<std::size_t> sizes(nrrd.dim);
@@ -61,8 +61,8 @@ Centering centering_of(const NrrdAxisInfo& axis) {
     return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
 }
 
-// Distance of samples along an axis without a direction: its spacing, else what its mins and maxs
-// imply, else 1.
+// Returns the distance of samples along an axis without a direction: its spacing, else what its
+// mins and maxs imply, else 1.
 double spacing_of(const NrrdAxisInfo& axis) {
     if (!std::isnan(axis.spacing)) return axis.spacing;
     const bool cell = centering_of(axis) == Centering::cell;
@@ -71,8 +71,8 @@ double spacing_of(const NrrdAxisInfo& axis) {
     return (axis.max - axis.min) / intervals;
 }
 
-// Where the first sample lies along an axis without a direction. A cell's min is its border
-// (format, "axis mins").
+// Returns the position of the first sample along an axis without a direction. The min of an axis of
+// cells is the border of the first cell (format, "axis mins").
 double first_position_of(const NrrdAxisInfo& axis) {
     if (std::isnan(axis.min)) return 0;
     return centering_of(axis) == Centering::cell ? axis.min + spacing_of(axis) / 2 : axis.min;

@@ -23,10 +23,10 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t header_limit = std::size_t{1} << 20;
-// Of a field's line: teem prints lines into buffers of some 1000 bytes where they are wrong.
+// The longest line of a field: teem prints lines that are wrong into buffers of some 1000 bytes.
 constexpr std::size_t line_limit = 512;
 
-// The lines of a header, as far as the format's framing goes; their meaning is teem's affair.
+// The lines of a header, separated by the rules of the format. teem interprets them.
 struct HeaderText {
     std::string text;                      // magic and fields, without `data file` and remarks
     std::optional<std::string> data_file;  // what `data file` says
@@ -49,7 +49,7 @@ void check_regular_file(const std::filesystem::path& path, const std::string& ro
         fail("{}: {}not a regular file", path.string(), role);
 }
 
-// The first bytes of a file: at most header_limit of them.
+// Reads the beginning of a file, at most header_limit bytes.
 std::string read_beginning(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot read: permission denied", path.string());
@@ -72,15 +72,15 @@ struct Field {
     std::string value;
 };
 
-// What says nothing about the samples: comments, key/value pairs, `content`. teem keeps such lines
-// in lists, and a header of a megabyte of them takes it minutes.
+// Returns whether a line says nothing about the samples: comments, key/value pairs, `content`. teem
+// keeps such lines in lists, and takes minutes for a header with a megabyte of them.
 bool is_remark(const std::string& line) {
     const auto colon = line.find(':');
     return line[0] == '#' || line.starts_with("content:") ||
            (colon != std::string::npos && line.substr(colon, 2) == ":=");
 }
 
-// The field of a `name: value` line; nothing for comments and key/value pairs.
+// Returns the field of a `name: value` line, and nothing for comments and key/value pairs.
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || is_remark(line)) return {};
@@ -96,7 +96,7 @@ std::optional<Field> field_of(const std::string& line) {
          field.value.substr(0, 80), expected);
 }
 
-// teem reads "8.9" as 8, and -8 or 2^64 as a missing field.
+// teem would read "8.9" as 8, and -8 or 2^64 as a missing field.
 void check_sizes(const std::string& path, int line, const Field& field) {
     std::istringstream words(field.value);
     std::uint64_t samples = 1;
@@ -111,8 +111,8 @@ void check_sizes(const std::string& path, int line, const Field& field) {
         fail_at(path, line, field, "at most 2^62 samples in all");
 }
 
-// Of the header's fields those that are one number each. teem takes them modulo 2^32, drops what
-// stands behind them, and calls what it does not understand missing.
+// Checks the fields that are one number each. teem takes them modulo 2^32, ignores what follows
+// them, and treats what it does not understand as missing.
 void check_number(const std::string& path, int line, const Field& field) {
     struct Limits {
         std::set<std::string> names;
@@ -134,8 +134,8 @@ void check_number(const std::string& path, int line, const Field& field) {
         fail_at(path, line, field, limit->expected);
 }
 
-// teem takes patterns (handed to sprintf unchecked), lists and "-" (standard input) here; volumes
-// need none of them.
+// teem accepts patterns (which it hands to sprintf unchecked), lists and "-" (standard input) here.
+// Volumes need none of them.
 void check_data_file(const std::string& path, const std::string& name) {
     const bool list = name == "LIST" || name.starts_with("LIST ") || name.starts_with("SKIPLIST");
     if (list || name.find('%') != std::string::npos) {
@@ -192,7 +192,8 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
     return header;
 }
 
-// The innermost two of teem's stacked messages, "[nrrd] function: message" each, on one line.
+// Returns the innermost two of teem's stacked messages, each "[nrrd] function: message", on one
+// line.
 std::string teem_message() {
     const std::unique_ptr<char, decltype(&std::free)> stack(biffGetDone(NRRD), &std::free);
     std::vector<std::string> messages;

@@ -23,7 +23,7 @@ class WordReader {
   public:
     explicit WordReader(std::FILE* stream) : stream_(stream), buffer_(buffer_bytes) {}
 
-    // The next word, cut off beyond longest_word; empty at the end of the file.
+    // Returns the next word, cut off beyond longest_word, or an empty one at the end of the file.
     const std::string& next() {
         word_.clear();
         int c = get();
@@ -54,9 +54,10 @@ class WordReader {
     std::string word_;
 };
 
-// std::from_chars calls numbers out of range that are nearer to 0 than any float, too.
+// std::from_chars() also reports numbers as out of range that are nearer to 0 than any float. This
+// parses them.
 bool parse_small(const char* first, const char* end, float& sample) {
-    long double wide = 0;  // has exponents to spare
+    long double wide = 0;  // has a wider range of exponents
     const bool fits = std::from_chars(first, end, wide).ec == std::errc{};
     if (!fits && std::string_view(first, end).find('-', 1) == std::string_view::npos) return false;
     if (std::abs(wide) > 1) return false;

@@ -12,7 +12,8 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t input_bytes = std::size_t{1} << 20;
-// zlib and libbz2 count in 32 bits; also how often to look for Ctrl-C.
+// zlib and libbz2 count in 32 bits. This is also the number of bytes between checks for a requested
+// stop.
 constexpr std::size_t output_step = std::size_t{1} << 26;
 
 }  // namespace

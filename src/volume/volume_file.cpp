@@ -37,7 +37,8 @@ const VolumeFormat* find_format(const Path& path) {
     return found == std::end(formats) ? nullptr : found;
 }
 
-// A NRRD file may have any name: its reader looks for the magic, and says where it is missing.
+// A NRRD file may have any name. Its reader looks for the magic number, and reports where it is
+// missing.
 const VolumeFormat& format_of(const Path& path) {
     const VolumeFormat* const found = find_format(path);
     return found ? *found : formats[0];
@@ -57,7 +58,7 @@ std::vector<Path> files_of_volume(const Path& path) {
     try {
         return format_of(path).files(path);
     } catch (const Error&) {
-        return {path};  // what is wrong is said when the volume is read, if it is
+        return {path};  // errors are reported when the volume is read
     }
 }
 

@@ -8,7 +8,8 @@
 #include <csignal>
 #include <string>
 
-#include "base/interrupt.h"
+#include "base/client.h"
+#include "base/signal_stop.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -78,14 +79,15 @@ TEST(JsonText, ListsOfObjectsTakeTimeInProportion) {
 void parse_until_a_signal_comes() {
     const std::string text = list_of("{}", most_json_values - 1);
     std::signal(SIGTERM, SIG_DFL);
-    catch_interrupts();
+    const SignalStop signals;
+    const ClientScope scope({.stop = signals.token()});
     std::signal(SIGPROF, [](int) { raise(SIGTERM); });
     const itimerval soon{{0, 0}, {0, 20'000}};
     setitimer(ITIMER_PROF, &soon, nullptr);
     try {
         parse_json(text);
     } catch (const Interrupted&) {
-        _exit(interrupt_exit_code());
+        _exit(signals.exit_code());
     }
     _exit(1);
 }

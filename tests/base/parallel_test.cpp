@@ -6,9 +6,11 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
+#include "base/signal_stop.h"
 
 namespace lamina {
 namespace {
@@ -33,23 +35,26 @@ TEST(ParallelFor, RethrowsWhatACallThrows) {
     EXPECT_EQ(message, "number 617");
 }
 
-// In a process of its own, because an interrupt stays set.
+// In a process of its own, because the signal is of the whole process.
 TEST(ParallelForDeathTest, StopsWhenInterrupted) {
     testing::FLAGS_gtest_death_test_style = "threadsafe";
-    const auto interrupted_loop = [] {
+    const auto code_of_interrupted_loop = [] {
         std::signal(SIGINT, SIG_DFL);  // a shell's background ignores it
-        catch_interrupts();
+        const SignalStop signals;
+        const ClientScope scope({.stop = signals.token()});
         std::atomic<int> calls = 0;
         try {
             parallel_for(1000000, 1, [&](std::int64_t) {
-                if (++calls == 10) std::raise(SIGINT);
+                if (++calls != 10) return;
+                std::raise(SIGINT);
+                while (!signals.token().stop_requested()) std::this_thread::yield();
             });
         } catch (const Interrupted&) {
-            std::exit(calls < 1000000 ? 130 : 1);
+            return calls < 1000000 ? signals.exit_code() : 1;
         }
-        std::exit(2);
+        return 2;
     };
-    EXPECT_EXIT(interrupted_loop(), testing::ExitedWithCode(130), "");
+    EXPECT_EXIT(std::exit(code_of_interrupted_loop()), testing::ExitedWithCode(130), "");
 }
 
 }  // namespace

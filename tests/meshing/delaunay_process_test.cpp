@@ -15,6 +15,9 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "base/client.h"
+#include "base/error.h"
+#include "base/signal_stop.h"
 #include "support/expect_error.h"
 #include "support/file_size_limit.h"
 #include "support/temporary_folder.h"
@@ -138,6 +141,15 @@ TEST(DelaunayProcess, ManyMessagesDoNotStopTheProgram) {
     const TemporaryFolder folder;
     const auto tool = script(folder, "yes chatter | head -c 1000000 >&2; echo the end >&2; exit 1");
     expect_error([&] { delaunay_by_process(tool, tetrahedron); }, {"the end (exit code 1)"});
+}
+
+// A terminal sends Ctrl-C to both processes: that is no failure of the program.
+TEST(DelaunayProcess, EndedWithWhoAskedItIsAnInterrupt) {
+    const TemporaryFolder folder;
+    const auto tool = script(folder, "kill -TERM $PPID $$; sleep 20");
+    const SignalStop signals;
+    const ClientScope scope({.stop = signals.token()});
+    EXPECT_THROW(delaunay_by_process(tool, tetrahedron), Interrupted);
 }
 
 class Tetrahedralize : public testing::Test {

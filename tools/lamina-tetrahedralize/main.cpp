@@ -54,7 +54,7 @@ std::vector<char> read_all(std::FILE* stream) {
     return bytes;
 }
 
-// TetGen would end by an assertion.
+// TetGen would end by an assertion where all points lie in one plane.
 void check_extent(const REAL* points, std::size_t count) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         bool differ = false;
@@ -65,7 +65,7 @@ void check_extent(const REAL* points, std::size_t count) {
     }
 }
 
-// The points on stdin, in an array that tetgenio owns.
+// Reads the points from stdin into an array that tetgenio owns.
 void read_points(tetgenio& io) {
     const std::vector<char> bytes = read_all(stdin);
     TetrahedralizeCount count = 0;
@@ -92,7 +92,7 @@ void read_points(tetgenio& io) {
     check_extent(io.pointlist, points);
 }
 
-// TetGen's numbers of terminatetetgen().
+// The numbers are those of TetGen's terminatetetgen().
 const char* meaning_of(int failure) {
     switch (failure) {
         case 1:
@@ -126,7 +126,7 @@ void tetrahedralize(tetgenio& in, tetgenio& out) {
     }
 }
 
-// The answer cannot be written.
+// Means that the answer cannot be written.
 class NoRoom : public std::runtime_error {
   public:
     NoRoom() : std::runtime_error("cannot write to stdout: " + std::string(std::strerror(errno))) {}
@@ -147,7 +147,7 @@ void write_tets(std::FILE* stream, const tetgenio& io) {
     if (std::fflush(stream) != 0) throw NoRoom();
 }
 
-// The stream of answers; what TetGen prints on stdout goes to stderr from now on.
+// Returns a stream for the answer. What TetGen prints on stdout goes to stderr from now on.
 std::FILE* take_stdout() {
     std::fflush(stdout);
     const int answer = dup(STDOUT_FILENO);
@@ -158,8 +158,8 @@ std::FILE* take_stdout() {
     return stream;
 }
 
-// Near its limits TetGen may also run into an assertion or leave its memory: still one line and
-// exit code 1. Only what is allowed in a signal handler.
+// Near its limits TetGen may also run into an assertion or leave its memory. Even then there is one
+// line and exit code 1. Only calls that are allowed in a signal handler are used.
 extern "C" void report_crash(int) {
     constexpr char message[] =
         "lamina-tetrahedralize: TetGen broke down (are all points nearly in one plane, or "
@@ -180,7 +180,7 @@ void catch_crashes() {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) sigaction(signal, &action, nullptr);
 }
 
-// False: the one that asks is gone already.
+// Returns false where the process that asked has ended already.
 bool end_with_parent(const char* parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     return std::to_string(getppid()) == parent;

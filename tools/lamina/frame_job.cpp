@@ -51,7 +51,7 @@ void FrameJob::draw(const Plan& plan, RenderStats& stats) {
     method_->report_frame(plan, renderer, stats);
 }
 
-// Where somebody will read them, with its fragments.
+// Fragments are counted only where somebody will read their number.
 void FrameJob::draw_first(RenderStats& stats) {
     if (!request_.count_fragments || context_->capabilities().tiles) {
         frames_->draw();

@@ -24,7 +24,7 @@ SegmentIntegral integral_of(const IntegrationCase& given) {
     return integrate_segment(given.transfer_function, given.front, given.back, given.length);
 }
 
-// 17 significant digits: what every double needs to be read back as itself.
+// 17 significant digits suffice to read every double back unchanged.
 std::string text_of(const std::vector<SegmentIntegral>& results) {
     std::string text = "[";
     for (const SegmentIntegral& result : results) {

@@ -8,10 +8,11 @@
 #include <sstream>
 #include <system_error>
 
+#include "base/client.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/large_stack.h"
 #include "base/progress.h"
+#include "base/signal_stop.h"
 #include "base/standard_streams.h"
 #include "base/warning.h"
 #include "command_line.h"
@@ -24,7 +25,7 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
-// Each once: a file may be read for many pictures.
+// Each warning is printed once, although a file may be read for many pictures.
 void print_warning(const std::string& text) {
     static std::set<std::string> printed;
     if (lamina::Progress::is_quiet() || !printed.insert(text).second) return;
@@ -33,7 +34,7 @@ void print_warning(const std::string& text) {
 
 constexpr const char* version = "lamina " LAMINA_VERSION;
 
-// A word that is no verb: CLI11 would only say that a subcommand is missing.
+// Names an unknown verb. CLI11 would only say that a subcommand is missing.
 void check_verb(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::string verbs;
@@ -68,15 +69,16 @@ int run(int argc, char** argv) {
 }
 
 // Does not throw.
-int run_and_report(int argc, char** argv) {
+int run_and_report(int argc, char** argv, const lamina::SignalStop& signals) {
+    const lamina::ClientScope scope({.stop = signals.token()});
     try {
         return run(argc, argv);
     } catch (const lamina::UsageError& error) {
         return report(error.what(), 2);
     } catch (const lamina::Interrupted& interrupted) {
-        return report(interrupted.what(), lamina::interrupt_exit_code());
+        return report(interrupted.what(), signals.exit_code());
     } catch (const std::bad_alloc&) {
-        std::fputs("lamina: out of memory\n", stderr);  // takes none
+        std::fputs("lamina: out of memory\n", stderr);  // needs no memory
         return 1;
     } catch (const std::exception& error) {
         return report(error.what(), 1);
@@ -87,11 +89,11 @@ int run_and_report(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     lamina::make_streams_safe();
-    lamina::catch_interrupts();
     lamina::take_warnings(print_warning);
     lamina::set_command_line(argc, argv);
     try {
-        return lamina::with_large_stack([=] { return run_and_report(argc, argv); });
+        const lamina::SignalStop signals;
+        return lamina::with_large_stack([&] { return run_and_report(argc, argv, signals); });
     } catch (const std::system_error& error) {
         return report(error.what(), 1);
     }

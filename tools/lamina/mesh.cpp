@@ -25,7 +25,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t fewest_tets = 6;  // of a box
+constexpr std::int64_t fewest_tets = 6;  // a box has so many
 constexpr std::int64_t most_tets = (std::int64_t{1} << 29) - 1;
 
 struct MeshOptions {
@@ -35,14 +35,14 @@ struct MeshOptions {
     bool kuhn = false, quiet = false;
 };
 
-// What a mesh is made from and how.
+// The data that a mesh is made from, and the settings.
 struct MeshTask {
     Volume volume;
     MeshSettings settings;
     std::optional<TransferFunction> transfer_function;
 };
 
-// A file that is made, or the two of them that .node means.
+// The output file, or the two files that .node stands for.
 class MeshOutput {
   public:
     explicit MeshOutput(const std::filesystem::path& path) : paths_(files_of_mesh(path)) {
@@ -61,10 +61,10 @@ class MeshOutput {
         } else {
             write_node(*file_, mesh);
             write_ele(*elements_, mesh);
-            file_->complete();  // both, before either gets its name
+            file_->complete();  // both are complete before either gets its name
             elements_->complete();
-            // Killed between the two it leaves no old .node beside the new .ele: they would be read
-            // as one mesh.
+            // The old .node is removed first. Otherwise a process killed between the two renames
+            // would leave an old .node beside a new .ele, and they would be read as one mesh.
             std::filesystem::remove(file_->path());
             elements_->commit();
         }

@@ -83,14 +83,15 @@ Input load(const std::string& file) {
     return {load_mesh(scene).mesh, scene.camera};
 }
 
-// Halton's sequence: `index` from 1, its digits to the base mirrored at the point.
+// Halton's sequence: the digits of `index`, from 1, to the base are mirrored at the point.
 double radical_inverse(int index, int base) {
     double value = 0, digit = 1;
     for (; index > 0; index /= base) value += (index % base) * (digit /= base);
     return value;
 }
 
-// In turn: from around the mesh, the same without perspective, from inside its box.
+// The views are in turn from around the mesh, the same without perspective, and from inside its
+// box.
 Camera camera_of(int index, const TetMesh& mesh) {
     const glm::dvec3 extent = mesh.bounds().max - mesh.bounds().min;
     const double diagonal = glm::length(extent);
@@ -100,7 +101,7 @@ Camera camera_of(int index, const TetMesh& mesh) {
     const double ring = std::sqrt(1 - height * height);
     const glm::dvec3 outwards(ring * std::cos(turn), ring * std::sin(turn), height);
     Camera camera;
-    camera.up = {-std::sin(turn), std::cos(turn), 0};  // across `outwards`
+    camera.up = {-std::sin(turn), std::cos(turn), 0};  // at a right angle to `outwards`
     camera.center = 0.5 * mesh.bounds().min + 0.5 * mesh.bounds().max;
     camera.eye = camera.center + 1.4 * diagonal * outwards;
     camera.height = diagonal;
@@ -113,7 +114,7 @@ Camera camera_of(int index, const TetMesh& mesh) {
     return camera;
 }
 
-// What one way to sort came to, over all views.
+// The results of one way of sorting, over all views.
 struct Outcome {
     std::vector<double> ms;
     std::int64_t violations = 0;

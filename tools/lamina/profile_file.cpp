@@ -54,7 +54,8 @@ std::int64_t ProfileFile::write(const std::string& title, const std::string& con
     if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
     file_.write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
                 ",\"traceEvents\":[\n");
-    // One after the other: a document of them all would take twenty times what the spans take.
+    // Events are written one after the other: a document of all would take twenty times the memory
+    // of the spans.
     file_.write(json_text(metadata("process_name", Profile::first_row, "name", title)));
     const auto write_event = [&](const Json& event) { file_.write(",\n" + json_text(event)); };
     const auto has_spans = [&](int row) {
@@ -64,7 +65,7 @@ std::int64_t ProfileFile::write(const std::string& title, const std::string& con
     for (int row = 0; row < profile_.row_count(); ++row) {
         if (!has_spans(row)) continue;
         write_event(metadata("thread_name", row, "name", name_of_row(row)));
-        // OpenGL's below those of the host.
+        // The row of OpenGL comes below those of the host.
         const int place = row == Profile::opengl_row ? profile_.row_count() : row;
         write_event(metadata("thread_sort_index", row, "sort_index", place));
     }

@@ -52,7 +52,8 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-// The frames of --frames: `draw(camera)` for the scene's, turned a little further each time.
+// Draws the frames of --frames: `draw(camera)` for the scene's camera, turned a little further each
+// time.
 template <typename Draw>
 void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw& draw) {
     if (frames == 0) return;
@@ -83,7 +84,7 @@ void write_profile(ProfileFile& profile, const RenderOptions& options, const Ren
                                      Profile::most_spans, left_out));
 }
 
-// One `lamina render`: from the files to the picture and what it cost.
+// Does one `lamina render`, from the files to the picture and the statistics.
 void run(const RenderOptions& options) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);

@@ -114,7 +114,7 @@ Json to_json(const Work& work) {
     return json;
 }
 
-// What was counted of what Plan::work predicts.
+// Returns the counts of the work that Plan::work predicts.
 Json actual_work(const RenderStats& stats, const Plan& plan) {
     Json json = Json::object();
     if (plan.method == Method::slice && stats.on_tiles) json["segments"] = stats.fragments;

@@ -55,7 +55,7 @@ std::vector<papers::PaperItem<Stage>> chosen_items(
                                  options.item, names_of(items)));
 }
 
-// That items may write, and the report on them.
+// Returns the files that items may write, and the report on them.
 template <typename Stage>
 std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& items,
                                   const std::string& report) {
@@ -65,7 +65,7 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
     return files;
 }
 
-// That items read where they are there.
+// Returns the files that items read where they exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
     std::vector<std::filesystem::path> files = files_of_volume(data / "bonsai.nrrd");
@@ -131,7 +131,7 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
 void run(const ReproduceOptions& options) {
     Progress::set_quiet(options.quiet);
     if (options.paper == "lamar") {
-        // Some items are about blending units and textures.
+        // Some items examine blending units and textures, so they need OpenGL.
         const gl::ContextKind kind = opengl_kind(options.context);
         reproduce(papers::lamar_items(), options, [kind] { return DrawContext(kind); });
     } else if (options.paper == "kraus") {

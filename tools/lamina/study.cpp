@@ -67,7 +67,7 @@ std::vector<std::filesystem::path> files_read(const std::vector<study::StudyData
     return read;
 }
 
-// A folder belongs to one study, whose list it returns. `begun`: this shard has records in it.
+// Returns the list of the study that the folder belongs to. `begun`: this shard has records in it.
 std::optional<study::RunList> check_folder(const study::RunList& list,
                                            const study::StudyFolder& folder, bool begun,
                                            bool resume) {

@@ -6,8 +6,7 @@
 #include "base/stage.h"
 #include "loaded_mesh.h"
 #include "loaded_volume.h"
-#include "reference/mesh_tracer.h"
-#include "reference/volume_tracer.h"
+#include "reference/scene_tracer.h"
 #include "render_job.h"
 
 namespace lamina {
@@ -51,9 +50,9 @@ class VolumeTraceJob : public RenderJob {
   private:
     TraceResult trace(const Camera& camera) const {
         const Stage tracing("trace");
-        const Scene& scene = request_.scene;
-        return trace_volume(data_->volume, scene.transfer_function,
-                            View(camera, scene.width, scene.height), {scene.trace_tolerance});
+        Scene scene = request_.scene;
+        scene.camera = camera;
+        return lamina::trace(scene, data_->volume);
     }
 
     const RenderRequest request_;
@@ -104,9 +103,9 @@ class MeshTraceJob : public RenderJob {
   private:
     MeshTraceResult trace(const Camera& camera) const {
         const Stage tracing("trace");
-        const Scene& scene = request_.scene;
-        return trace_mesh(data_->mesh, *tree_, data_->scalar.values, scene.transfer_function,
-                          View(camera, scene.width, scene.height));
+        Scene scene = request_.scene;
+        scene.camera = camera;
+        return lamina::trace(scene, *data_, *tree_);
     }
 
     const RenderRequest request_;

@@ -24,8 +24,8 @@ int lane_count() {
     return static_cast<int>(hn::Lanes(df));
 }
 
-// x = step(x) in all chains, in registers. They begin with different numbers, lest the compiler see
-// that all of them are one.
+// Computes x = step(x) in all chains, in registers. The chains begin with different numbers, so
+// that the compiler cannot merge them.
 template <class F>
 HWY_INLINE float run_chains(std::int64_t rounds, F step) {
     const auto start = [](float number) HWY_ATTR { return hn::Set(df, number); };
@@ -41,7 +41,7 @@ HWY_INLINE float run_chains(std::int64_t rounds, F step) {
     return hn::GetLane(hn::SumOfLanes(df, hn::Add(first, second)));
 }
 
-// The factor and the summand are known at run time only; x stays near 2 b / 3.
+// The factor and the summand are known only at run time. x stays near 2 b / 3.
 float run_multiply_and_add(std::int64_t rounds, float factor, float summand) {
     const auto a = hn::Set(df, factor), b = hn::Set(df, summand);
     return run_chains(rounds, [=](Floats x) HWY_ATTR { return hn::Add(hn::Mul(x, a), b); });
@@ -87,7 +87,8 @@ float run_gather_blocks(std::span<const float> table, std::int64_t rounds) {
         hn::Add(hn::And(lane, hn::Set(du, 3u)), hn::Mul(hn::ShiftRight<2>(lane), hn::Set(du, row)));
     Floats sums[gathers];
     for (Floats& sum : sums) sum = hn::Zero(df);
-    // Four blocks a round, 4 numbers further each; after a row of blocks the next 4 rows.
+    // A round has four blocks, each 4 numbers further. After a row of blocks it goes on 4 rows
+    // below.
     std::uint32_t first = 0;
     for (std::int64_t round = 0; round < rounds; ++round) {
         for (std::uint32_t i = 0; i < gathers; ++i) {

@@ -24,7 +24,7 @@
 namespace lamina {
 namespace {
 
-// What one thread does `work` of, again and again; the result keeps it from being left out.
+// The work that one thread does again and again. Its result keeps the compiler from leaving it out.
 using Kernel = std::function<float(int thread)>;
 
 volatile float sink;
@@ -32,8 +32,8 @@ volatile float sink;
 constexpr double shortest_run = 0.05;  // seconds
 constexpr int runs = 5;
 
-// From the first thread's start to the last one's end; each looks at the clock itself, because on a
-// busy machine others may run in between.
+// Returns the time from the first thread's start to the last one's end. Each thread reads the clock
+// itself, because on a busy machine others may run in between.
 double seconds_of(const Kernel& kernel, int threads, std::int64_t times) {
     std::barrier start(threads);
     const Stopwatch watch;
@@ -54,8 +54,8 @@ double seconds_of(const Kernel& kernel, int threads, std::int64_t times) {
     return *std::ranges::max_element(ends) - *std::ranges::min_element(begins);
 }
 
-// Units a second of all threads together, where a call of the kernel does `units`: the best of some
-// runs, which others disturb least.
+// Returns the units a second of all threads together, where a call of the kernel does `units`. It
+// is the best of some runs, which other processes disturb least.
 double rate(const Kernel& kernel, int threads, double units) {
     std::int64_t times = 1;
     while (seconds_of(kernel, threads, times) < shortest_run) times *= 2;
@@ -109,7 +109,7 @@ class Machine {
         add("float32 division", "G/s", 1e-9, operations, [](int) { return divide(rounds, 1.5f); });
     }
 
-    // `bytes`: of the table of each thread; the power of two below.
+    // `bytes` is the size of each thread's table, rounded down to a power of two.
     void measure_gathers(const std::string& level, std::size_t bytes) {
         const std::vector<std::vector<float>> tables(
             static_cast<std::size_t>(threads_),
@@ -122,7 +122,7 @@ class Machine {
         const std::string size = fmt::format("{} ({} KiB)", level, tables[0].size() / 256);
         add("gather anywhere in " + size, "G/s", 1e-9, numbers,
             [&](int thread) { return gather_anywhere(table(thread), rounds); });
-        // A call passes over the whole table where that is longer.
+        // A call passes over the whole table where that takes longer.
         const std::int64_t over_all = std::max<std::int64_t>(
             rounds, static_cast<std::int64_t>(tables[0].size()) / (16 * gathers));
         add("gather 4 x 4 blocks in " + size, "G/s", 1e-9,

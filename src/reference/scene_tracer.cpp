@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/scene_tracer.h"
+
+namespace lamina {
+namespace {
+
+View view_of(const Scene& scene) {
+    return View(scene.camera, scene.width, scene.height);
+}
+
+}  // namespace
+
+TraceResult trace(const Scene& scene, const Volume& volume) {
+    return trace_volume(volume, scene.transfer_function, view_of(scene), {scene.trace_tolerance});
+}
+
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
+    return trace(scene, mesh, FaceTree(mesh.mesh, mesh.mesh.open_faces()));
+}
+
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces) {
+    return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function,
+                      view_of(scene));
+}
+
+}  // namespace lamina

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference for the picture that a scene shows of its data. The scene's method is not looked
+// at: these trace what any method draws.
+#pragma once
+
+#include "lamina/scene.h"
+#include "reference/mesh_tracer.h"
+#include "reference/volume_tracer.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// Traces to the scene's trace_tolerance; as trace_volume() otherwise.
+TraceResult trace(const Scene& scene, const Volume& volume);
+
+// As trace_mesh(). `open_faces`: the tree of the mesh's open faces, for callers who trace several
+// pictures; it is built where it is not given.
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh);
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces);
+
+}  // namespace lamina
