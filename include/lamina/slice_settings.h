@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-enum class Classification { post, preintegrated, exact };
+enum class Classification { post, preintegrated, exact, automatic };
 enum class Filter { exact, hardware, automatic };
 
 struct DitherSettings {
@@ -30,7 +30,7 @@ struct SliceTableSettings {
 
 struct SliceSettings {
     std::optional<int> samples;  // number of slabs; none: "auto"
-    Classification classification = Classification::post;
+    Classification classification = Classification::automatic;
     Order order = Order::back_to_front;
     Filter filter = Filter::exact;
     std::optional<DitherSettings> dither;

@@ -46,6 +46,7 @@ Scene bonsai_scene() {
     scene.camera.fov_y = 35;
     scene.width = 320;
     scene.height = 240;
+    scene.slice.classification = Classification::post;
     scene.slice.samples = 512;
     return scene;
 }

@@ -38,6 +38,7 @@ Scene timed_scene(bool white) {
     scene.camera.center = glm::dvec3(0.5);
     scene.camera.height = 1 / volume_in_picture;
     scene.width = scene.height = timed_pixels;
+    scene.slice.classification = Classification::post;
     scene.slice.samples = slices;
     return scene;
 }

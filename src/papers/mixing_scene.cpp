@@ -28,6 +28,7 @@ Scene scene_of(int pixels, bool white) {
     scene.camera.center = glm::dvec3(0.5);
     scene.camera.height = 1;
     scene.width = scene.height = pixels;
+    scene.slice.classification = Classification::post;
     scene.slice.samples = depth;
     return scene;
 }

@@ -169,7 +169,8 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                                           slice.slab_trial->traced));
         }
         row("target", with_reason(name_of(slice.target), slice.target_reason));
-        row("classification", name_of(slice.classification));
+        row("classification",
+            with_reason(name_of(slice.classification), slice.classification_reason));
         row("order", name_of(slice.order));
         row("rays", slice.precise_rays ? "double" : "float");
         row("scalar", with_reason(text_of(slice.sampling, capabilities), slice.filter_reason));

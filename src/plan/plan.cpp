@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "plan/classification_choice.h"
 #include "plan/picture_limits.h"
 #include "plan/planned_work.h"
 #include "plan/project_planner.h"
@@ -20,6 +21,7 @@ SlicePlan without_remarks(SlicePlan plan) {
     plan.slab_trial.reset();
     plan.filter_reason.clear();
     plan.filter_error = 0;
+    plan.classification_reason.clear();
     plan.target_reason.clear();
     plan.error_bound.reset();
     plan.tree_reason.clear();
@@ -45,7 +47,8 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
     Plan plan;
     if (scene.method == Method::slice) {
         plan = plan_alone(scene, facts, capabilities, omissions, trials);
-        add_savings(plan, with_target(scene, plan.slice.target), facts, capabilities, omissions,
+        const Scene chosen = with_classification(scene, plan.slice.classification);
+        add_savings(plan, with_target(chosen, plan.slice.target), facts, capabilities, omissions,
                     trials);
         return plan;
     }
@@ -58,9 +61,12 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials) {
-    const TargetChoice choice = choose_target(scene, facts, trials);
+    const ClassificationChoice way = choose_classification(scene, capabilities);
+    const Scene chosen = with_classification(scene, way.classification);
+    const TargetChoice choice = choose_target(chosen, facts, trials);
     Plan plan =
-        plan_slicing(with_target(scene, choice.target), facts, capabilities, omissions, trials);
+        plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions, trials);
+    plan.slice.classification_reason = way.reason;
     plan.slice.target_reason = choice.reason;
     return plan;
 }

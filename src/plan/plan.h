@@ -13,6 +13,7 @@
 #include "facts/mesh_facts.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
+#include "plan/classification_choice.h"
 #include "plan/compositing_plan.h"
 #include "plan/omission.h"
 #include "plan/project_plan.h"
@@ -49,7 +50,8 @@ struct SlicePlan : CompositingPlan {
     // The error that the hardware's filter was found to add, in 1/255: for "filter": "auto" with a
     // given number of slabs.
     double filter_error = 0;
-    std::string target_reason;  // for "target": "auto"
+    std::string classification_reason;  // for "classification": "auto"
+    std::string target_reason;          // for "target": "auto"
     std::optional<Dither> dither;
     std::optional<TreePlan> tree;
     std::optional<double> error_bound;  // for "tree": "auto", in 1/255; tree_reason explains it
@@ -80,8 +82,9 @@ struct SlicePlan : CompositingPlan {
     std::vector<TextureBrick> bricks;
 
     // The error that slabs, filter and table were found to make, in 1/255, as far as it was
-    // measured.
+    // measured; that of exact segments.
     double found_error() const {
+        if (integrates_cells()) return exact_segment_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }

@@ -9,16 +9,16 @@
 
 #include "base/error.h"
 #include "compositing/tree_shape.h"
+#include "facts/ray_shares.h"
+#include "facts/world_unit.h"
 #include "optics/front_weights.h"
 #include "plan/brick_cuts.h"
 #include "plan/march_limit.h"
 #include "plan/picture_limits.h"
-#include "facts/ray_shares.h"
 #include "plan/slab_choice.h"
 #include "plan/table_choice.h"
 #include "plan/target_choice.h"
 #include "plan/tree_check.h"
-#include "facts/world_unit.h"
 
 namespace lamina {
 namespace {
@@ -56,7 +56,7 @@ class SlicePlanner {
         SlicePlan& slice = plan_.slice;
         slice.unit = world_unit(box_diagonal(facts_.grid));
         slice.target = scene_.target;
-        choose_classification();
+        slice.classification = scene_.slice.classification;
         slice.order = scene_.slice.order;
         slice.batches = capabilities_.software ? software_batches : 1;
         slice.nan_transparent = facts_.non_finite > 0;
@@ -83,30 +83,10 @@ class SlicePlanner {
         return true;
     }
 
-    void choose_classification() {
-        plan_.slice.classification = scene_.slice.classification;
-        if (plan_.slice.classification != Classification::exact) return;
-        if (!capabilities_.tiles) {
-            fail("{}: render.slice.classification: \"exact\" needs the native engine, expected "
-                 "--context cpu or another classification: {}",
-                 scene_.file.string(), capabilities_.renderer);
-        }
-        if (scene_.slice.filter == Filter::hardware) {
-            fail("{}: render.slice.filter: found \"hardware\", expected \"exact\" with "
-                 "classification \"exact\"",
-                 scene_.file.string());
-        }
-    }
-
-    // Of exact segments one is as good as many.
     void choose_slabs() {
         SlicePlan& slice = plan_.slice;
         if (scene_.slice.samples) {
             slice.slabs = *scene_.slice.samples;
-            return;
-        }
-        if (slice.classification == Classification::exact) {
-            slice.slabs = 1;
             return;
         }
         const SlabTrial chosen = chosen_slabs(facts_, trials_);

@@ -44,6 +44,7 @@ Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
     const SlicePlan& slice = plan.slice;
     SliceSettings& settings = scene.slice;
     settings.samples = slice.slabs;
+    settings.classification = slice.classification;
     if (settings.filter == Filter::automatic)
         settings.filter =
             slice.sampling == VolumeSampling::hardware ? Filter::hardware : Filter::exact;

@@ -63,6 +63,8 @@ const char* name_of(Classification classification) {
             return "preintegrated";
         case Classification::exact:
             return "exact";
+        case Classification::automatic:
+            return "auto";
     }
     return nullptr;
 }

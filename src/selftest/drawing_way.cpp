@@ -22,7 +22,16 @@ constexpr BlendRounding of_codes(int bits) {
 
 DrawingWay slice(const std::string& name, const std::function<void(Scene&)>& set,
                  const BlendRounding& rounding = of_float32) {
-    return {"slice " + name, Method::slice, TraceOf::volume, set, rounding};
+    const auto post_unless_set = [set](Scene& scene) {
+        scene.slice.classification = Classification::post;
+        set(scene);
+    };
+    return {"slice " + name, Method::slice, TraceOf::volume, post_unless_set, rounding};
+}
+
+DrawingWay native(DrawingWay way) {
+    way.native_only = true;
+    return way;
 }
 
 DrawingWay project(const std::string& name, const std::function<void(Scene&)>& set,
@@ -58,6 +67,8 @@ std::vector<DrawingWay> float_ways() {
               [](Scene& scene) { scene.slice.order = Order::front_to_back; }),
         slice("preintegrated float32",
               [](Scene& scene) { scene.slice.classification = Classification::preintegrated; }),
+        native(slice("exact float32",
+                     [](Scene& scene) { scene.slice.classification = Classification::exact; })),
         project("float32", [](Scene&) {}),
         project("analytic float32",
                 [](Scene& scene) { scene.project.coloring = Coloring::analytic; }),

@@ -17,6 +17,7 @@ struct DrawingWay {
     TraceOf trace_of = TraceOf::volume;
     std::function<void(Scene&)> set;  // sets further keys of the scene
     BlendRounding rounding;           // rounding of one blend
+    bool native_only = false;         // OpenGL cannot draw so
 
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);
@@ -26,7 +27,7 @@ struct DrawingWay {
 
 // Both tracers.
 std::vector<DrawingWay> traces();
-// Slicing and projection in float32, with both classifications, both orders and two colourings.
+// Slicing and projection in float32, with all classifications, both orders and two colourings.
 std::vector<DrawingWay> float_ways();
 // Both methods in float16, fixed16, fixed8 and emulated targets.
 std::vector<DrawingWay> coarse_ways();

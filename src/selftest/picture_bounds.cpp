@@ -148,6 +148,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     const bool sliced = way.method == Method::slice;
     const Slabs slabs = slabs_of(box, view, scene.slice.samples.value_or(1));
     const bool post = scene.slice.classification == Classification::post;
+    const bool by_slab = sliced && scene.slice.classification != Classification::exact;
     // Rays may end where the rest cannot change the picture by more than this
     // (docs/performance.md).
     const double hidden_light = scene.max_error / 255 / 1024;
@@ -155,7 +156,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     return all_pixels(scene, [&](const View::Ray& ray, std::array<double, 4>& exact,
                                  PixelBounds& possible) {
         exact = composite_exactly(exact_pieces(box, optics, ray));
-        if (sliced) {
+        if (by_slab) {
             possible = composite(post ? middle_pieces(box, optics, ray, slabs, precision)
                                       : run_pieces(box, optics, ray, slabs, precision),
                                  way.rounding);

@@ -18,6 +18,8 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
     Progress progress("selftest", static_cast<std::int64_t>(cases.size()));
     for (const SelftestCase& each : cases) {
         check_interrupt();
+        progress.advance();
+        if (each.native_only && !maker.native()) continue;
         const Stopwatch watch;
         CaseOutcome outcome;
         try {
@@ -33,7 +35,6 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
         }
         results.push_back(
             {each.group, each.scene, each.way, each.about, outcome, watch.milliseconds()});
-        progress.advance();
     }
     return results;
 }

@@ -12,7 +12,9 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
     map.count = any->count;
     const std::size_t bricks = any->distance.size();
     map.kinds.resize(bricks + 3);
-    const auto reach = [](std::uint8_t distance) { return std::min<int>(distance, CellMap::farthest); };
+    const auto reach = [](std::uint8_t distance) {
+        return std::min<int>(distance, CellMap::farthest);
+    };
     for (std::size_t i = 0; i < bricks; ++i) {
         const int empty = occupied != nullptr ? reach(occupied->distance[i]) : 0;
         const int constant = varied != nullptr ? reach(varied->distance[i]) : 0;

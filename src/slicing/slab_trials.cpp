@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "base/stage.h"
 #include "image/metrics.h"
+#include "plan/classification_choice.h"
 #include "plan/slab_choice.h"
 #include "plan/slice_planner.h"
 #include "slicing/point_cover.h"
@@ -253,10 +254,12 @@ bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capa
 
 }  // namespace
 
-SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
+SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxBricks& bricks,
                          const Facts& facts, const Capabilities& capabilities) {
     SampleTrials trials;
-    if (scene.method != Method::slice || !shows_something(facts)) return trials;
+    if (asked.method != Method::slice || !shows_something(facts)) return trials;
+    const Scene scene =
+        with_classification(asked, choose_classification(asked, capabilities).classification);
     if (scene.slice.classification == Classification::exact) return trials;
     if (!scene.slice.samples) trials.exact = try_numbers(scene, volume, bricks, facts);
     if (!may_filter(scene, facts, capabilities)) return trials;

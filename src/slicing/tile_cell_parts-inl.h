@@ -55,13 +55,13 @@ HWY_INLINE StoredLanes stored_lanes(FloatMask members) {
 struct CellParts {
     // Packets side by side: each waits for its own results.
     static constexpr std::size_t most_packets = 2;
-    static constexpr int most_steps = 16;
+    static constexpr int most_steps = 32;
     static constexpr std::size_t capacity = (most_steps * most_packets + 1) * most_lanes;
 
     // Where the ray enters the cell, from 0 to 1, and how far it goes in it.
     alignas(64) float place[3][capacity];
     alignas(64) float change[3][capacity];
-    alignas(64) float length[capacity];  // world units
+    alignas(64) float length[capacity];        // world units
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit: cubic[0] + t (cubic[1] + ...), t from 0 to 1.
     alignas(64) float cubic[4][capacity];

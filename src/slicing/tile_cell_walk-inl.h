@@ -85,7 +85,8 @@ class CellWalk {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const TwoDoubles there = each_half<FloatTag>(place, depth_, direction_[axis],
                                                          rays_->origin[static_cast<int>(axis)]);
-            place_[axis] = to_floats(d, each_half<FloatTag>(minus, there, doubles_of(cell_[axis])));
+            start_[axis] = each_half<FloatTag>(minus, there, doubles_of(cell_[axis]));
+            place_[axis] = to_floats(d, start_[axis]);
             passed_[axis] = Number(0);
         }
         at_ = Number(0);
@@ -97,8 +98,8 @@ class CellWalk {
     HWY_INLINE void end_run() {
         const TwoDoubles gone = to_doubles(FloatTag(), at_.v);
         const TwoDoubles all = to_doubles(FloatTag(), run_end_.v);
-        const auto behind = [](HalfDoubles depth, HalfDoubles end, HalfDoubles way, HalfDoubles whole)
-                                HWY_ATTR {
+        const auto behind = [](HalfDoubles depth, HalfDoubles end, HalfDoubles way,
+                               HalfDoubles whole) HWY_ATTR {
             return hn::IfThenElse(hn::Ge(way, whole), hn::Max(depth, end), hn::Add(depth, way));
         };
         depth_ = {behind(depth_.low, end_.low, gone.low, all.low),
@@ -120,8 +121,8 @@ class CellWalk {
                                     brick_of(2, cells[2])};
             leaps = leaps_here(bricks);
             for (std::size_t axis = 0; leaps.some && axis < 3; ++axis) {
-                planes[axis] = select(leaps.lanes, leap_plane(axis, bricks[axis], leaps.reach),
-                                      planes[axis]);
+                planes[axis] =
+                    select(leaps.lanes, leap_plane(axis, bricks[axis], leaps.reach), planes[axis]);
             }
         }
         Number crossings[3];
@@ -151,8 +152,8 @@ class CellWalk {
         const DoubleTag dd;
         const auto least = hn::Set(dd, std::floor(view_->box.min[axis]));
         const auto most = hn::Set(dd, std::ceil(view_->box.max[axis]) - 1);
-        const auto cell = [&](HalfDoubles origin, HalfDoubles direction, HalfDoubles depth)
-                              HWY_ATTR {
+        const auto cell = [&](HalfDoubles origin, HalfDoubles direction,
+                              HalfDoubles depth) HWY_ATTR {
             const auto place = hn::Add(origin, hn::Mul(depth, direction));
             const auto backward = hn::Sub(hn::Ceil(place), hn::Set(dd, 1.0));
             const auto there =
@@ -202,8 +203,8 @@ class CellWalk {
         upper = hn::Add(upper, hn::IfThenElseZero(hn::Gt(upper, hn::Set(di, count - 1)), beyond));
         Ints lower = hn::Add(hn::Sub(brick, reach), hn::Set(di, 1));
         lower = hn::Sub(lower, hn::IfThenElseZero(hn::Lt(lower, hn::Set(di, 1)), beyond));
-        const Ints side = hn::ShiftLeft<2>(
-            hn::IfThenElse(hn::RebindMask(di, forward_[axis]), upper, lower));
+        const Ints side =
+            hn::ShiftLeft<2>(hn::IfThenElse(hn::RebindMask(di, forward_[axis]), upper, lower));
         const Ints plane = hn::Sub(side, hn::Add(cell_[axis], hn::Set(di, first_[axis])));
         return to_number(plane);
     }
@@ -227,8 +228,7 @@ class CellWalk {
             const auto between = hn::And(hn::Gt(cell, hn::Set(di, -1)), hn::Lt(cell, last));
             index = hn::Add(index, hn::Mul(sample, hn::Set(di, steps[axis])));
             const Number largest(last_[axis] > 0 ? 1.0f : 0.0f);
-            const Number in_cell = (place_[axis] - passed_[axis]) + at_ * slope_[axis];
-            const Number share = in_cell + to_number(hn::Sub(cell, sample));
+            const Number share = place_in_cell(axis, hn::Sub(sample, cell_[axis]));
             store_members(min(max(share, Number(0)), largest).v, shown, parts.place[axis] + at);
             const FloatMask moves = hn::AndNot(leaps.lanes, hn::RebindMask(FloatTag(), between));
             store_members(zero_unless(moves, thickness * slope_[axis]).v, shown,
@@ -249,6 +249,21 @@ class CellWalk {
             __builtin_prefetch(words + parts.index[i]);
             __builtin_prefetch(words + parts.index[i] + view_->brick.slice);
         }
+    }
+
+    // Where the rays are, from `corner` on, which is counted from the run's first cell. In double
+    // precision: floats would move the rays by up to 2e-6 of a cell, which rays that graze a
+    // surface show.
+    HWY_INLINE Number place_in_cell(std::size_t axis, Ints corner) const {
+        const TwoDoubles depth = to_doubles(FloatTag(), at_.v), from = doubles_of(corner);
+        const TwoDoubles &start = start_[axis], &direction = direction_[axis];
+        const auto place = [](HalfDoubles start_place, HalfDoubles way, HalfDoubles along,
+                              HalfDoubles corner_place) HWY_ATTR {
+            return hn::Sub(hn::Add(start_place, hn::Mul(way, along)), corner_place);
+        };
+        return to_floats(FloatTag(),
+                         TwoDoubles{place(start.low, depth.low, direction.low, from.low),
+                                    place(start.high, depth.high, direction.high, from.high)});
     }
 
     // Enters the next cell on one axis. After a leap that is where the ray is then; it lies in the
@@ -277,7 +292,8 @@ class CellWalk {
     FloatMask forward_[3];          // towards larger indices
     // At the beginning of a run: the cell, and where the ray is in it.
     Ints cell_[3];
-    Number place_[3];
+    TwoDoubles start_[3];
+    Number place_[3];  // the same in float
     // Since then: cells passed, as whole numbers, and the depth.
     Number passed_[3];
     Number at_, run_end_;

@@ -39,8 +39,8 @@ HWY_INLINE CubicLanes cubic_along(const Corners& corners, const Number (&place)[
     const Number x = v1 - v0, y = v2 - v0, z = v4 - v0;
     const Number xy = (v3 - v2) - x, xz = (v5 - v4) - x, yz = (v6 - v4) - y;
     const Number xyz = ((v7 - v6) - (v5 - v4)) - xy;
-    const auto &[u, v, w] = place;
-    const auto &[du, dv, dw] = change;
+    const auto& [u, v, w] = place;
+    const auto& [du, dv, dw] = change;
     // Second derivatives at the entry.
     const Number xy_there = xy + w * xyz, xz_there = xz + v * xyz, yz_there = yz + u * xyz;
     CubicLanes field;
@@ -78,16 +78,17 @@ HWY_INLINE Turns turns_of(const CubicLanes& cubic) {
     const Number root = hn::Sqrt(hn::Max(discriminant.v, hn::Zero(d)));
     const Number q = Number(0) - (b + Number(hn::CopySign(root.v, b.v)));
     const auto inside = [&](Number turn) HWY_ATTR {
-        const FloatMask is = hn::And(hn::And(turn > Number(0), turn < Number(1)),
-                                     discriminant > Number(0));
+        const FloatMask is =
+            hn::And(hn::And(turn > Number(0), turn < Number(1)), discriminant > Number(0));
         return select(is, turn, Number(1));  // not a number where a or q is 0
     };
     const Number one = inside(q / a), other = inside(c / q);
     return {min(one, other), max(one, other)};
 }
 
-// The place where a cubic, which is monotone between two places, has a value: Halley's method, which
-// converges with the third order, in a bracket.
+// The place where a cubic, which is monotone between two places, has a value: roots of parabolas
+// that touch the cubic (Euler's method) in a bracket. It converges with the third order, and near
+// places where the cubic turns, too.
 struct RootLanes {
     Number t;
 
@@ -113,7 +114,11 @@ struct RootLanes {
         low_ = select(before, t, low_);
         high_ = select(before, high_, t);
         const Number slope = cubic.slope(t), bend = cubic.c[2] + Number(3) * cubic.c[3] * t;
-        const Number nearer = t - rest * slope / (slope * slope - rest * bend);
+        // The root of the parabola through this place, with the sign of the slope.
+        const Number square = max(slope * slope - Number(4) * rest * bend, Number(0));
+        const Number root = hn::Sqrt(square.v);
+        const Number divisor = select(rising_, slope + root, slope - root);
+        const Number nearer = t - (rest + rest) / divisor;
         const FloatMask inside = hn::And(nearer >= low_, nearer <= high_);
         const Number next = select(inside, nearer, Number(0.5f) * (low_ + high_));
         const Number step = hn::Abs((next - t).v);

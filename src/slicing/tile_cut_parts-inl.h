@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of rays that cross points of the transfer function, or that are too deep for one rule. They
 // are cut, and their pieces composited front to back. Parts need different numbers of steps: a lane
-// that has finished one takes the next. Two vectors of lanes go side by side, because each step waits
-// for its own results.
+// that has finished one takes the next. Two vectors of lanes go side by side, because each step
+// waits for its own results.
 #if defined(LAMINA_SLICING_TILE_CUT_PARTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
 #undef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
@@ -147,8 +147,8 @@ class CutParts {
         const FloatMask falling = cubic.at(turns.first) < start;
         Ints first = find_interval<kind>(transfer, clamp01(d, start.v));
         const FloatMask at_end = look_up<kind>(transfer.end, first) == start.v;
-        const auto below = hn::And(hn::RebindMask(di, hn::And(falling, at_end)),
-                                   hn::Gt(first, hn::Zero(di)));
+        const auto below =
+            hn::And(hn::RebindMask(di, hn::And(falling, at_end)), hn::Gt(first, hn::Zero(di)));
         first = hn::Sub(first, hn::IfThenElseZero(below, hn::Set(di, 1)));
         const Ints before = hn::Load(di, lanes.interval);
         hn::Store(hn::IfThenElse(hn::RebindMask(di, fresh), first, before), di, lanes.interval);
@@ -166,7 +166,8 @@ class CutParts {
         next.at = load_number(lanes.at);
         next.scalar = load_number(lanes.scalar);
         const Number turn[2] = {load_number(lanes.turns[0]), load_number(lanes.turns[1])};
-        next.end = select(next.at < turn[0], turn[0], select(next.at < turn[1], turn[1], Number(1)));
+        next.end =
+            select(next.at < turn[0], turn[0], select(next.at < turn[1], turn[1], Number(1)));
         next.at_end = next.cubic.at(next.end);
         next.rising = next.at_end >= next.scalar;
         const IntervalLanes<kind> interval{transfer, next.number};
@@ -188,8 +189,8 @@ class CutParts {
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
         Number extent = max(to - stretch.at, Number(0));
-        LinearPart part = part_of<kind>(interval, stretch, extent, at_to,
-                                        load_number(lanes.length) * extent);
+        LinearPart part =
+            part_of<kind>(interval, stretch, extent, at_to, load_number(lanes.length) * extent);
         const FloatMask whole = shorten(part, extent);
         composite<kind>(interval, part, colored, lanes);
 
@@ -226,14 +227,15 @@ class CutParts {
         FloatMask whole = hn::FirstN(d, hn::Lanes(d));
         while (true) {
             const Number depth = part.depth();
-            const FloatMask deep = hn::And(depth > Number(largest_part_depth),
-                                           extent > Number(shortest));
+            const FloatMask deep =
+                hn::And(depth > Number(largest_part_depth), extent > Number(shortest));
             if (hn::AllFalse(d, deep)) return whole;
             whole = hn::AndNot(deep, whole);
             // Optical depth grows at least with the first power of the extent from where it is 0;
             // a root does not overshoot where it grows with the second.
             const Number least = Number(shortest) / max(extent, Number(shortest));
-            Number share = min(hn::Sqrt((Number(0.7f) / max(depth, Number(1e-3f))).v), Number(0.5f));
+            Number share =
+                min(hn::Sqrt((Number(0.7f) / max(depth, Number(1e-3f))).v), Number(0.5f));
             share = select(deep, max(share, min(least, Number(0.5f))), Number(1));
             extent = extent * share;
             part.extinction = part.extinction * share;
@@ -256,7 +258,12 @@ class CutParts {
         // Summed up by itself, so that parts of small opacity keep their digits.
         store_number(load_number(lanes.opacity) + weight, lanes.opacity);
         if (!colored) return;
-        const Number share = mean_share(part);
+        // Of pieces that are short and yet too deep, too, the mean is one of their shares.
+        LinearPart shallow = part;
+        const Number most = min(Number(1), Number(largest_part_depth) / max(depth, Number(1e-30f)));
+        shallow.extinction = shallow.extinction * most;
+        shallow.change = shallow.change * most;
+        const Number share = mean_share(shallow);
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const Number color = interval.left(channel) + share * interval.change(channel);
             store_number(load_number(lanes.color[channel]) + weight * color, lanes.color[channel]);

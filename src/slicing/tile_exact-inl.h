@@ -158,8 +158,8 @@ class CellIntegrator {
         for_each_vector([&](std::size_t i) HWY_ATTR {
             const Ints index = hn::Load(IntTag(), parts_.index + i);
             const auto stored = hn::RebindMask(IntTag(), members_from(i));
-            set_cubic(brick, scale,
-                      fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)), i);
+            set_cubic(brick, scale, fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)),
+                      i);
         });
     }
 
@@ -211,7 +211,8 @@ class CellIntegrator {
             const FloatMask stored = members_from(i);
             FloatMask hard = crosses;
             if (!hn::AllFalse(d, crosses))
-                hard = hn::And(crosses, shows_something<kind>(transfer, lowest, clamp01(d, range.hi.v)));
+                hard = hn::And(crosses,
+                               shows_something<kind>(transfer, lowest, clamp01(d, range.hi.v)));
             const Number shown_depth = zero_unless(hn::Not(crosses), depth);
             if (colored_) hard = hn::Or(hard, shown_depth > Number(largest_part_depth));
             hard = hn::And(stored, hard);

@@ -255,8 +255,9 @@ class Marcher {
         const auto behind = [](HalfDoubles transmittance, HalfDoubles color, HalfDoubles there)
                                 HWY_ATTR { return mul_add(transmittance, color, there); };
         for (int channel = 0; channel < 3; ++channel) {
-            leaf.color[channel] = each_half<FloatTag>(
-                behind, leaf.transmittance, to_doubles(d, part.color[channel]), leaf.color[channel]);
+            leaf.color[channel] =
+                each_half<FloatTag>(behind, leaf.transmittance, to_doubles(d, part.color[channel]),
+                                    leaf.color[channel]);
         }
         const auto attenuate = [](HalfDoubles transmittance, HalfDoubles hidden) HWY_ATTR {
             return hn::Mul(transmittance, hn::Sub(hn::Set(DoubleTag(), 1.0), hidden));

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "base/stage.h"
-#include "optics/linear_pieces.h"
+#include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
-#include "executors/shader_intervals.h"
+#include "optics/linear_pieces.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {

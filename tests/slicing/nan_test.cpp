@@ -29,6 +29,7 @@ Volume with_gaps(std::mt19937& random) {
 Scene scene_of(const Volume& volume, std::mt19937& random) {
     std::normal_distribution<double> direction;
     Scene scene;
+    scene.slice.classification = Classification::post;
     scene.transfer_function =
         TransferFunction::linear({knot(0, {1, .2, 0}, .1), knot(1, {0, .4, 1}, most_extinction)});
     scene.camera = reference_test::camera_at(

@@ -18,6 +18,7 @@ inline Scene ramp_scene(const glm::dvec3& color) {
         points.push_back(knot(x, color, extinction_from_opacity(x / 255.0, 1)));
     }
     Scene scene;
+    scene.slice.classification = Classification::post;
     scene.transfer_function = TransferFunction::nearest(points);
     scene.camera.projection = Projection::orthographic;
     scene.camera.eye = {127.5, 1.5, 10};

@@ -142,6 +142,7 @@ TEST(SlabTrials, NarrowPeaksAreNotMissedByAllPictures) {
     const Volume ramp =
         generate({"ramp", std::array<std::int64_t, 3>{256, 4, 1}, SampleType::uint8});
     Scene scene;
+    scene.slice.classification = Classification::post;
     scene.width = 64;
     scene.height = 48;
     scene.transfer_function =

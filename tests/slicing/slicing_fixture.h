@@ -62,6 +62,7 @@ inline TransferFunction smooth_transfer_function() {
 inline Scene unit_box_scene(const TransferFunction& transfer_function, Projection projection,
                             int width = 64, int height = 48) {
     Scene scene;
+    scene.slice.classification = Classification::post;
     scene.transfer_function = transfer_function;
     scene.camera.projection = projection;
     scene.camera.eye = {1.7, -.9, 1.3};

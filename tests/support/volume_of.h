@@ -21,7 +21,7 @@ inline Grid grid_of(const std::array<std::int64_t, 3>& size, Centering centering
     return grid;
 }
 
-// A volume of floats (or bytes) with the samples f(i, j, k).
+// A volume with the samples f(i, j, k).
 template <typename Sample = float, typename Function>
 Volume volume_of(const Grid& grid, const Function& f) {
     const auto samples = std::make_shared<std::vector<Sample>>();
@@ -30,8 +30,10 @@ Volume volume_of(const Grid& grid, const Function& f) {
             for (std::int64_t i = 0; i < grid.size[0]; ++i)
                 samples->push_back(static_cast<Sample>(
                     f(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k))));
-    constexpr SampleType type =
-        std::is_same_v<Sample, float> ? SampleType::float32 : SampleType::uint8;
+    constexpr SampleType type = std::is_same_v<Sample, float>           ? SampleType::float32
+                                : std::is_same_v<Sample, std::uint16_t> ? SampleType::uint16
+                                : std::is_same_v<Sample, std::int16_t>  ? SampleType::int16
+                                                                        : SampleType::uint8;
     return Volume(grid, type, std::shared_ptr<const void>(samples, samples->data()));
 }
 

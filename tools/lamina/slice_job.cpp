@@ -37,7 +37,10 @@ class SliceMethod : public FrameMethod {
         const auto& trial = plan.slab_trial;
         if (error > wanted) {
             const std::string why =
-                plan.table.error > wanted
+                plan.integrates_cells()
+                    ? fmt::format("exact segments in {} are off by up to {:.2g} / 255",
+                                  name_of(plan.target), error)
+                : plan.table.error > wanted
                     ? fmt::format(
                           "the pre-integration table is off by up to {:.2g} / 255 "
                           "(render.slice.classification \"post\" does without)",
