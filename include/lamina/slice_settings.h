@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-enum class Classification { post, preintegrated, exact, automatic };
+enum class Classification { automatic, post, preintegrated, exact };
 enum class Filter { exact, hardware, automatic };
 
 struct DitherSettings {

@@ -57,14 +57,14 @@ const char* name_of(NanPolicy policy) {
 
 const char* name_of(Classification classification) {
     switch (classification) {
+        case Classification::automatic:
+            return "auto";
         case Classification::post:
             return "post";
         case Classification::preintegrated:
             return "preintegrated";
         case Classification::exact:
             return "exact";
-        case Classification::automatic:
-            return "auto";
     }
     return nullptr;
 }

@@ -243,11 +243,13 @@ class CellWalk {
 
     // Parts beside each other mostly lie in the same lines of the cache.
     HWY_INLINE void prefetch(const CellParts& parts, std::size_t from) const {
-        if (view_->brick.layout != TileLayout::quads) return;
-        const auto* const words = static_cast<const std::uint32_t*>(view_->brick.samples);
+        const TileBrick& brick = view_->brick;
+        const auto* const samples = static_cast<const std::byte*>(brick.samples);
+        const std::size_t bytes = bytes_of_sample(brick.layout);
         for (std::size_t i = from; i < parts.count; i += TileGrid::block) {
-            __builtin_prefetch(words + parts.index[i]);
-            __builtin_prefetch(words + parts.index[i] + view_->brick.slice);
+            const auto index = static_cast<std::size_t>(parts.index[i]);
+            __builtin_prefetch(samples + bytes * index);
+            __builtin_prefetch(samples + bytes * (index + static_cast<std::size_t>(brick.slice)));
         }
     }
 

@@ -127,39 +127,63 @@ class CellIntegrator {
 
     void set_cubics() {
         const TileBrick& brick = view_->brick;
+        const bool flat = brick.last_sample[0] == 0;  // samples have no neighbour along x
         switch (brick.layout) {
             case TileLayout::quads:
                 return set_cubics_of_quads(brick);
             case TileLayout::bytes:
-                return set_cubics_of<TileLayout::bytes>(brick);
+                return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)
+                            : set_cubics_of<TileLayout::bytes>(brick);
             case TileLayout::words:
-                return set_cubics_of<TileLayout::words>(brick);
+                return flat ? set_cubics_by_gathers<TileLayout::words>(brick)
+                            : set_cubics_of<TileLayout::words>(brick);
             case TileLayout::floats:
-                return set_cubics_of<TileLayout::floats>(brick);
+                return flat ? set_cubics_by_gathers<TileLayout::floats>(brick)
+                            : set_cubics_of<TileLayout::floats>(brick);
         }
         unreachable_enum();
+    }
+
+    // Fetches pairs of neighbours along x one by one, which is faster than gathers, some vectors of
+    // parts at a time.
+    template <TileLayout layout>
+    void set_cubics_of(const TileBrick& brick) {
+        using Pair = typename PairOf<layout>::Type;
+        Pair pairs[4][fetched_together];
+        for (std::size_t from = 0; from < parts_.count; from += fetched_together) {
+            const std::size_t count = std::min(fetched_together, parts_.count - from);
+            fetch_pairs(brick, parts_.index + from, count, pairs);
+            for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
+                const Corners corners = unpack_pairs<layout>(brick, pairs, i);
+                set_cubic(brick, layout == TileLayout::floats ? 1.0f : brick.scale, corners,
+                          from + i);
+            }
+        }
     }
 
     void set_cubics_of_quads(const TileBrick& brick) {
         const WordTag du;
         const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
-        // Indices behind the last part are those of parts before: they may be fetched.
-        fetch_words(near, near + brick.slice, parts_.index, parts_.count, quads_[0], quads_[1]);
-        for_each_vector([&](std::size_t i) HWY_ATTR {
-            const Corners corners =
-                unpack_quads(hn::Load(du, quads_[0] + i), hn::Load(du, quads_[1] + i));
-            set_cubic(brick, brick.scale, corners, i);
-        });
+        std::uint32_t quads[2][fetched_together];
+        for (std::size_t from = 0; from < parts_.count; from += fetched_together) {
+            const std::size_t count = std::min(fetched_together, parts_.count - from);
+            fetch_words(near, near + brick.slice, parts_.index + from, count, quads[0], quads[1]);
+            for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
+                const Corners corners =
+                    unpack_quads(hn::LoadU(du, quads[0] + i), hn::LoadU(du, quads[1] + i));
+                set_cubic(brick, brick.scale, corners, from + i);
+            }
+        }
     }
 
     template <TileLayout layout>
-    void set_cubics_of(const TileBrick& brick) {
+    void set_cubics_by_gathers(const TileBrick& brick) {
         const float scale = layout == TileLayout::floats ? 1.0f : brick.scale;
         for_each_vector([&](std::size_t i) HWY_ATTR {
             const Ints index = hn::Load(IntTag(), parts_.index + i);
             const auto stored = hn::RebindMask(IntTag(), members_from(i));
-            set_cubic(brick, scale, fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)),
-                      i);
+            set_cubic(brick, scale,
+                      fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)), i);
         });
     }
 
@@ -287,6 +311,8 @@ class CellIntegrator {
         return hn::FirstN(FloatTag(), parts_.count - i);
     }
 
+    static constexpr std::size_t fetched_together = 8 * most_lanes;
+
     const TileSlabs& slabs_;
     bool colored_;
     const TileBrickView* view_ = nullptr;
@@ -295,7 +321,6 @@ class CellIntegrator {
     CellWalk walks_[most_packets];
     CellParts parts_;
     CutParts cut_;
-    alignas(64) std::uint32_t quads_[2][CellParts::capacity] = {};
     std::int64_t count_ = 0;
 };
 

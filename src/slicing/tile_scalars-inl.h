@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "base/unreachable.h"
 #include "slicing/tile_rays-inl.h"
 
@@ -80,6 +82,62 @@ HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
                 corners.lower[i] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
                 corners.upper[i] = to_float(hn::ShiftRight<16>(pair));
             }
+        }
+    }
+    return corners;
+}
+
+// A sample and the next one along x.
+template <TileLayout layout>
+struct PairOf {
+    using Type = std::uint64_t;  // floats
+};
+template <>
+struct PairOf<TileLayout::bytes> {
+    using Type = std::uint16_t;
+};
+template <>
+struct PairOf<TileLayout::words> {
+    using Type = std::uint32_t;
+};
+
+// Fetches the four pairs of each cell, in the order of Corners. Volumes have a second sample along x.
+template <class Pair, std::size_t size>
+inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
+                                     std::size_t count, Pair (&pairs)[4][size]) {
+    const auto* const samples = static_cast<const std::byte*>(brick.samples);
+    constexpr std::size_t bytes = sizeof(Pair) / 2;
+    const std::size_t row = bytes * static_cast<std::size_t>(brick.row);
+    const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::byte* const at = samples + bytes * static_cast<std::size_t>(indices[i]);
+        std::memcpy(&pairs[0][i], at, sizeof(Pair));
+        std::memcpy(&pairs[1][i], at + row, sizeof(Pair));
+        std::memcpy(&pairs[2][i], at + slice, sizeof(Pair));
+        std::memcpy(&pairs[3][i], at + slice + row, sizeof(Pair));
+    }
+}
+
+// The corners of a vector of cells from the i-th on.
+template <TileLayout layout, class Pair, std::size_t size>
+HWY_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][size],
+                                std::size_t i) {
+    Corners corners;
+    for (int corner = 0; corner < 4; ++corner) {
+        const Pair* const from = pairs[corner] + i;
+        if constexpr (layout == TileLayout::floats) {
+            hn::LoadInterleaved2(FloatTag(), reinterpret_cast<const float*>(from),
+                                 corners.lower[corner], corners.upper[corner]);
+        } else if constexpr (layout == TileLayout::words) {
+            const Words pair =
+                hn::Xor(hn::LoadU(WordTag(), from), hn::Set(WordTag(), brick.flip));
+            corners.lower[corner] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
+            corners.upper[corner] = to_float(hn::ShiftRight<16>(pair));
+        } else {
+            const hn::Rebind<std::uint16_t, WordTag> halves;
+            const Words pair = hn::PromoteTo(WordTag(), hn::LoadU(halves, from));
+            corners.lower[corner] = low_byte(pair);
+            corners.upper[corner] = to_float(hn::ShiftRight<8>(pair));
         }
     }
     return corners;

@@ -43,8 +43,14 @@ void fill_quads(const Grid& grid, const TextureBrick& part, const std::uint8_t* 
 
 TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
                        std::int64_t most_bytes)
-    : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
+    : volume_(volume),
+      range_(range),
+      parts_(plan.bricks),
+      float_texture_(plan.float_texture),
+      for_cells_(plan.integrates_cells()) {
+    // Rays that are integrated cell by cell fetch few cells: a copy would take longer than it saves.
     const bool quads = volume.type() == SampleType::uint8 && !plan.float_texture &&
+                       !plan.integrates_cells() &&
                        (4 * volume.grid().sample_count() <= most_bytes || volume.byte_count() < 4);
     const bool whole = plan.bricks.size() == 1;
     for (const TextureBrick& part : plan.bricks) {
@@ -131,7 +137,7 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
 bool TileVolume::serves(const Volume& volume, const ValueRange& range,
                         const SlicePlan& plan) const {
     return volume.data() == volume_.data() && range == range_ && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_;
+           plan.float_texture == float_texture_ && plan.integrates_cells() == for_cells_;
 }
 
 std::int64_t TileVolume::byte_count() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/unreachable.h"
 #include "lamina/volume.h"
 #include "plan/plan.h"
 #include "volume/min_max_bricks.h"
@@ -19,6 +20,20 @@ enum class TileLayout {
     words,  // int16 or uint16 as in the volume
     floats,  // normalised to the volume's range; NaN where not finite
 };
+
+// Bytes from one element to the next.
+inline std::size_t bytes_of_sample(TileLayout layout) {
+    switch (layout) {
+        case TileLayout::bytes:
+            return 1;
+        case TileLayout::words:
+            return 2;
+        case TileLayout::quads:
+        case TileLayout::floats:
+            return 4;
+    }
+    unreachable_enum();
+}
 
 // A brick in the form that vectors address: with 32-bit indices, x fastest.
 struct TileBrick {
@@ -57,7 +72,7 @@ class TileVolume {
     Volume volume_;
     ValueRange range_;
     std::vector<TextureBrick> parts_;
-    bool float_texture_;
+    bool float_texture_, for_cells_;
     std::vector<std::vector<std::uint32_t>> copies_;
     std::vector<TileBrick> bricks_;
 };

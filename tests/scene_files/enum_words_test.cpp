@@ -68,7 +68,7 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<TraceOf>(), "volume mesh");
     EXPECT_EQ(words_of<NanPolicy>(), "error transparent");
     EXPECT_EQ(words_of<Projection>(), "perspective orthographic");
-    EXPECT_EQ(words_of<Classification>(), "post preintegrated exact auto");
+    EXPECT_EQ(words_of<Classification>(), "auto post preintegrated exact");
     EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");
     EXPECT_EQ(words_of<Filter>(), "exact hardware auto");
     EXPECT_EQ(words_of<NodeArithmetic>(), "shader fixed");

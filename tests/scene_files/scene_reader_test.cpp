@@ -15,7 +15,7 @@ TEST(SceneReader, DefaultsAreTheFirstOfTheListedValues) {
     const Scene scene = read_scene(minimal_scene(), "scene.json");
     EXPECT_EQ(scene.method, Method::slice);
     EXPECT_EQ(scene.target, Target::float32);
-    EXPECT_EQ(scene.slice.classification, Classification::post);
+    EXPECT_EQ(scene.slice.classification, Classification::automatic);
     EXPECT_EQ(scene.slice.order, Order::back_to_front);
     EXPECT_EQ(scene.slice.filter, Filter::exact);
     EXPECT_FALSE(scene.slice.samples.has_value());
