@@ -29,9 +29,9 @@ struct CubicLanes {
     }
 };
 
-// The trilinear field of a cell along place + t * change. It is computed from differences of
-// corners, so that a constant cell is exactly constant.
-HWY_INLINE CubicLanes cubic_along(const Corners& corners, const Number (&place)[3],
+// The trilinear field of a cell, less `base`, along place + t * change. It is computed from
+// differences of corners, so that a constant cell is exactly constant.
+HWY_INLINE CubicLanes cubic_along(const Corners& corners, Number base, const Number (&place)[3],
                                   const Number (&change)[3]) {
     const Number v0 = corners.lower[0], v1 = corners.upper[0], v2 = corners.lower[1],
                  v3 = corners.upper[1], v4 = corners.lower[2], v5 = corners.upper[2],
@@ -44,7 +44,7 @@ HWY_INLINE CubicLanes cubic_along(const Corners& corners, const Number (&place)[
     // Second derivatives at the entry.
     const Number xy_there = xy + w * xyz, xz_there = xz + v * xyz, yz_there = yz + u * xyz;
     CubicLanes field;
-    field.c[0] = v0 + u * (x + v * xy_there) + v * (y + w * yz) + w * (z + u * xz);
+    field.c[0] = (v0 - base) + u * (x + v * xy_there) + v * (y + w * yz) + w * (z + u * xz);
     field.c[1] = du * (x + v * xy_there + w * xz) + dv * (y + u * xy_there + w * yz) +
                  dw * (z + u * (xz + v * xyz) + v * yz);
     field.c[2] = du * dv * xy_there + dw * (du * xz_there + dv * yz_there);

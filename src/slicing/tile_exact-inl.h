@@ -155,8 +155,7 @@ class CellIntegrator {
             fetch_pairs(brick, parts_.index + from, count, pairs);
             for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
                 const Corners corners = unpack_pairs<layout>(brick, pairs, i);
-                set_cubic(brick, layout == TileLayout::floats ? 1.0f : brick.scale, corners,
-                          from + i);
+                set_cubic(brick, corners, from + i);
             }
         }
     }
@@ -171,34 +170,30 @@ class CellIntegrator {
             for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
                 const Corners corners =
                     unpack_quads(hn::LoadU(du, quads[0] + i), hn::LoadU(du, quads[1] + i));
-                set_cubic(brick, brick.scale, corners, from + i);
+                set_cubic(brick, corners, from + i);
             }
         }
     }
 
     template <TileLayout layout>
     void set_cubics_by_gathers(const TileBrick& brick) {
-        const float scale = layout == TileLayout::floats ? 1.0f : brick.scale;
         for_each_vector([&](std::size_t i) HWY_ATTR {
             const Ints index = hn::Load(IntTag(), parts_.index + i);
             const auto stored = hn::RebindMask(IntTag(), members_from(i));
-            set_cubic(brick, scale,
-                      fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)), i);
+            set_cubic(brick, fetch_corners<layout>(brick, hn::IfThenElseZero(stored, index)), i);
         });
     }
 
-    HWY_INLINE void set_cubic(const TileBrick& brick, float scale, const Corners& corners,
-                              std::size_t i) {
+    HWY_INLINE void set_cubic(const TileBrick& brick, const Corners& corners, std::size_t i) {
         const Number place[3] = {load_number(parts_.place[0] + i), load_number(parts_.place[1] + i),
                                  load_number(parts_.place[2] + i)};
         const Number change[3] = {load_number(parts_.change[0] + i),
                                   load_number(parts_.change[1] + i),
                                   load_number(parts_.change[2] + i)};
-        CubicLanes cubic = cubic_along(corners, place, change);
-        if (scale != 1 || brick.offset != 0) {
-            for (Number& c : cubic.c) c = c * Number(scale);
-            cubic.c[0] = cubic.c[0] + Number(brick.offset);
-        }
+        // Floats are normalised, with an offset of 0. The scale is a power of two (exact_range()).
+        const Number base(-brick.offset / brick.scale);
+        CubicLanes cubic = cubic_along(corners, base, place, change);
+        for (Number& c : cubic.c) c = c * Number(brick.scale);
         if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
         for (std::size_t power = 0; power < 4; ++power)
             store_number(cubic.c[power], parts_.cubic[power] + i);

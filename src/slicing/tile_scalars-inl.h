@@ -101,7 +101,8 @@ struct PairOf<TileLayout::words> {
     using Type = std::uint32_t;
 };
 
-// Fetches the four pairs of each cell, in the order of Corners. Volumes have a second sample along x.
+// Fetches the four pairs of each cell, in the order of Corners. Volumes have a second sample along
+// x.
 template <class Pair, std::size_t size>
 inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
                                      std::size_t count, Pair (&pairs)[4][size]) {
@@ -129,8 +130,7 @@ HWY_INLINE Corners unpack_pairs(const TileBrick& brick, const Pair (&pairs)[4][s
             hn::LoadInterleaved2(FloatTag(), reinterpret_cast<const float*>(from),
                                  corners.lower[corner], corners.upper[corner]);
         } else if constexpr (layout == TileLayout::words) {
-            const Words pair =
-                hn::Xor(hn::LoadU(WordTag(), from), hn::Set(WordTag(), brick.flip));
+            const Words pair = hn::Xor(hn::LoadU(WordTag(), from), hn::Set(WordTag(), brick.flip));
             corners.lower[corner] = to_float(hn::And(pair, hn::Set(WordTag(), 0xffffu)));
             corners.upper[corner] = to_float(hn::ShiftRight<16>(pair));
         } else {

@@ -2,6 +2,7 @@
 #include "slicing/tile_slab_source.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -23,6 +24,15 @@ constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
 double point_margin(const TextureBrick& part) {
     const std::int64_t size = *std::ranges::max_element(part.size);
     return 0.01 + 2e-6 * static_cast<double>(size);
+}
+
+// A range around `range` in which whole numbers, times the inverse width, stay exact in float32:
+// its width is a power of two, and of samples that are whole numbers its lower end is one. Exact
+// segments need it: cells whose value is a step of the transfer function lie on the side of that
+// value.
+ValueRange exact_range(const ValueRange& range, SampleType type) {
+    const double lo = type == SampleType::float32 ? range.lo : std::floor(range.lo);
+    return {lo, lo + std::exp2(std::ceil(std::log2(range.hi - lo)))};
 }
 
 }  // namespace
@@ -55,13 +65,15 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     }
     if (!sampled) return;
     Stage tables("tables");
-    transfer_.emplace(transfer_function, range, plan_.uses_table() ? &plan_.table : nullptr,
-                      sampled_step_advance);
+    const bool exact = plan_.integrates_cells();
+    const ValueRange unit = exact ? exact_range(range, volume.type()) : range;
+    transfer_.emplace(transfer_function, unit, plan_.uses_table() ? &plan_.table : nullptr,
+                      exact ? 0 : sampled_step_advance);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
-    if (volume_ && volume_->serves(volume, range, plan_)) return;
+    if (volume_ && volume_->serves(volume, unit, plan_)) return;
     Stage upload("upload");
-    volume_ = std::make_shared<TileVolume>(volume, range, plan_, largest_copy);
+    volume_ = std::make_shared<TileVolume>(volume, unit, plan_, largest_copy);
     upload_ms_ = upload.end();
 }
 

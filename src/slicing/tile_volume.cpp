@@ -48,7 +48,8 @@ TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const Slic
       parts_(plan.bricks),
       float_texture_(plan.float_texture),
       for_cells_(plan.integrates_cells()) {
-    // Rays that are integrated cell by cell fetch few cells: a copy would take longer than it saves.
+    // Rays that are integrated cell by cell fetch few cells: a copy would take longer than it
+    // saves.
     const bool quads = volume.type() == SampleType::uint8 && !plan.float_texture &&
                        !plan.integrates_cells() &&
                        (4 * volume.grid().sample_count() <= most_bytes || volume.byte_count() < 4);

@@ -256,6 +256,30 @@ TEST(ExactTest, CellsBesideNanAreTransparent) {
     EXPECT_GT(linf(picture, render_tiles(source, scene)), 1);
 }
 
+// A region whose value is a step lies on its later side, whatever the range of the samples is.
+TEST(ExactTest, LabelsAtStepsShowTheirLaterSide) {
+    const auto show = [](auto first, int label) {
+        using Sample = decltype(first);
+        const Volume volume = test::volume_of<Sample>(
+            test::grid_of({9, 8, 7}, Centering::node),
+            [&](double x, double, double) { return double(first) + label * (x < 4 ? 0 : 1); });
+        const double step = static_cast<Sample>(double(first) + label);
+        Scene scene = exact_scene(
+            TransferFunction::linear({knot(step, {.2, .9, .1}, 0), knot(step, {.2, .9, .1}, .02)}),
+            Projection::perspective);
+        look_from(volume, {.4, -.7, .9}, 1.2, scene);
+        const Image picture = render_tiles(volume, scene);
+        EXPECT_LE(linf(picture, trace(volume, scene, 1e-8)), float_error) << step << " " << label;
+        EXPECT_GT(linf(picture, Image(scene.width, scene.height)), 10);
+    };
+    for (const int label : {1, 2, 3, 37, 100}) {
+        show(std::uint8_t{5}, label);
+        show(std::uint16_t{60001}, label);
+        show(std::int16_t{-1024}, label);
+        show(.1f, label);
+    }
+}
+
 // Large regions of one value, and large empty ones.
 TEST(ExactTest, RegionsCrossedInOneStepChangeNothing) {
     const Volume volume = test::volume_of<std::uint8_t>(
