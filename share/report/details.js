@@ -69,6 +69,8 @@ function runDetails(run, comparison) {
         colorBar(comparison.difference_scale))),
     element("div", { class: "figures" }, channelTable(run), timeTable(run), stageTable(run),
       factList([["run", run.id], ["context", run.context],
+                ["first picture", isMissing(run.first_ms) ? null
+                  : `${numberText(run.first_ms)} ms: facts, choice, set-up and first frame`],
                 ["memory of the GPU", isMissing(run.bytes_gpu) ? null : `${wholeText(run.bytes_gpu)} bytes`],
                 ["memory of the host", isMissing(run.bytes_host) ? null : `${wholeText(run.bytes_host)} bytes`],
                 ["near the reference", run.near_reference ? "error below ten times the reference's own" : null]])));

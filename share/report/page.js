@@ -51,9 +51,9 @@ function comparisonView(comparison, index) {
     table?.node);
   return {
     node,
-    update({ error, marks, words }) {
+    update({ error, time, marks, words }) {
       const matches = table ? table.filter(words) : () => true;
-      scatter?.update({ error, marks, matches });
+      scatter?.update({ error, time, marks, matches });
     },
   };
 }
@@ -84,6 +84,14 @@ function firstKey() {
   return (useful.length > 0 ? useful : counted).sort((a, b) => a.count - b.count)[0]?.key ?? null;
 }
 
+// Those times of the plots' axis that every measured run has, so that no point is missing.
+function timeChoices() {
+  const measured = report.comparisons.flatMap(({ runs }) => runs.filter((run) => !run.failed && run.frame_ms));
+  if (measured.length === 0) return [];
+  return Object.entries(timeAxes).filter(([, { of }]) => measured.every((run) => !isMissing(of(run))))
+    .map(([name, { choice }]) => [name, choice]);
+}
+
 function controls(state, update) {
   const words = (event) => {
     state.words = event.target.value.toLowerCase().split(/\s+/).filter((word) => word !== "");
@@ -93,11 +101,13 @@ function controls(state, update) {
     state[name] = value;
     update();
   };
+  const times = timeChoices();
   const scenes = report.comparisons.map(({ scene }, index) =>
     element("a", { href: `#comparison-${index + 1}` }, scene));
   return element("form", { id: "controls", submit: (event) => event.preventDefault() },
     scenes.length > 1 ? element("nav", { "aria-label": "scenes" }, scenes) : null,
     selection("Error", "choose-error", Object.entries(errorLabels), state.error, choose("error")),
+    times.length > 1 ? selection("Time", "choose-time", times, state.time, choose("time")) : null,
     report.swept?.length > 0
       ? selection("Marks", "choose-key", report.swept.map((key) => [key, key]), state.key, choose("key")) : null,
     element("label", null, "Filter", element("input", { id: "filter", type: "search", autocomplete: "off",
@@ -106,10 +116,10 @@ function controls(state, update) {
 
 function build() {
   const views = report.comparisons.map(comparisonView);
-  const state = { error: "l2", key: firstKey(), words: [] };
+  const state = { error: "l2", time: "frame_ms", key: firstKey(), words: [] };
   const update = () => {
     const marks = state.key === null ? { key: null } : new KeyMarks(report, state.key);
-    for (const view of views) view.update({ error: state.error, marks, words: state.words });
+    for (const view of views) view.update({ ...state, marks });
   };
   const anyRuns = report.comparisons.some(({ runs }) => runs.length > 0);
   document.getElementById("report").append(environmentSection(), ...(anyRuns ? [controls(state, update)] : []),

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error against frame time of the runs of one comparison.
+// Error against time of the runs of one comparison.
 
 const errorLabels = { l2: "L2", linf: "L∞" };
 
+// Times that the horizontal axis can show.
+const timeAxes = {
+  frame_ms: { choice: "a frame", title: "Error against frame time", time: "a frame's median time",
+              label: "frame time, median (ms)", of: (run) => run.frame_ms?.median },
+  first_ms: { choice: "first picture", title: "Error against time to the first picture",
+              time: "the time of facts, choice, set-up and first frame", label: "first picture (ms)",
+              of: (run) => run.first_ms },
+};
+
 // Not beaten or equalled in both by another one, and beaten in one: as `pareto` of the document, for
-// the errors that it does not hold a front of.
-function frontOf(runs, error) {
-  if (error === "l2") return runs.filter((run) => run.pareto);
-  const beats = (a, b) => a.frame_ms.median <= b.frame_ms.median && a[error] <= b[error] &&
-    (a.frame_ms.median < b.frame_ms.median || a[error] < b[error]);
+// the times and errors that it does not hold a front of.
+function frontOf(runs, error, time) {
+  if (error === "l2" && time === "frame_ms") return runs.filter((run) => run.pareto);
+  const ms = timeAxes[time].of;
+  const beats = (a, b) => ms(a) <= ms(b) && a[error] <= b[error] && (ms(a) < ms(b) || a[error] < b[error]);
   return runs.filter((run) => !runs.some((other) => beats(other, run)));
 }
 
@@ -44,12 +53,13 @@ class Scatter {
     this.node = element("figure", { class: "scatter" }, this.caption, place, this.legendPlace);
   }
 
-  // state: {error, marks, matches(run)} as page.js keeps it.
+  // state: {error, time, marks, matches(run)} as page.js keeps it.
   update(state) {
     this.state = state;
     const label = errorLabels[state.error];
-    this.caption.replaceChildren(element("b", null, "Error against frame time. "),
-      `${label} error over a frame's median time; towards the lower left is better. Named: the Pareto front in ` +
+    const { title, time } = timeAxes[state.time];
+    this.caption.replaceChildren(element("b", null, `${title}. `),
+      `${label} error over ${time}; towards the lower left is better. Named: the Pareto front in ` +
       `${label} and time.`);
     this.legendPlace.replaceChildren(this.legend());
     this.redraw();
@@ -73,18 +83,19 @@ class Scatter {
   }
 
   draw(width) {
-    const { error } = this.state;
+    const { error, time } = this.state;
+    const axis = timeAxes[time];
     const height = Math.round(Math.max(320, Math.min(480, 0.5 * width)));
-    const times = this.runs.map((run) => run.frame_ms.median);
-    const chart = new Chart(width, height, `${errorLabels[error]} error over frame time`,
-      { label: "frame time, median (ms)", log: true, values: times },
+    const times = this.runs.map(axis.of);
+    const chart = new Chart(width, height, `${errorLabels[error]} error over ${axis.time}`,
+      { label: axis.label, log: true, values: times },
       { label: `${errorLabels[error]} error (1/255)`, log: true, values: this.runs.map((run) => run[error]) },
       [0.12, 0.06], [0.14, 0.06]);  // room for names below the front
     const points = this.runs.map((run) => {
-      const at = chart.place(run.frame_ms.median, run[error]);
+      const at = chart.place(axis.of(run), run[error]);
       return at && { run, x: at[0], y: at[1] };
     }).filter((point) => point);
-    const onFront = new Set(frontOf(this.runs, error));
+    const onFront = new Set(frontOf(this.runs, error, time));
     const front = points.filter((point) => onFront.has(point.run)).sort((a, b) => a.x - b.x || b.y - a.y);
     chart.svg.append(drawn("path", { class: "front", d: stepLine(front, chart.box) }));
     // Of points that lie on each other, the front's are on top.
@@ -99,10 +110,10 @@ class Scatter {
   }
 
   pointNode({ run, x, y }) {
-    const { error, marks, matches } = this.state;
+    const { error, time, marks, matches } = this.state;
     const mark = marks.key === null ? markOf(0) : marks.markFor(run);
     const ring = run === this.baseline ? drawn("circle", { class: "baseline-ring", r: 8 }) : null;
-    const figures = `${numberText(run.frame_ms.median)} ms, ${errorLabels[error]} ${numberText(run[error])}`;
+    const figures = `${numberText(timeAxes[time].of(run))} ms, ${errorLabels[error]} ${numberText(run[error])}`;
     return drawn("g", {
       class: matches(run) ? "point" : "point faint", "data-run": run.id, role: "img",
       transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
@@ -128,7 +139,9 @@ class Scatter {
     const times = run.ratio ? `${numberText(run.frame_ms.median)} ms (${numberText(run.ratio)} × baseline)`
       : `${numberText(run.frame_ms.median)} ms`;
     return [
-      element("b", null, run.name), element("div", null, times), element("div", null, errors),
+      element("b", null, run.name), element("div", null, times),
+      ...(isMissing(run.first_ms) ? [] : [element("div", null, `first picture: ${numberText(run.first_ms)} ms`)]),
+      element("div", null, errors),
       ...Object.entries(run.keys ?? {}).map(([key, value]) => element("div", null, `${key}: ${valueText(value)}`)),
       element("div", { class: "pair" }, picture(run.image, ""), picture(run.difference, "")),
     ];

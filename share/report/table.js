@@ -4,7 +4,7 @@
 const mostPrintedRows = 60;  // longer tables print their Pareto runs alone
 
 // {id, group, head, title, value(run), text(value), numeric}; value is what a column is sorted by.
-function columnsOf(swept) {
+function columnsOf(swept, runs) {
   const short = shortKeys(swept);
   const number = (id, group, head, title, value, text = numberText) =>
     ({ id, group, head, title, value, text, numeric: true });
@@ -22,6 +22,8 @@ function columnsOf(swept) {
     number("ratio", frame, "ratio", "time to the baseline's", (run) => run.ratio),
     number("still_ms.median", frame, "still", "median of the frames with a still camera",
       (run) => run.still_ms?.median),
+    ...(runs.every((run) => isMissing(run.first_ms)) ? [] : [
+      number("first_ms", "first picture", "ms", "facts, choice, set-up and first frame", (run) => run.first_ms)]),
     number("linf", error, "L∞", "largest error of a pixel", (run) => run.linf),
     number("l1", error, "L1", "mean error, with its sign", (run) => run.l1),
     number("l2", error, "L2", "root of the mean square error", (run) => run.l2),
@@ -39,7 +41,7 @@ function wordsOf(run) {
 class RunTable {
   constructor(report, comparison) {
     this.comparison = comparison;
-    this.columns = columnsOf(report.swept ?? []);
+    this.columns = columnsOf(report.swept ?? [], comparison.runs);
     this.rows = comparison.runs.map((run, index) => this.makeRow(run, index));
     this.byId = new Map(this.rows.map((row) => [row.run.id, row]));
     this.heads = this.columns.map((column) => this.makeHead(column));

@@ -22,7 +22,7 @@ std::vector<std::string> columns_of(const RunList& list) {
     columns.insert(columns.end(), list.swept.begin(), list.swept.end());
     for (const char* const name :
          {"frame_ms_median", "frame_ms_min", "frame_ms_max", "still_ms_median", "still_ms_min",
-          "still_ms_max", "ratio", "linf", "l1", "l2"})
+          "still_ms_max", "first_ms", "ratio", "linf", "l1", "l2"})
         columns.emplace_back(name);
     for (const std::string& channel : channel_names) {
         for (const char* const norm : {"linf", "l1", "l2"})
@@ -54,6 +54,7 @@ std::vector<std::string> cells_of(const RunList& list, const RunResult& result,
     if (result.failed.empty()) {
         add_times(result.frame_ms, cells);
         add_times(result.still_ms, cells);
+        cells.push_back(result.first_ms ? number(*result.first_ms) : "");
         cells.push_back(result.ratio ? number(*result.ratio) : "");
         add_norms(result.all, cells);
         for (const std::string& channel : channel_names)

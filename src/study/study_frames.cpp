@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study_frames.h"
 
+#include "base/stopwatch.h"
 #include "gl/memory.h"
 
 namespace lamina::study {
@@ -18,7 +19,9 @@ std::unique_ptr<SceneRenderer> frames_of(const Scene& scene, DataStore& data,
 StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities& capabilities)
     : camera_(scene.camera), frames_(frames_of(scene, data, capabilities)) {
     const std::int64_t before = gl::bytes_allocated();
+    const Stopwatch watch;
     frames_->draw();
+    first_ms_ = watch.milliseconds();
     set_up_ms_ = frames_->stages_ms().at("set_up");
     bytes_gpu_ = gl::bytes_allocated() - before;
 }

@@ -23,6 +23,9 @@ class StudyFrames {
     const FrameRenderer& renderer() const { return frames_->renderer(); }
     Image picture() const { return frames_->picture(); }
     double set_up_ms() const { return set_up_ms_; }
+    // Time of the facts, the choice of what is automatic, the set-up and the first frame. Reading
+    // the data is not in it.
+    double first_ms() const { return first_ms_; }
     bool on_tiles() const { return frames_->capabilities().tiles; }
     // Bytes of OpenGL memory after the first frame.
     std::int64_t bytes_gpu() const { return bytes_gpu_; }
@@ -33,7 +36,7 @@ class StudyFrames {
     Camera camera_;  // the scene's own
     std::unique_ptr<SceneRenderer> frames_;
     bool turned_ = false;
-    double set_up_ms_ = 0;
+    double set_up_ms_ = 0, first_ms_ = 0;
     std::int64_t bytes_gpu_ = 0;
 };
 

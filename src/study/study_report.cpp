@@ -39,6 +39,7 @@ Json run_to_json(const RunList& list, const RunResult& result) {
     json["reference"] = result.reference;
     json["frame_ms"] = times_to_json(result.frame_ms);
     json["still_ms"] = times_to_json(result.still_ms);
+    json["first_ms"] = result.first_ms ? Json(*result.first_ms) : Json();
     json["ratio"] = result.ratio ? Json(*result.ratio) : Json();
     json.update(to_json(result.all));
     for (const auto& [channel, norms] : result.channels) json["channels"][channel] = to_json(norms);

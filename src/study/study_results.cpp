@@ -77,6 +77,7 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
     }
     const nlohmann::json& drawn = *run.drawn;
     result.reference = drawn.at("reference");
+    if (drawn.contains("first_ms")) result.first_ms = drawn["first_ms"].get<double>();
     result.all = norms_from(drawn.at("all"));
     for (const char* const channel : {"R", "G", "B", "A"})
         result.channels[channel] = norms_from(drawn.at("channels").at(channel));

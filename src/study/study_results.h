@@ -19,6 +19,8 @@ struct RunResult {
     std::size_t run = 0;  // index into the list of runs
     std::string failed;   // reason of a failure; then nothing else is set
     std::vector<double> frame_ms, still_ms;
+    // Facts, choice, set-up and first frame, measured once. Journals of earlier versions lack it.
+    std::optional<double> first_ms;
     // Frame time over the baseline's: the median of the rounds' ratios.
     std::optional<double> ratio;
     std::string reference;       // id of the reference

@@ -210,6 +210,7 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     drawn["bytes_host"] = frames.bytes_host();
     drawn["stages"] = frames.renderer().stages_ms();
     drawn["stages"]["set_up"] = frames.set_up_ms();
+    drawn["first_ms"] = frames.first_ms();
     measured.picture = image;
     measured.records.push_back({{"run", list_.runs[run].id}, {"drawn", drawn}});
 }

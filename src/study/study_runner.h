@@ -37,7 +37,7 @@ struct Shard {
 //       one for every round; sessions number the processes, and rounds are neighbours in time only
 //       within one session
 //   {"run", "drawn": {...}}
-//       picture and costs, once for every run
+//       picture and costs, once for every run, with first_ms, the time of the first picture
 //   {"run", "failed": message}
 //       instead of the others; the run is tried again when the study goes on
 class StudyRunner {

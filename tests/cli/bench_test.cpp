@@ -58,6 +58,11 @@ TEST_F(Bench, TimesScenesThatAreThereAndNamesWhatIsMissing) {
         std::ranges::sort(times);
         EXPECT_EQ(way["ms"], times[1]);
         EXPECT_EQ(way["stats"]["frame_ms"]["n"], 2);
+        std::vector<double> first = way["rounds_first_picture_ms"];
+        ASSERT_EQ(first.size(), 3u);
+        EXPECT_EQ(first.back(), way["stats"]["first_picture_ms"]);
+        std::ranges::sort(first);
+        EXPECT_EQ(way["first_picture_ms"], first[1]);
     }
     std::vector<double> ratios;
     for (std::size_t i = 0; i < 3; ++i)

@@ -61,6 +61,15 @@ class Render : public testing::Test {
         return changed;
     }
 
+    // The stages that the method does one after the other are parts of its time.
+    static void expect_first_picture_has_its_stages(const json& stats) {
+        double sum = 0;
+        for (const char* stage : {"load", "context", "measure", "plan", "set_up", "trace", "write"})
+            sum += stats["stages"].value(stage, 0.0);
+        EXPECT_GT(sum, 0);
+        EXPECT_GE(stats["first_picture_ms"], sum);
+    }
+
     TemporaryFolder folder;
     json scene;
 };
@@ -93,6 +102,7 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
         EXPECT_TRUE(stats.contains(key)) << key;
     }
     EXPECT_EQ(stats["frame_ms"]["n"], 3);
+    expect_first_picture_has_its_stages(stats);
     EXPECT_LE(stats["frame_ms"]["min"], stats["frame_ms"]["median"]);
     EXPECT_LE(stats["frame_ms"]["median"], stats["frame_ms"]["max"]);
     EXPECT_EQ(stats["samples"], 60);
@@ -102,6 +112,7 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
                   .exit_code,
               0);
     const json trace = json::parse(read_bytes_of(folder / "t.json"));
+    expect_first_picture_has_its_stages(trace);
     EXPECT_GT(trace["error_estimate"], 0);
     EXPECT_LE(trace["error_estimate"], 1e-5);
 }

@@ -66,6 +66,7 @@ TEST_F(Study, WritesARowARunAndAReport) {
               json::parse(R"([{"because": "the ramp has no tets", "runs": 2}])"));
     const std::string page = read_bytes_of(folder / "out" / "report.html");
     EXPECT_NE(page.find("<html"), std::string::npos);
+    EXPECT_NE(page.find("\"first_ms\":"), std::string::npos);
     for (const CsvRow& row : rows) EXPECT_NE(page.find(row.at("run")), std::string::npos);
     EXPECT_EQ(run("quiet", {"--quiet"}).err, "");
 }
@@ -79,6 +80,7 @@ TEST_F(Study, TimesAreInOrderAndRatiosAreToTheBaseline) {
             EXPECT_LE(number(row, kind + "_min"), number(row, kind + "_median"));
             EXPECT_LE(number(row, kind + "_median"), number(row, kind + "_max"));
         }
+        EXPECT_GT(number(row, "first_ms"), 0);
         if (row.at("name") == "slice, fixed8")
             EXPECT_EQ(number(row, "ratio"), 1);
         else
@@ -90,6 +92,7 @@ TEST_F(Study, TimesAreInOrderAndRatiosAreToTheBaseline) {
             if (each["id"] == comparison["baseline"]) {
                 EXPECT_EQ(each["name"], "slice, fixed8");
             }
+            EXPECT_GT(each["first_ms"], each["stages"]["set_up"]);
         }
     }
 }

@@ -5,17 +5,13 @@
 Exits with 77 (skipped) where Chromium is not installed. The page is that of a made-up report; what it must show is
 worked out here, from the same report.
 """
-import base64
 import json
 import os
-import random
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 
 if not shutil.which("chromium"):
     print("skipped: Chromium is not installed (tools/install installs it)")
@@ -26,7 +22,9 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-HOSTILE = '</script><img src=x onerror="window.wasRun = true"><!-- {{page.js}} & "\'\u2028'
+sys.dont_write_bytecode = True
+from made_up_report import HOSTILE, first_ms, front, made_up_report, measured  # noqa: E402
+
 NUMERIC = {  # column: its value of a run
     "key.render.slice.samples": lambda run: run["keys"]["render.slice.samples"],
     "frame_ms.median": lambda run: run["frame_ms"]["median"],
@@ -34,85 +32,12 @@ NUMERIC = {  # column: its value of a run
     "frame_ms.spread": lambda run: run["frame_ms"]["max"] - run["frame_ms"]["min"],
     "ratio": lambda run: run["ratio"],
     "still_ms.median": lambda run: run["still_ms"]["median"],
+    "first_ms": lambda run: run["first_ms"],
     "linf": lambda run: run["linf"],
     "l1": lambda run: run["l1"],
     "l2": lambda run: run["l2"],
     "bytes": lambda run: run["bytes"],
 }
-
-
-def png(shade, size=8):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = (b"\0" + bytes([shade] * size)) * size
-    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 0, 0, 0, 0))
-    data += chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
-    return "data:image/png;base64," + base64.b64encode(data).decode()
-
-
-def times(median, n=9):
-    return {"median": median, "min": 0.875 * median, "max": 1.5 * median, "n": n}
-
-
-def front(runs, error):
-    """Ids of those that no other run beats or equals in both and beats in one."""
-    def point(run):
-        return run["frame_ms"]["median"], run[error]
-    return {run["id"] for run in runs
-            if not any(all(a <= b for a, b in zip(point(other), point(run))) and point(other) != point(run)
-                       for other in runs)}
-
-
-def comparison(scene, count):
-    runs = []
-    for i in range(count):
-        target = ["fixed8", "float32"][i % 2]
-        # 8, 80, 9, 90, ...: another order as text. Times have ties, and go up to three digits.
-        keys = {"render.target": target, "render.slice.samples": [8, 80, 9, 90, 100][i % 5],
-                "render.slice.tree.factors": [2 ** (1 + i % 4)] * (1 + i % 3)}
-        median = round(10 ** random.uniform(-1, 2), 1)
-        error = (0.5 if target == "fixed8" else 1e-6) * random.uniform(0.2, 1) / median
-        runs.append({
-            "id": f"{scene}-{i:02d}", "name": f"{target} run {i}", "keys": keys, "reference": "r1",
-            "frame_ms": times(median), "still_ms": times(1 / median), "ratio": median / 8,
-            "linf": random.uniform(2, 9) * error, "l1": random.uniform(-1, 1) * error, "l2": error,
-            "channels": {c: {"linf": error, "l1": 0, "l2": error} for c in "RGBA"}, "stages": {"order": 0.25},
-            "bytes_gpu": 1000 * i, "bytes_host": 24, "bytes": 1000 * (i % 7) + 24, "pareto": False,
-            "near_reference": target == "float32", "context": "native engine", "image": png(10 + i),
-            "difference": png(200)})
-    for run in runs:
-        run["pareto"] = run["id"] in front(runs, "l2")
-    return {"scene": scene, "baseline": runs[3]["id"], "difference_scale": 2.0, "runs": runs,
-            "references": [{"id": "r1", "of": "volume", "error_estimate": 1.2e-7, "ms": 812.0, "width": 8, "height": 8,
-                            "image": png(90)}],
-            "plots": [{"title": "Error over samples", "x": {"label": "samples", "log": True},
-                       "y": {"label": "L2", "log": True},
-                       "series": [{"name": name, "points": [[8, 0, runs[0]["id"]], [16, 0.25, runs[1]["id"]]]}
-                                  for name in ("fixed8", "float32")]}],
-            "pictures": [{"title": "PT - slicing", "caption": "signed", "image": png(128)}]}
-
-
-def made_up_report(count):
-    random.seed(7)
-    first, second = comparison("ramp", count), comparison(HOSTILE, 6)
-    exact = first["runs"][4]
-    for error in ("linf", "l1", "l2"):
-        exact[error] = 0
-    first["runs"][6]["ratio"] = None
-    first["runs"][7]["name"] = HOSTILE
-    for run in first["runs"]:
-        run["pareto"] = run["id"] in front(first["runs"], "l2")
-    failed = {"id": "failed", "name": "too large", "keys": {"render.target": "fixed8"},
-              "failed": f"needs 4 GiB {HOSTILE}"}
-    first["runs"].insert(2, failed)
-    return {"title": HOSTILE, "kind": "study", "findings": ["the first", HOSTILE],
-            "environment": {"machine": HOSTILE, "processors": 2, "drivers": ["native engine", "Mesa"]},
-            "swept": ["render.target", "render.slice.samples", "render.slice.tree.factors"],
-            "comparisons": [first, second], "dropped": [{"because": HOSTILE, "runs": 12}]}
-
-
-def measured(entry):
-    return [run for run in entry["runs"] if "failed" not in run]
 
 
 def options_for(profile):
@@ -238,6 +163,40 @@ class ReportPage(unittest.TestCase):
         for index, entry in enumerate(self.report["comparisons"]):
             self.assertEqual(set(self.names(self.section(index))), front(measured(entry), "linf"))
 
+    def test_the_time_of_the_first_picture_can_be_chosen(self):
+        self.assertIn("frame time", self.all(".scatter .axis-text", self.section(0))[0].text)
+        self.all("#choose-time option[value=first_ms]")[0].click()
+        for error in ("l2", "linf"):
+            self.all(f"#choose-error option[value={error}]")[0].click()
+            for index, entry in enumerate(self.report["comparisons"]):
+                section = self.section(index)
+                self.assertIn("first picture", self.all(".scatter .axis-text", section)[0].text)
+                self.assertEqual(set(self.names(section)), front(measured(entry), error, first_ms))
+                runs = [run for run, _ in sorted(self.collect(
+                    section, ".scatter .point",
+                    "[node.dataset.run, Number(node.getAttribute('transform').match(/[0-9.]+/)[0])]"),
+                    key=lambda pair: pair[1])]
+                times = [next(first_ms(run) for run in entry["runs"] if run["id"] == found) for found in runs]
+                for earlier, later in zip(times, times[1:]):
+                    self.assertLessEqual(earlier, later * 1.01)  # positions are rounded to a tenth of a pixel
+        # The rows' marks stay those of frame times.
+        section = self.section(0)
+        self.assertEqual(set(self.collect(section, "tr.run.pareto", "node.dataset.run")),
+                         {run["id"] for run in measured(self.report["comparisons"][0]) if run["pareto"]})
+
+    def test_without_times_of_first_pictures_there_is_no_choice(self):
+        report = made_up_report(12)
+        del measured(report["comparisons"][0])[0]["first_ms"]
+        for run in measured(report["comparisons"][1]):
+            run["first_ms"] = None
+        self.open(self.write_page("old", report))
+        self.assertEqual(self.messages(), [])
+        self.assertEqual(self.all("#choose-time"), [])
+        for index, heads in enumerate((1, 0)):
+            self.assertEqual(len(self.all("button[data-column=first_ms]", self.section(index))), heads)
+            self.assertEqual(set(self.names(self.section(index))), {
+                run["id"] for run in measured(report["comparisons"][index]) if run["pareto"]})
+
     def test_names_do_not_overlap(self):
         # Names get 14 pixels of height, a pixel more than the font's; a pixel of overlap is rounding.
         def overlap(a, b, at, size):
@@ -341,6 +300,7 @@ class ReportPage(unittest.TestCase):
             self.assertEqual(self.browser.execute_script("return arguments[0].naturalWidth", image), 8)
             self.assertEqual(image.size, {"width": 256, "height": 256})
         self.assertEqual(len(self.all(".detail .color-bar", section)), 1)
+        self.assertIn("first picture", self.all(".detail .figures", section)[0].text)
         self.assertEqual(button.get_attribute("aria-expanded"), "true")
         # The opened part stays below its row when the table is sorted.
         self.click(self.all('button[data-column="l2"]', section)[0])

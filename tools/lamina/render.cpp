@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "base/stage.h"
 #include "base/standard_streams.h"
+#include "base/stopwatch.h"
 #include "different_files.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
@@ -88,6 +89,7 @@ void write_profile(ProfileFile& profile, const RenderOptions& options, const Ren
 void run(const RenderOptions& options) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);
+    const Stopwatch watch;
     std::string scene_text;
     Stage reading("scene");
     const Scene scene = load_scene(options.scene, scene_text);
@@ -110,6 +112,7 @@ void run(const RenderOptions& options) {
     if (options.explain) write_result(explanation);
     if (!picture) return;
     job->draw(plan, stats);
+    stats.first_picture_ms = watch.milliseconds();
     time_frames(scene, options.frames, stats,
                 [&](const Camera& turned) { job->draw_frame(turned); });
 
@@ -119,6 +122,7 @@ void run(const RenderOptions& options) {
                                                       {"renderer", stats.renderer},
                                                       {"software", "lamina " LAMINA_VERSION}});
     stats.stages_ms["write"] = writing.end();
+    stats.first_picture_ms += stats.stages_ms["write"];  // the picture of the first frame
     stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
     if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {

@@ -141,6 +141,7 @@ Json plan_to_json(const Plan& plan) {
 nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     const auto& frames = stats.frames_ms;
     Json json;
+    json["first_picture_ms"] = stats.first_picture_ms;
     json["frame_ms"] = {{"median", median(frames)},
                         {"min", *std::min_element(frames.begin(), frames.end())},
                         {"max", *std::max_element(frames.begin(), frames.end())},

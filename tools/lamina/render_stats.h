@@ -14,6 +14,8 @@ namespace lamina {
 
 // What a render cost and what happened on the way (--stats).
 struct RenderStats {
+    // From the start of reading the scene to the written picture, without the frames of --frames.
+    double first_picture_ms = 0;
     std::vector<double> frames_ms;
     std::map<std::string, double> stages_ms;
     int samples = 0;              // slabs
