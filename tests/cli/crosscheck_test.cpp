@@ -164,6 +164,7 @@ TEST_F(Crosschecks, TheFourPicturesAreThoseOfRender) {
 TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
     scene["mesh"]["tolerance"] = 0.15;
     scene["render"]["slice"]["samples"] = 16;
+    scene["render"]["slice"]["classification"] = "post";
     const json budget = run_well();
     const json& ladder = budget["ladder"];
     json samples = json::array(), tolerances = json::array(), tets = json::array();
@@ -203,6 +204,7 @@ TEST_F(Crosschecks, TheLadderHasEveryStepWithItsErrorsAndTimes) {
 TEST_F(Crosschecks, SaysWhichPartDominates) {
     scene["mesh"]["tolerance"] = 0.02;
     scene["render"]["slice"]["samples"] = 4;
+    scene["render"]["slice"]["classification"] = "post";
     json budget = run_well({}, ".02", "4");
     EXPECT_EQ(budget["dominant"], "slicing");
     EXPECT_GT(budget["parts"]["slicing"]["share"], 0.5);

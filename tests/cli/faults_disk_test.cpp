@@ -40,7 +40,8 @@ class FaultsOfDisks : public FaultsTestCase {
 TEST_F(FaultsOfDisks, FullOnesLeaveOldFilesAsTheyAre) {
     const std::string volume = folder / "volume.nrrd";
     make(rendering(folder / "a.png"));
-    make(rendering(folder / "b.png", {"--set", "render.slice.samples=7"}));
+    make(rendering(folder / "b.png", {"--set", "render.slice.samples=7", "--set",
+                                      "render.slice.classification=post"}));
     make({"mesh", volume, "-o", folder / "mesh.vtu", "--kuhn"});
     expect_old_files_survive(rendering(out / "a.exr"), {"a.exr"});
     expect_old_files_survive(rendering(out / "a.png"), {"a.png"});

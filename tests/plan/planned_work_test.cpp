@@ -48,6 +48,7 @@ Case ramp_case(double first_visible, double extinction) {
     if (first_visible > 0) points.push_back(point(first_visible, 0));
     points.push_back(point(first_visible + 1, extinction));
     document["transfer_function"]["points"] = points;
+    document["render"]["slice"]["classification"] = "post";
     return Case(document);
 }
 
