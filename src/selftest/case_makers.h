@@ -41,6 +41,7 @@ Camera camera_at(const LayeredBox& box, double distance, double fov_y);
 TransferFunction optics_of(const std::vector<TransferKnot>& knots);
 
 std::vector<SelftestCase> optics_cases();
+std::vector<SelftestCase> cell_cases();
 std::vector<SelftestCase> depth_cases();
 std::vector<SelftestCase> mesh_cases();
 std::vector<SelftestCase> view_cases();

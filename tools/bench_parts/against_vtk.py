@@ -55,7 +55,8 @@ class Comparison:
         return self.runs.color_error(picture, self.reference)
 
     def add_volume(self, context):
-        """VTK at one and at two samples a voxel; for each the fewest slabs of lamina's with an L2 at most as large."""
+        """VTK at one and at two samples a voxel; for each the fewest slabs of lamina's with an L2 at most as large, and
+        exact segments."""
         from bench_parts import vtk_side
         slicing = ["--method", "slice", "--context", context]
         for steps in (1, 2):
@@ -68,6 +69,8 @@ class Comparison:
                     if self.error_of(arguments)["l2"] <= self.errors[name]["l2"]:
                         self.add_lamina(f"{context} {classification} {samples}", arguments)
                         break
+        if context == "cpu":
+            self.add_lamina("cpu exact", [*slicing, "--set=render.slice.classification=exact"])
 
     def add_mesh(self, context):
         from bench_parts import vtk_side

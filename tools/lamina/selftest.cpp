@@ -75,9 +75,10 @@ void add_selftest(CLI::App& app, int& exit_code) {
     verb->add_option("-o,--output", options->output,
                      "Folder for selftest.json and selftest.txt (made if need be)")
         ->required();
-    verb->add_option("--group", options->groups,
-                     "Only this group (may be repeated): optics, depth, meshes, views, numbers, "
-                     "metamorphic")
+    verb->add_option(
+            "--group", options->groups,
+            "Only this group (may be repeated): optics, cells, depth, meshes, views, numbers, "
+            "metamorphic")
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
