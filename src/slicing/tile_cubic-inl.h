@@ -108,7 +108,7 @@ struct RootLanes {
 
     HWY_INLINE void refine(const CubicLanes& cubic) {
         // The next step would be of the order of this one to the third power.
-        const Number small = Number(3e-4f);
+        const Number small = Number(3e-3f);
         const Number rest = cubic.at(t) - value_;
         const FloatMask before = hn::Not(hn::Xor(rest < Number(0), rising_));
         low_ = select(before, t, low_);

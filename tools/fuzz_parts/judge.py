@@ -9,6 +9,7 @@ import numpy
 from . import cameras, emission, mesh_oracle, transfer, volume_oracle
 from .program import Program
 
+EXACT = 0.05  # of exact segments, in 1/255
 CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
 TRACE = ["--method", "trace", "--set", "render.trace.tolerance=1e-7"]
 OF_MESH = ["--set", "render.trace.of=mesh"]
@@ -134,7 +135,11 @@ class Judge:
         exact = settings.get("filter", "exact") == "exact"
         if rounding is None:
             return
-        if plan["target"] == "float32" and exact:
+        if plan["target"] == "float32" and plan["classification"] == "exact":
+            # Rays that graze a surface where extinction jumps may be off by more (docs/precision.md).
+            most = numpy.quantile(error, 0.99)
+            self.check("exact", most, EXACT / 255 + self.left_out(plan), f" in all but a hundredth of {error.size} pixels")
+        elif plan["target"] == "float32" and exact:
             self.slabs(drawn, plan)
         if plan["target"] != "float32":
             self.codes(drawn, plan, rounding)

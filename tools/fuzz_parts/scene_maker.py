@@ -52,9 +52,9 @@ def slicing(dice):
     found = render["slice"] = {}
     if dice.chance(0.45):
         found["samples"] = dice.pick(1, 2, 3, 7, 16, 33, 64, 100, 200)
-    found["classification"] = dice.pick("post", "preintegrated")
+    found["classification"] = dice.pick("post", "preintegrated", "exact", "auto")
     found["order"] = dice.pick("back_to_front", "front_to_back")
-    if dice.chance(0.1):
+    if dice.chance(0.1) and found["classification"] != "exact":
         found["filter"] = dice.pick("hardware", "auto")
     if dice.chance(0.15) and target in ("fixed8", "fixed16", "emulated"):
         found["dither"] = {"period": dice.pick(4, 16, "auto"), "color": dice.chance(0.5),
