@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
 #include "optics/preintegration_table.h"
 #include "optics/segment_integral.h"
-#include "facts/world_unit.h"
 
 namespace lamina {
 namespace {

@@ -34,9 +34,8 @@ Capabilities tiles() {
 
 Scene automatic_scene(const std::string& target, double max_error, float color = 1) {
     nlohmann::json document = minimal_scene();
-    document["render"] = {{"target", target},
-                          {"max_error", max_error},
-                          {"slice", {{"classification", "post"}}}};
+    document["render"] = {
+        {"target", target}, {"max_error", max_error}, {"slice", {{"classification", "post"}}}};
     document["transfer_function"]["points"][1]["color"] = {color, 0, 0};
     document["transfer_function"]["points"][0]["color"] = {0, 0, 1};
     return read_scene(document, "s");

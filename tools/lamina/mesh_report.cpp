@@ -6,10 +6,10 @@
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
-#include "mesh_files/mesh_file.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/scalar_range.h"
+#include "mesh_files/mesh_file.h"
 
 namespace lamina {
 namespace {
