@@ -7,7 +7,7 @@
 
 namespace lamina {
 
-// What the last picture of a session took.
+// The cost of the last picture of a session.
 struct FrameStatistics {
     std::string drawn_by;                     // the renderer, and its threads where they are known
     double draw_ms = 0;                       // all of draw()

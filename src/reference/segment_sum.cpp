@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-// What lies behind this transmittance, times the brightest colour, is lost in rounding.
+// Light from behind this transmittance, times the brightest colour, is lost in rounding.
 constexpr double least_transmittance = 1e-17;
 // The relative error of a segment's colour and opacity (optics/segment_integral.h).
 constexpr double segment_error = 1e-13;

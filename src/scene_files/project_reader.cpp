@@ -21,7 +21,7 @@ TableSettings read_table(JsonReader reader) {
     return table;
 }
 
-// What is interpolated between the vertices of a fan cannot be drawn with one polygon around a tet.
+// Values interpolated between the vertices of a fan cannot be drawn with one polygon around a tet.
 void check_geometry(JsonReader& reader, const ProjectSettings& project) {
     if (project.geometry != ProjectGeometry::silhouette) return;
     if (project.interpolation == Interpolation::linear)

@@ -65,7 +65,7 @@ struct CellParts {
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit: cubic[0] + t (cubic[1] + ...), t from 0 to 1.
     alignas(64) float cubic[4][capacity];
-    // What the part adds to its ray: associated colour, opacity, optical depth.
+    // Associated colour, opacity and optical depth that the part adds to its ray.
     alignas(64) float color[3][capacity];
     alignas(64) float opacity[capacity];
     alignas(64) float depth[capacity];

@@ -45,7 +45,7 @@ class CutParts {
     }
 
   private:
-    // What is behind this transmittance cannot be seen.
+    // Nothing behind this transmittance can be seen.
     static constexpr float least_transmittance = 1e-9f;
     // A part this short has one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
@@ -258,7 +258,7 @@ class CutParts {
         // Summed up by itself, so that parts of small opacity keep their digits.
         store_number(load_number(lanes.opacity) + weight, lanes.opacity);
         if (!colored) return;
-        // Of pieces that are short and yet too deep, too, the mean is one of their shares.
+        // A piece of the least extent may be too deep even so: the mean is one of its shares.
         LinearPart shallow = part;
         const Number most = min(Number(1), Number(largest_part_depth) / max(depth, Number(1e-30f)));
         shallow.extinction = shallow.extinction * most;

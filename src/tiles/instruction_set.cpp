@@ -25,7 +25,7 @@ std::int64_t of_machine() {
     return targets;
 }
 
-// Of two of Highway's targets the one with the lower bit is better.
+// The better one of two of Highway's targets has the lower bit.
 std::vector<std::int64_t> listed(std::int64_t all) {
     std::vector<std::int64_t> targets;
     for (std::int64_t left = all; left != 0; left &= left - 1) targets.push_back(left & -left);

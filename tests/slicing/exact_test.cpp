@@ -15,7 +15,7 @@ namespace {
 constexpr double full = 255;
 // Sums of a few hundred roundings of float32 at full scale.
 constexpr double float_error = .01;
-// What exact segments promise (docs/precision.md).
+// The promise of exact segments (docs/precision.md).
 constexpr double promised = .05;
 
 double linf(const Image& a, const Image& b) {
