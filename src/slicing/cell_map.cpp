@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace lamina {
 
 CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* varied) {
@@ -15,13 +17,14 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
     const auto reach = [](std::uint8_t distance) {
         return std::min<int>(distance, CellMap::farthest);
     };
-    for (std::size_t i = 0; i < bricks; ++i) {
+    parallel_for(static_cast<std::int64_t>(bricks), 1 << 16, [&](std::int64_t number) {
+        const auto i = static_cast<std::size_t>(number);
         const int empty = occupied != nullptr ? reach(occupied->distance[i]) : 0;
         const int constant = varied != nullptr ? reach(varied->distance[i]) : 0;
         map.kinds[i] = static_cast<std::uint8_t>(empty > 0      ? empty
                                                  : constant > 0 ? CellMap::constant + constant
                                                                 : 0);
-    }
+    });
     return map;
 }
 

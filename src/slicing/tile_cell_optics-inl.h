@@ -53,6 +53,9 @@ struct IntervalLanes {
     HWY_INLINE Number change(std::size_t channel) const {
         return look_up<kind>(transfer.change[channel], number);
     }
+    HWY_INLINE Number at(std::size_t channel, Number share) const {
+        return optics_at<kind>(transfer, channel, number, share.v);
+    }
     // The share as a cubic, for scalars of this interval.
     HWY_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
         const Number inverse = inverse_width();

@@ -31,6 +31,19 @@ inline constexpr std::array<std::uint64_t, 256> members_before = [] {
     return table;
 }();
 
+// The set of lanes as bits, the first lane lowest.
+HWY_INLINE std::uint32_t bits_of(FloatMask lanes) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(FloatTag(), lanes, bits);
+    return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+}
+
+// Calls body(lane) for each lane of a set.
+template <class Body>
+HWY_INLINE void for_each_lane(std::uint32_t set, const Body& body) {
+    for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
 // A set of lanes, and where the parts of its members are stored. Lanes outside the set have
 // any place.
 struct StoredLanes {
@@ -39,11 +52,10 @@ struct StoredLanes {
 };
 
 HWY_INLINE StoredLanes stored_lanes(FloatMask members) {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(FloatTag(), members, bits);
-    StoredLanes lanes{static_cast<std::uint32_t>(bits[0] | bits[1] << 8), {}};
-    const std::uint64_t low = members_before[bits[0]], high = members_before[bits[1]];
-    const auto in_low = static_cast<std::uint64_t>(std::popcount(bits[0]));
+    StoredLanes lanes{bits_of(members), {}};
+    const std::uint32_t first = lanes.set & 255;
+    const std::uint64_t low = members_before[first], high = members_before[lanes.set >> 8];
+    const auto in_low = static_cast<std::uint64_t>(std::popcount(first));
     const std::uint64_t shifted = high + in_low * 0x0101010101010101u;
     std::memcpy(lanes.places, &low, 8);
     std::memcpy(lanes.places + 8, &shifted, 8);

@@ -42,14 +42,11 @@ class CellWalk {
         depth_ = span.enter;
         end_ = span.leave;
         const DoubleTag dd;
-        const auto least = hn::Set(dd, 1e-20);  // a ray along a plane never crosses it
-        const auto at_least = [&](HalfDoubles v) HWY_ATTR {
-            return hn::IfThenElse(hn::Lt(hn::Abs(v), least), least, v);
-        };
+        const auto crossing = [](HalfDoubles v) HWY_ATTR { return crossing_direction(v); };
         const auto inverse = [&](HalfDoubles v) HWY_ATTR { return hn::Div(hn::Set(dd, 1.0), v); };
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);
-            direction_[i] = each_half<FloatTag>(at_least, rays.direction[axis]);
+            direction_[i] = each_half<FloatTag>(crossing, rays.direction[axis]);
             slope_[i] = to_floats(d, direction_[i]);
             inverse_[i] = to_floats(d, each_half<FloatTag>(inverse, direction_[i]));
             forward_[i] = hn::Gt(slope_[i].v, hn::Zero(d));

@@ -34,12 +34,10 @@ class CutParts {
                 take(parts, lanes, lane);
         }
         while (lanes_[0].busy + lanes_[1].busy > 0) {
-            std::uint8_t done[vectors][8] = {};
+            std::uint32_t done[vectors] = {};
             step<kind>(transfer, colored, done);
             for (std::size_t i = 0; i < vectors; ++i) {
-                for (unsigned set = done[i][0] | static_cast<unsigned>(done[i][1]) << 8; set != 0;
-                     set &= set - 1)
-                    finish(lanes_[i], static_cast<std::size_t>(std::countr_zero(set)), parts);
+                for_each_lane(done[i], [&](std::size_t lane) { finish(lanes_[i], lane, parts); });
             }
         }
     }
@@ -113,7 +111,7 @@ class CutParts {
     // Composites the next piece of each lane, and finds the lanes that have reached the end.
     template <Lookup kind>
     HWY_INLINE void step(const TileTransfer& transfer, bool colored,
-                         std::uint8_t (&done)[vectors][8]) {
+                         std::uint32_t (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
         Stretch stretches[vectors];
         // Parts are taken from the first vector on.
@@ -127,8 +125,7 @@ class CutParts {
             for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(stretches[j].cubic);
         }
         for (std::size_t i = 0; i < used; ++i) {
-            const FloatMask ended = add_piece<kind>(transfer, colored, stretches[i], lanes_[i]);
-            hn::StoreMaskBits(FloatTag(), ended, done[i]);
+            done[i] = bits_of(add_piece<kind>(transfer, colored, stretches[i], lanes_[i]));
         }
     }
 
@@ -265,8 +262,8 @@ class CutParts {
         shallow.change = shallow.change * most;
         const Number share = mean_share(shallow);
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const Number color = interval.left(channel) + share * interval.change(channel);
-            store_number(load_number(lanes.color[channel]) + weight * color, lanes.color[channel]);
+            const Number color = weight * interval.at(channel, share);
+            store_number(load_number(lanes.color[channel]) + color, lanes.color[channel]);
         }
     }
 

@@ -57,13 +57,8 @@ class CellIntegrator {
     }
     // Ends at the front of slab `slab`, which lies behind what was integrated.
     void set_end(int slab) {
-        const auto depth = hn::Set(DoubleTag(), slab * slabs_.rays.slab_thickness);
-        const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
-                               HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
-        for (std::size_t i = 0; i < packets_; ++i) {
-            const DepthSpan& span = spans_[i];
-            walks_[i].set_end(each_half<FloatTag>(clamp, span.enter, span.leave));
-        }
+        for (std::size_t i = 0; i < packets_; ++i)
+            walks_[i].set_end(boundary(slabs_.rays, spans_[i], slab));
     }
     // Ends the rays of a packet of which `depths` has reached a limit.
     void end_where(std::size_t packet, const TwoDoubles& depths, double limit) {
@@ -130,7 +125,7 @@ class CellIntegrator {
         const bool flat = brick.last_sample[0] == 0;  // samples have no neighbour along x
         switch (brick.layout) {
             case TileLayout::quads:
-                return set_cubics_of_quads(brick);
+                break;  // TileVolume makes none for cells
             case TileLayout::bytes:
                 return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)
                             : set_cubics_of<TileLayout::bytes>(brick);
@@ -155,21 +150,6 @@ class CellIntegrator {
             fetch_pairs(brick, parts_.index + from, count, pairs);
             for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
                 const Corners corners = unpack_pairs<layout>(brick, pairs, i);
-                set_cubic(brick, corners, from + i);
-            }
-        }
-    }
-
-    void set_cubics_of_quads(const TileBrick& brick) {
-        const WordTag du;
-        const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
-        std::uint32_t quads[2][fetched_together];
-        for (std::size_t from = 0; from < parts_.count; from += fetched_together) {
-            const std::size_t count = std::min(fetched_together, parts_.count - from);
-            fetch_words(near, near + brick.slice, parts_.index + from, count, quads[0], quads[1]);
-            for (std::size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
-                const Corners corners =
-                    unpack_quads(hn::LoadU(du, quads[0] + i), hn::LoadU(du, quads[1] + i));
                 set_cubic(brick, corners, from + i);
             }
         }
@@ -243,10 +223,7 @@ class CellIntegrator {
     }
 
     void add_cuts(FloatMask hard, std::size_t i) {
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(FloatTag(), hard, bits);
-        for (unsigned set = bits[0] | static_cast<unsigned>(bits[1]) << 8; set != 0; set &= set - 1)
-            cut_.add(i + static_cast<std::size_t>(std::countr_zero(set)));
+        for_each_lane(bits_of(hard), [&](std::size_t lane) { cut_.add(i + lane); });
     }
 
     template <Lookup kind>
@@ -263,8 +240,7 @@ class CellIntegrator {
         const Number share = mean_share(part);
         store_number(opacity, parts_.opacity + i);
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const Number color = interval.left(channel) + share * interval.change(channel);
-            store_number(opacity * color, parts_.color[channel] + i);
+            store_number(opacity * interval.at(channel, share), parts_.color[channel] + i);
         }
     }
 

@@ -30,10 +30,7 @@ HWY_INLINE void store_doubles(const TwoDoubles& v, double* to) {
 
 // The depth of the boundary in front of a slab, clamped to the box.
 HWY_INLINE TwoDoubles boundary(const TileRays& frame, const PacketRays& rays, int slab) {
-    const auto depth = hn::Set(DoubleTag(), slab * frame.slab_thickness);
-    const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
-                           HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
-    return each_half<FloatTag>(clamp, rays.enter, rays.leave);
+    return boundary(frame, DepthSpan{rays.enter, rays.leave}, slab);
 }
 
 HWY_INLINE Points precise_point(const PacketRays& rays, const TwoDoubles& depth) {

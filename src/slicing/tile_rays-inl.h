@@ -39,14 +39,26 @@ struct PacketRays {
     int first_slab, end_slab;  // slabs that may show something; first >= end where there are none
 };
 
+// A direction to divide by: a ray that runs along a plane never crosses it.
+HWY_INLINE HalfDoubles crossing_direction(HalfDoubles direction) {
+    const auto least = hn::Set(DoubleTag(), 1e-20);
+    return hn::IfThenElse(hn::Lt(hn::Abs(direction), least), least, direction);
+}
+
+// The depth of the boundary in front of a slab, clamped to a span.
+HWY_INLINE TwoDoubles boundary(const TileRays& frame, const DepthSpan& span, int slab) {
+    const auto depth = hn::Set(DoubleTag(), slab * frame.slab_thickness);
+    const auto clamp = [&](HalfDoubles enter, HalfDoubles leave)
+                           HWY_ATTR { return hn::Min(hn::Max(depth, enter), leave); };
+    return each_half<FloatTag>(clamp, span.enter, span.leave);
+}
+
 HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSpan& span) {
     const DoubleTag d;
-    const auto least = hn::Set(d, 1e-20);  // a ray that runs along a face never crosses it
     for (int axis = 0; axis < 3; ++axis) {
         const auto clip = [&](HalfDoubles origin, HalfDoubles there, HalfDoubles& enter,
                               HalfDoubles& leave) HWY_ATTR {
-            const auto direction = hn::IfThenElse(hn::Lt(hn::Abs(there), least), least, there);
-            const auto inverse = hn::Div(hn::Set(d, 1.0), direction);
+            const auto inverse = hn::Div(hn::Set(d, 1.0), crossing_direction(there));
             const auto one = hn::Mul(hn::Sub(hn::Set(d, box.min[axis]), origin), inverse);
             const auto other = hn::Mul(hn::Sub(hn::Set(d, box.max[axis]), origin), inverse);
             enter = hn::Max(enter, hn::Min(one, other));

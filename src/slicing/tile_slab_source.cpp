@@ -81,8 +81,11 @@ void TileSlabSource::take_plan() {
     slabs_.occupied = plan_.occupied_only ? &occupied_ : nullptr;
     slabs_.constant = plan_.constant_regions ? &constant_ : nullptr;
     if (!plan_.integrates_cells()) return;
-    cells_ = make_cell_map(slabs_.occupied,
-                           slabs_.constant != nullptr ? &slabs_.constant->varied : nullptr);
+    if (slabs_.cells == nullptr || cells_leave_out_empty_ != plan_.occupied_only) {
+        cells_ = make_cell_map(slabs_.occupied,
+                               slabs_.constant != nullptr ? &slabs_.constant->varied : nullptr);
+        cells_leave_out_empty_ = plan_.occupied_only;
+    }
     slabs_.cells = &cells_;
     slabs_.occupied = nullptr;
     slabs_.constant = nullptr;

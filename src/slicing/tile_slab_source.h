@@ -41,6 +41,7 @@ class TileSlabSource {
     OccupiedBricks occupied_;
     ConstantBricks constant_;
     CellMap cells_;
+    bool cells_leave_out_empty_ = false;  // views differ in this
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
     TileSlabs slabs_;

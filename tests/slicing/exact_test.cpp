@@ -223,7 +223,7 @@ TEST(ExactTest, SlabsDrawnOneByOneMeetTheTracer) {
     }
 }
 
-// Of a tree that keeps 16 bits a node what is left is the nodes' rounding.
+// A tree of 16 bits a node adds the roundings of its nodes, and nothing else.
 TEST(ExactTest, LeavesOfTreesAreExact) {
     const Volume volume = noise<std::uint8_t>({12, 10, 11}, Centering::cell, 255);
     Scene scene = exact_scene(in_view_of(volume, 4, peak), Projection::perspective);
