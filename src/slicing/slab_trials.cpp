@@ -203,7 +203,7 @@ class SlabTrials {
         scene_.slice.filter = filter;
         const Plan plan = plan_slicing(scene_, facts_, tile_capabilities(), omissions);
         TileSliceRenderer renderer(volume_, scene_.transfer_function, facts_, plan.slice,
-                                   scene_.width, scene_.height, TileVolume::largest_copy, ready_);
+                                   scene_.width, scene_.height, ready_);
         ready_ = renderer.volume();
         const Stage trial("trial");
         Progress progress(fmt::format("trying {} slabs", slabs), renderer.step_count());

@@ -14,8 +14,7 @@ std::unique_ptr<FrameRenderer> make_slice_renderer(const Volume& volume,
     if (capabilities.tiles) {
         const auto* const tiles = dynamic_cast<const TileSliceRenderer*>(before);
         return std::make_unique<TileSliceRenderer>(volume, transfer_function, facts, plan, width,
-                                                   height, TileVolume::largest_copy,
-                                                   tiles ? tiles->volume() : nullptr);
+                                                   height, tiles ? tiles->volume() : nullptr);
     }
     const auto* const textures = dynamic_cast<const GlSliceRenderer*>(before);
     return std::make_unique<GlSliceRenderer>(volume, transfer_function, facts, plan, capabilities,

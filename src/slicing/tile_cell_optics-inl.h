@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Parts of larger optical depth are split: up to here mean_share() is good to .01 / 255.
+// Parts of larger optical depth are split: up to here seen_share() is good to .01 / 255.
 inline constexpr float largest_part_depth = 0.75f;
 
 // One interval of the transfer function for each lane. Colour and extinction are linear in the
@@ -53,8 +53,9 @@ struct IntervalLanes {
     HWY_INLINE Number change(std::size_t channel) const {
         return look_up<kind>(transfer.change[channel], number);
     }
-    HWY_INLINE Number at(std::size_t channel, Number share) const {
-        return optics_at<kind>(transfer, channel, number, share.v);
+    // A colour at a share, both times `opacity`.
+    HWY_INLINE Number color(std::size_t channel, Number opacity, Number share) const {
+        return left(channel) * opacity + change(channel) * share;
     }
     // The share as a cubic, for scalars of this interval.
     HWY_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
@@ -74,37 +75,53 @@ struct LinearPart {
     HWY_INLINE Number depth() const { return max(extinction + change * share.mean(), Number(0)); }
 };
 
-// exp(-depth) for depths up to largest_part_depth, good to 5e-6 (which weights of a mean forgive):
-// interpolated at Chebyshev's nodes.
-HWY_INLINE Number transmittance_of(Number depth) {
-    return polynomial(FloatTag(), depth.v,
-                      {0.99999716f, -0.99981007f, 0.49794633f, -0.15876627f, 0.02880527f});
+// 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
+// at Chebyshev's nodes.
+HWY_INLINE Number shallow_opacity(Number depth) {
+    return depth * Number(polynomial(FloatTag(), depth.v,
+                                     {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f}));
 }
 
-// The mean of the share, weighted by what reaches the part's front: emission times transmittance.
-// Gauss' rule with four points. Weights and weighted shares have the same nodes, so that the mean
-// of a constant is exact.
-HWY_INLINE Number mean_share(const LinearPart& part) {
-    constexpr float nodes[] = {0.069431844f, 0.33000948f, 0.66999052f, 0.93056816f};
-    constexpr float weights[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+// Gauss' rule on 0 .. 1.
+template <std::size_t points>
+struct GaussRule;
+template <>
+struct GaussRule<3> {
+    static constexpr float nodes[] = {0.11270167f, 0.5f, 0.88729833f};
+    static constexpr float weights[] = {0.27777778f, 0.44444444f, 0.27777778f};
+};
+template <>
+struct GaussRule<4> {
+    static constexpr float nodes[] = {0.069431844f, 0.33000948f, 0.66999052f, 0.93056816f};
+    static constexpr float weights[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
+};
+
+// The share that reaches a part's front: the integral of share times emission times transmittance,
+// for `opacity` of `depth`, which is at most largest_part_depth. Integrated by parts, so that only
+// the share's slope is left for Gauss' rule (docs/numerics.md, section 9), and a constant share is
+// exact.
+template <std::size_t points>
+HWY_INLINE Number seen_share(const LinearPart& part, Number depth, Number opacity) {
+    using Rule = GaussRule<points>;
     const CubicLanes& share = part.share;
     // The optical depth up to t is t (d[0] + t (d[1] + t (d[2] + t d[3]))).
     const Number d[4] = {part.extinction + part.change * share.c[0],
                          part.change * (Number(1 / 2.0f) * share.c[1]),
                          part.change * (Number(1 / 3.0f) * share.c[2]),
                          part.change * (Number(1 / 4.0f) * share.c[3])};
-    Number sum(0), weighted(0);
-    for (std::size_t i = 0; i < 4; ++i) {
+    const Number all = shallow_opacity(depth);
+    Number sum = opacity * share.c[0];
+    for (std::size_t i = 0; i < points; ++i) {
+        constexpr auto& nodes = Rule::nodes;
         const Number t(nodes[i]);
-        const Number there = share.at(t);
-        const Number extinction = part.extinction + part.change * there;
         const Number before = t * (d[0] + t * (d[1] + t * (d[2] + t * d[3])));
-        const Number weight = Number(weights[i]) * extinction * transmittance_of(before);
-        sum = sum + weight;
-        weighted = weighted + weight * there;
+        const float weight = Rule::weights[i];
+        const Number slope = Number(weight) * share.c[1] +
+                             Number(2 * weight * nodes[i]) * share.c[2] +
+                             Number(3 * weight * nodes[i] * nodes[i]) * share.c[3];
+        sum = sum + slope * (all - shallow_opacity(before));
     }
-    const Number mean = weighted / max(sum, Number(1e-37f));
-    return min(max(mean, Number(0)), Number(1));
+    return min(max(sum, Number(0)), opacity);
 }
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of rays that cross points of the transfer function, or that are too deep for one rule. They
-// are cut, and their pieces composited front to back. Parts need different numbers of steps: a lane
-// that has finished one takes the next. Two vectors of lanes go side by side, because each step
-// waits for its own results.
+// are cut, and their pieces composited front to back, a piece of each part in every round. Parts
+// that have ended leave the others to be packed anew, as parts have different numbers of pieces.
 #if defined(LAMINA_SLICING_TILE_CUT_PARTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
 #undef LAMINA_SLICING_TILE_CUT_PARTS_INL_H_
@@ -22,24 +21,23 @@ class CutParts {
   public:
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
-    void add(std::size_t part) { waiting_[count_++] = static_cast<std::int32_t>(part); }
+
+    // Adds the `members` of a vector of parts, of which `first` is the number of the first.
+    HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length,
+                        std::size_t first) {
+        const IntTag di;
+        for (std::size_t i = 0; i < 4; ++i)
+            store_members(cubic.c[i].v, members, cubic_[i] + count_);
+        store_members(length.v, members, length_ + count_);
+        store_members(hn::Iota(di, static_cast<std::int32_t>(first)), members, part_ + count_);
+        count_ += hn::CountTrue(FloatTag(), members);
+    }
 
     // Sets colour, opacity and depth of the parts that were added.
     template <Lookup kind>
     void run(const TileTransfer& transfer, bool colored, CellParts& parts) {
-        next_ = 0;
-        static_assert(vectors == 2);
-        for (Lanes& lanes : lanes_) {
-            for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane)
-                take(parts, lanes, lane);
-        }
-        while (lanes_[0].busy + lanes_[1].busy > 0) {
-            std::uint32_t done[vectors] = {};
-            step<kind>(transfer, colored, done);
-            for (std::size_t i = 0; i < vectors; ++i) {
-                for_each_lane(done[i], [&](std::size_t lane) { finish(lanes_[i], lane, parts); });
-            }
-        }
+        run_round<kind, true>(transfer, colored, parts);
+        while (count_ > 0) run_round<kind, false>(transfer, colored, parts);
     }
 
   private:
@@ -47,173 +45,211 @@ class CutParts {
     static constexpr float least_transmittance = 1e-9f;
     // A part this short has one colour, whatever its depth.
     static constexpr float shortest = 1e-6f;
-
+    // Vectors side by side, because each waits for its own results.
     static constexpr std::size_t vectors = 2;
 
     // The parts of a vector of lanes, and what is composited of them.
     struct Lanes {
-        alignas(64) float cubic[4][most_lanes] = {};
-        alignas(64) float length[most_lanes] = {};
-        alignas(64) float fresh[most_lanes] = {};     // 1 before the first step
-        alignas(64) float turns[2][most_lanes] = {};  // where the cubic turns
+        CubicLanes cubic;
+        Number length;
+        Number turns[2];  // where the cubic turns
         // How far it is done: place, scalar, interval.
-        alignas(64) float at[most_lanes] = {};
-        alignas(64) float scalar[most_lanes] = {};
-        alignas(64) std::int32_t interval[most_lanes] = {};
-        alignas(64) float color[3][most_lanes] = {};
-        alignas(64) float opacity[most_lanes] = {};
-        alignas(64) float depth[most_lanes] = {};
-        alignas(64) float transmittance[most_lanes] = {};
-        std::int32_t part[most_lanes] = {};  // -1: none
-        int busy = 0;                        // lanes with a part
+        Number at, scalar;
+        Ints interval;
+        Number color[3], opacity, depth, transmittance;
+        Ints part;
     };
 
     // The next monotone stretch of each part, as far as it stays in one interval.
     struct Stretch {
-        CubicLanes cubic;
-        Ints number;  // of the interval
-        Number at, scalar, end, at_end, knot;
+        Number end, at_end, knot;
         FloatMask rising, crosses;
         RootLanes root;
     };
 
-    void take(const CellParts& parts, Lanes& lanes, std::size_t lane) {
-        lanes.part[lane] = -1;
-        lanes.at[lane] = 1;
-        lanes.length[lane] = 0;
-        if (next_ == count_) return;
-        const std::int32_t part = waiting_[next_++];
-        const auto from = static_cast<std::size_t>(part);
-        ++lanes.busy;
-        lanes.part[lane] = part;
-        for (std::size_t i = 0; i < 4; ++i) lanes.cubic[i][lane] = parts.cubic[i][from];
-        lanes.length[lane] = parts.length[from];
-        lanes.fresh[lane] = 1;
-        lanes.at[lane] = 0;
-        lanes.scalar[lane] = parts.cubic[0][from];
-        for (auto& channel : lanes.color) channel[lane] = 0;
-        lanes.opacity[lane] = 0;
-        lanes.depth[lane] = 0;
-        lanes.transmittance[lane] = 1;
+    // Composites the next piece of each part.
+    template <Lookup kind, bool first>
+    void run_round(const TileTransfer& transfer, bool colored, CellParts& parts) {
+        const FloatTag d;
+        const std::size_t count = count_, step = hn::Lanes(d);
+        count_ = 0;
+        for (std::size_t from = 0; from < count; from += vectors * step) {
+            const std::size_t used = from + step < count ? vectors : 1;
+            Lanes lanes[vectors];
+            for (std::size_t i = 0; i < used; ++i) {
+                const std::size_t place = from + i * step;
+                const FloatMask members = hn::FirstN(d, count - place);
+                lanes[i] = first ? begin<kind>(transfer, place, members) : load(place, members);
+            }
+            FloatMask done[vectors];
+            add_pieces<kind>(transfer, colored, used, lanes, done);
+            for (std::size_t i = 0; i < used; ++i) {
+                const FloatMask members = hn::FirstN(d, count - from - i * step);
+                finish(lanes[i], hn::And(members, done[i]), parts);
+                keep(lanes[i], hn::AndNot(done[i], members));
+            }
+        }
     }
 
-    void finish(Lanes& lanes, std::size_t lane, CellParts& parts) {
-        if (lanes.part[lane] < 0) return;
-        const auto to = static_cast<std::size_t>(lanes.part[lane]);
-        parts.depth[to] = lanes.depth[lane];
-        parts.opacity[to] = lanes.opacity[lane];
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            parts.color[channel][to] = lanes.color[channel][lane];
-        --lanes.busy;
-        take(parts, lanes, lane);
+    // The lanes outside `members` have any values; what is computed of them is not used.
+    HWY_INLINE Lanes load_parts(std::size_t from, FloatMask members) const {
+        Lanes lanes;
+        for (std::size_t i = 0; i < 4; ++i)
+            lanes.cubic.c[i] = zero_unless(members, hn::LoadU(FloatTag(), cubic_[i] + from));
+        lanes.length = zero_unless(members, hn::LoadU(FloatTag(), length_ + from));
+        lanes.part = hn::LoadU(IntTag(), part_ + from);
+        return lanes;
     }
 
-    // Composites the next piece of each lane, and finds the lanes that have reached the end.
+    // Where the parts turn, and in which interval they begin. At an end of an interval they begin
+    // on the side to which they go.
     template <Lookup kind>
-    HWY_INLINE void step(const TileTransfer& transfer, bool colored,
-                         std::uint32_t (&done)[vectors]) {
+    HWY_INLINE Lanes begin(const TileTransfer& transfer, std::size_t from,
+                           FloatMask members) const {
+        const FloatTag d;
+        const IntTag di;
+        Lanes lanes = load_parts(from, members);
+        const Turns turns = turns_of(lanes.cubic);
+        lanes.turns[0] = turns.first;
+        lanes.turns[1] = turns.second;
+        const Number start = lanes.cubic.c[0];
+        const FloatMask falling = lanes.cubic.at(turns.first) < start;
+        const Ints interval = find_interval<kind>(transfer, clamp01(d, start.v));
+        const FloatMask at_end = look_up<kind>(transfer.end, interval) == start.v;
+        const auto below =
+            hn::And(hn::RebindMask(di, hn::And(falling, at_end)), hn::Gt(interval, hn::Zero(di)));
+        lanes.interval = hn::Sub(interval, hn::IfThenElseZero(below, hn::Set(di, 1)));
+        lanes.at = lanes.opacity = lanes.depth = Number(0);
+        lanes.scalar = start;
+        for (Number& channel : lanes.color) channel = Number(0);
+        lanes.transmittance = Number(1);
+        return lanes;
+    }
+
+    HWY_INLINE Lanes load(std::size_t from, FloatMask members) const {
+        const FloatTag d;
+        const IntTag di;
+        Lanes lanes = load_parts(from, members);
+        lanes.turns[0] = hn::LoadU(d, turns_[0] + from);
+        lanes.turns[1] = hn::LoadU(d, turns_[1] + from);
+        lanes.at = hn::LoadU(d, at_ + from);
+        lanes.scalar = hn::LoadU(d, scalar_ + from);
+        lanes.interval =
+            hn::IfThenElseZero(hn::RebindMask(di, members), hn::LoadU(di, interval_ + from));
+        for (std::size_t i = 0; i < 3; ++i) lanes.color[i] = hn::LoadU(d, color_[i] + from);
+        lanes.opacity = hn::LoadU(d, opacity_ + from);
+        lanes.depth = hn::LoadU(d, depth_ + from);
+        lanes.transmittance = hn::LoadU(d, transmittance_ + from);
+        return lanes;
+    }
+
+    // Keeps the `members` for the next round, behind those that were kept before: never beyond what
+    // was loaded.
+    HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
+        add(members, lanes.cubic, lanes.length, 0);
+        const std::size_t kept = hn::CountTrue(FloatTag(), members), to = count_ - kept;
+        if (kept == 0) return;
+        store_members(lanes.part, members, part_ + to);
+        store_members(lanes.turns[0].v, members, turns_[0] + to);
+        store_members(lanes.turns[1].v, members, turns_[1] + to);
+        store_members(lanes.at.v, members, at_ + to);
+        store_members(lanes.scalar.v, members, scalar_ + to);
+        store_members(lanes.interval, members, interval_ + to);
+        for (std::size_t i = 0; i < 3; ++i)
+            store_members(lanes.color[i].v, members, color_[i] + to);
+        store_members(lanes.opacity.v, members, opacity_ + to);
+        store_members(lanes.depth.v, members, depth_ + to);
+        store_members(lanes.transmittance.v, members, transmittance_ + to);
+    }
+
+    static void finish(const Lanes& lanes, FloatMask members, CellParts& parts) {
+        alignas(64) float color[3][most_lanes], opacity[most_lanes], depth[most_lanes];
+        alignas(64) std::int32_t part[most_lanes];
+        for (std::size_t i = 0; i < 3; ++i) store_number(lanes.color[i], color[i]);
+        store_number(lanes.opacity, opacity);
+        store_number(lanes.depth, depth);
+        hn::Store(lanes.part, IntTag(), part);
+        for_each_lane(bits_of(members), [&](std::size_t lane) {
+            const auto to = static_cast<std::size_t>(part[lane]);
+            for (std::size_t i = 0; i < 3; ++i) parts.color[i][to] = color[i][lane];
+            parts.opacity[to] = opacity[lane];
+            parts.depth[to] = depth[lane];
+        });
+    }
+
+    // Finds the lanes that have reached the end.
+    template <Lookup kind>
+    HWY_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
+                               Lanes (&lanes)[vectors], FloatMask (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
+        static_assert(vectors == 2);
         Stretch stretches[vectors];
-        // Parts are taken from the first vector on.
-        const std::size_t used = lanes_[1].busy > 0 ? vectors : 1;
         for (std::size_t i = 0; i < used; ++i)
-            stretches[i] = next_stretch<kind>(transfer, lanes_[i]);
+            stretches[i] = next_stretch<kind>(transfer, lanes[i]);
         const auto found = [&] HWY_ATTR {
             return stretches[0].root.found() && (used == 1 || stretches[1].root.found());
         };
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
-            for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(stretches[j].cubic);
+            for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(lanes[j].cubic);
         }
-        for (std::size_t i = 0; i < used; ++i) {
-            done[i] = bits_of(add_piece<kind>(transfer, colored, stretches[i], lanes_[i]));
-        }
-    }
-
-    // The lanes that took a part since the last step: where it turns, and in which interval it
-    // begins. At an end of an interval it begins on the side to which it goes.
-    template <Lookup kind>
-    HWY_INLINE void begin(const TileTransfer& transfer, const CubicLanes& cubic, Lanes& lanes) {
-        const FloatTag d;
-        const IntTag di;
-        const FloatMask fresh = load_number(lanes.fresh) > Number(0);
-        if (hn::AllFalse(d, fresh)) return;
-        const Turns turns = turns_of(cubic);
-        store_number(select(fresh, turns.first, load_number(lanes.turns[0])), lanes.turns[0]);
-        store_number(select(fresh, turns.second, load_number(lanes.turns[1])), lanes.turns[1]);
-        const Number start = cubic.c[0];
-        const FloatMask falling = cubic.at(turns.first) < start;
-        Ints first = find_interval<kind>(transfer, clamp01(d, start.v));
-        const FloatMask at_end = look_up<kind>(transfer.end, first) == start.v;
-        const auto below =
-            hn::And(hn::RebindMask(di, hn::And(falling, at_end)), hn::Gt(first, hn::Zero(di)));
-        first = hn::Sub(first, hn::IfThenElseZero(below, hn::Set(di, 1)));
-        const Ints before = hn::Load(di, lanes.interval);
-        hn::Store(hn::IfThenElse(hn::RebindMask(di, fresh), first, before), di, lanes.interval);
-        store_number(Number(0), lanes.fresh);
+        for (std::size_t i = 0; i < used; ++i)
+            done[i] = add_piece<kind>(transfer, colored, stretches[i], lanes[i]);
     }
 
     template <Lookup kind>
-    HWY_INLINE Stretch next_stretch(const TileTransfer& transfer, Lanes& lanes) {
+    static HWY_INLINE Stretch next_stretch(const TileTransfer& transfer, const Lanes& lanes) {
         const FloatTag d;
         const IntTag di;
         Stretch next;
-        for (std::size_t i = 0; i < 4; ++i) next.cubic.c[i] = load_number(lanes.cubic[i]);
-        begin<kind>(transfer, next.cubic, lanes);
-        next.number = hn::Load(di, lanes.interval);
-        next.at = load_number(lanes.at);
-        next.scalar = load_number(lanes.scalar);
-        const Number turn[2] = {load_number(lanes.turns[0]), load_number(lanes.turns[1])};
-        next.end =
-            select(next.at < turn[0], turn[0], select(next.at < turn[1], turn[1], Number(1)));
-        next.at_end = next.cubic.at(next.end);
-        next.rising = next.at_end >= next.scalar;
-        const IntervalLanes<kind> interval{transfer, next.number};
-        const FloatMask first = hn::RebindMask(d, hn::Eq(next.number, hn::Zero(di)));
-        const Number left_end = select(first, Number(-3e38f), interval.left_end());
+        next.end = select(lanes.at < lanes.turns[0], lanes.turns[0],
+                          select(lanes.at < lanes.turns[1], lanes.turns[1], Number(1)));
+        next.at_end = lanes.cubic.at(next.end);
+        next.rising = next.at_end >= lanes.scalar;
+        const IntervalLanes<kind> interval{transfer, lanes.interval};
+        const FloatMask lowest = hn::RebindMask(d, hn::Eq(lanes.interval, hn::Zero(di)));
+        const Number left_end = select(lowest, Number(-3e38f), interval.left_end());
         next.knot = select(next.rising, interval.right_end(), left_end);
         next.crosses = hn::Or(hn::And(next.rising, next.knot < next.at_end),
                               hn::AndNot(next.rising, next.knot > next.at_end));
-        next.root.begin(next.knot, next.at, next.end, next.scalar, next.at_end, next.crosses);
+        next.root.begin(next.knot, lanes.at, next.end, lanes.scalar, next.at_end, next.crosses);
         return next;
     }
 
     // Returns the lanes that have reached the end.
     template <Lookup kind>
-    HWY_INLINE FloatMask add_piece(const TileTransfer& transfer, bool colored,
-                                   const Stretch& stretch, Lanes& lanes) {
+    static HWY_INLINE FloatMask add_piece(const TileTransfer& transfer, bool colored,
+                                          const Stretch& stretch, Lanes& lanes) {
         const IntTag di;
-        const IntervalLanes<kind> interval{transfer, stretch.number};
+        const IntervalLanes<kind> interval{transfer, lanes.interval};
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
-        Number extent = max(to - stretch.at, Number(0));
-        LinearPart part =
-            part_of<kind>(interval, stretch, extent, at_to, load_number(lanes.length) * extent);
+        Number extent = max(to - lanes.at, Number(0));
+        LinearPart part = part_of<kind>(interval, lanes, extent, at_to);
         const FloatMask whole = shorten(part, extent);
         composite<kind>(interval, part, colored, lanes);
 
-        const Number shortened = max(stretch.at + extent, stretch.at + Number(6e-8f));
-        const Number place = select(whole, to, shortened);
-        store_number(place, lanes.at);
-        store_number(select(whole, at_to, stretch.cubic.at(place)), lanes.scalar);
-        const Ints number = stretch.number, one = hn::Set(di, 1);
+        const Number shortened = max(lanes.at + extent, lanes.at + Number(6e-8f));
+        lanes.at = select(whole, to, shortened);
+        lanes.scalar = select(whole, at_to, lanes.cubic.at(lanes.at));
+        const Ints number = lanes.interval, one = hn::Set(di, 1);
         const Ints next = hn::IfThenElse(hn::RebindMask(di, stretch.rising), hn::Add(number, one),
                                          hn::Sub(number, one));
         const auto leaves = hn::RebindMask(di, hn::And(whole, stretch.crosses));
-        hn::Store(hn::IfThenElse(leaves, next, number), di, lanes.interval);
-        return hn::Or(place >= Number(1),
-                      load_number(lanes.transmittance) < Number(least_transmittance));
+        lanes.interval = hn::IfThenElse(leaves, next, number);
+        return hn::Or(lanes.at >= Number(1), lanes.transmittance < Number(least_transmittance));
     }
 
-    // The piece of a stretch of `extent` from its beginning, up to where the scalar is `at_to`.
+    // The piece of `extent` from where the parts are, up to where the scalar is `at_to`.
     template <Lookup kind>
-    HWY_INLINE LinearPart part_of(const IntervalLanes<kind>& interval, const Stretch& stretch,
-                                  Number extent, Number at_to, Number length) const {
-        const CubicLanes& cubic = stretch.cubic;
+    static HWY_INLINE LinearPart part_of(const IntervalLanes<kind>& interval, const Lanes& lanes,
+                                         Number extent, Number at_to) {
+        const CubicLanes& cubic = lanes.cubic;
         CubicLanes piece;
-        piece.c[0] = stretch.scalar;
-        piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * stretch.at) * extent * extent;
+        piece.c[0] = lanes.scalar;
+        piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * lanes.at) * extent * extent;
         piece.c[3] = cubic.c[3] * extent * extent * extent;
-        piece.c[1] = (at_to - stretch.scalar) - (piece.c[2] + piece.c[3]);
+        piece.c[1] = (at_to - lanes.scalar) - (piece.c[2] + piece.c[3]);
+        const Number length = lanes.length * extent;
         return {interval.share_along(piece), interval.left(3) * length,
                 interval.change(3) * length};
     }
@@ -246,30 +282,39 @@ class CutParts {
     }
 
     template <Lookup kind>
-    HWY_INLINE void composite(const IntervalLanes<kind>& interval, const LinearPart& part,
-                              bool colored, Lanes& lanes) {
-        const Number depth = part.depth(), transmittance = load_number(lanes.transmittance);
-        const Number weight = transmittance * Number(opacity_from_depth(FloatTag(), depth.v));
-        store_number(load_number(lanes.depth) + depth, lanes.depth);
-        store_number(transmittance - weight, lanes.transmittance);
+    static HWY_INLINE void composite(const IntervalLanes<kind>& interval, const LinearPart& part,
+                                     bool colored, Lanes& lanes) {
+        const Number depth = part.depth();
+        const Number opacity = opacity_from_depth(FloatTag(), depth.v);
+        const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
+        lanes.depth = lanes.depth + depth;
+        lanes.transmittance = transmittance - weight;
         // Summed up by itself, so that parts of small opacity keep their digits.
-        store_number(load_number(lanes.opacity) + weight, lanes.opacity);
+        lanes.opacity = lanes.opacity + weight;
         if (!colored) return;
-        // A piece of the least extent may be too deep even so: the mean is one of its shares.
-        LinearPart shallow = part;
-        const Number most = min(Number(1), Number(largest_part_depth) / max(depth, Number(1e-30f)));
-        shallow.extinction = shallow.extinction * most;
-        shallow.change = shallow.change * most;
-        const Number share = mean_share(shallow);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const Number color = weight * interval.at(channel, share);
-            store_number(load_number(lanes.color[channel]) + color, lanes.color[channel]);
-        }
+        // A piece of the least extent may be too deep even so: its colour hardly changes.
+        const FloatMask deep = depth > Number(largest_part_depth);
+        const Number share = transmittance * select(deep, opacity * part.share.c[0],
+                                                    seen_share<4>(part, depth, opacity));
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            lanes.color[channel] = lanes.color[channel] + interval.color(channel, weight, share);
     }
 
-    std::int32_t waiting_[CellParts::capacity];
-    std::size_t count_ = 0, next_ = 0;
-    Lanes lanes_[vectors];
+    static constexpr std::size_t capacity = CellParts::capacity;
+
+    std::size_t count_ = 0;
+    alignas(64) float cubic_[4][capacity];
+    alignas(64) float length_[capacity];
+    alignas(64) std::int32_t part_[capacity];
+    // From the second round on:
+    alignas(64) float turns_[2][capacity];
+    alignas(64) float at_[capacity];
+    alignas(64) float scalar_[capacity];
+    alignas(64) std::int32_t interval_[capacity];
+    alignas(64) float color_[3][capacity];
+    alignas(64) float opacity_[capacity];
+    alignas(64) float depth_[capacity];
+    alignas(64) float transmittance_[capacity];
 };
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -124,8 +124,6 @@ class CellIntegrator {
         const TileBrick& brick = view_->brick;
         const bool flat = brick.last_sample[0] == 0;  // samples have no neighbour along x
         switch (brick.layout) {
-            case TileLayout::quads:
-                break;  // TileVolume makes none for cells
             case TileLayout::bytes:
                 return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)
                             : set_cubics_of<TileLayout::bytes>(brick);
@@ -216,14 +214,10 @@ class CellIntegrator {
             if (colored_) hard = hn::Or(hard, shown_depth > Number(largest_part_depth));
             hard = hn::And(stored, hard);
             store_number(shown_depth, parts_.depth + i);
-            if (!hn::AllFalse(d, hard)) add_cuts(hard, i);
+            if (!hn::AllFalse(d, hard)) cut_.add(hard, cubic, length, i);
             if (colored_) set_colors(interval, part, shown_depth, i);
         });
         if (!cut_.empty()) cut_.run<kind>(transfer, colored_, parts_);
-    }
-
-    void add_cuts(FloatMask hard, std::size_t i) {
-        for_each_lane(bits_of(hard), [&](std::size_t lane) { cut_.add(i + lane); });
     }
 
     template <Lookup kind>
@@ -237,11 +231,10 @@ class CellIntegrator {
             return;
         }
         const Number opacity = opacity_from_depth(d, depth.v);
-        const Number share = mean_share(part);
+        const Number share = zero_unless(seen, seen_share<4>(part, depth, opacity));
         store_number(opacity, parts_.opacity + i);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            store_number(opacity * interval.at(channel, share), parts_.color[channel] + i);
-        }
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            store_number(interval.color(channel, opacity, share), parts_.color[channel] + i);
     }
 
     // Composites each ray's parts front to back.

@@ -36,19 +36,7 @@ HWY_INLINE Floats to_float(Words v) {
     return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), v));
 }
 
-HWY_INLINE Corners unpack_quads(Words near, Words far) {
-    Corners corners;
-    const Words quads[2] = {near, far};
-    for (int z = 0; z < 2; ++z) {
-        corners.lower[2 * z] = low_byte(quads[z]);
-        corners.upper[2 * z] = low_byte(hn::ShiftRight<8>(quads[z]));
-        corners.lower[2 * z + 1] = low_byte(hn::ShiftRight<16>(quads[z]));
-        corners.upper[2 * z + 1] = to_float(hn::ShiftRight<24>(quads[z]));
-    }
-    return corners;
-}
-
-// Fetches the corners for all layouts except quads.
+// Fetches the corners by gathers, also where samples have no neighbour along x.
 template <TileLayout layout>
 HWY_INLINE Corners fetch_corners(const TileBrick& brick, Ints index) {
     Corners corners;
@@ -101,8 +89,8 @@ struct PairOf<TileLayout::words> {
     using Type = std::uint32_t;
 };
 
-// Fetches the four pairs of each cell, in the order of Corners. Volumes have a second sample along
-// x.
+// Fetches the four pairs of each cell, in the order of Corners, one by one: that is faster than
+// gathers of the instruction set. Volumes have a second sample along x.
 template <class Pair, std::size_t size>
 inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
                                      std::size_t count, Pair (&pairs)[4][size]) {
@@ -204,46 +192,41 @@ HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Float
     return hn::Add(hn::Mul(raw, hn::Set(d, scale)), hn::Set(d, brick.offset));
 }
 
-// Fetches word by word, which is faster than gathers of the instruction set.
-inline HWY_NOINLINE void fetch_words(const std::uint32_t* near, const std::uint32_t* far,
-                                     const std::int32_t* indices, std::size_t count,
-                                     std::uint32_t* near_words, std::uint32_t* far_words) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto index = static_cast<std::ptrdiff_t>(indices[i]);
-        near_words[i] = near[index];
-        far_words[i] = far[index];
+// One pixel in each row and column is fetched ahead; what its neighbours need mostly lies beside
+// it.
+template <TileLayout layout>
+HWY_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
+    constexpr std::size_t bytes = bytes_of_sample(layout);
+    const auto* const samples = static_cast<const std::byte*>(brick.samples);
+    const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
+    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); lane += TileGrid::block + 1) {
+        const std::byte* const at = samples + bytes * static_cast<std::size_t>(indices[lane]);
+        __builtin_prefetch(at);
+        __builtin_prefetch(at + slice);
     }
 }
 
-// Samples quads in three stages of half a block: find indices, fetch words, interpolate. During the
-// first stage the words of one pixel in each row and column are prefetched; the words of its
-// neighbours mostly lie beside them.
-template <PointKind kind, class PointAt>
-HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, int end,
-                             const PointAt& point_at, float* scalars) {
+// Samples in three stages of half a block: find cells, fetch their samples, interpolate.
+template <TileLayout layout, PointKind kind, class PointAt>
+HWY_INLINE void sample_in_stages(const TileBrick& brick, bool hardware, int first, int end,
+                                 const PointAt& point_at, float* scalars) {
     const FloatTag d;
-    const WordTag du;
     constexpr int stage = tile_block_slabs / 2 + 1;  // edges are one more than slabs
     const std::size_t lanes = hn::Lanes(d);
-    const auto* const near = static_cast<const std::uint32_t*>(brick.samples);
-    const auto* const far = near + brick.slice;
     alignas(64) std::int32_t indices[stage * most_lanes];
-    alignas(64) std::uint32_t quads[2][stage * most_lanes];
     alignas(64) float shares[3][stage * most_lanes];
+    typename PairOf<layout>::Type pairs[4][stage * most_lanes];
     for (int begin = first; begin < end; begin += stage) {
         const auto count = static_cast<std::size_t>(std::min(stage, end - begin));
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t place = i * lanes;
             const Cell cell = cell_at<kind>(brick, point_at(begin + static_cast<int>(i)));
             hn::Store(cell.index, IntTag(), indices + place);
-            for (std::size_t lane = 0; lane < lanes; lane += TileGrid::block + 1) {
-                __builtin_prefetch(near + indices[place + lane]);
-                __builtin_prefetch(far + indices[place + lane]);
-            }
+            prefetch_cells<layout>(brick, indices + place);
             for (std::size_t axis = 0; axis < 3; ++axis)
                 hn::Store(cell.share[axis], d, shares[axis] + place);
         }
-        fetch_words(near, far, indices, count * lanes, quads[0], quads[1]);
+        fetch_pairs(brick, indices, count * lanes, pairs);
         if (hardware) {
             for (float* const axis : shares) {
                 for (std::size_t i = 0; i < count * lanes; i += lanes)
@@ -252,13 +235,27 @@ HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, i
         }
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t place = i * lanes;
-            const Corners corners =
-                unpack_quads(hn::Load(du, quads[0] + place), hn::Load(du, quads[1] + place));
             const Floats share[3] = {hn::Load(d, shares[0] + place), hn::Load(d, shares[1] + place),
                                      hn::Load(d, shares[2] + place)};
-            hn::Store(scalar_in<TileLayout::quads, kind>(brick, corners, share), d,
+            const Corners corners = unpack_pairs<layout>(brick, pairs, place);
+            hn::Store(scalar_in<layout, kind>(brick, corners, share), d,
                       scalars + (static_cast<std::size_t>(begin) + i) * most_lanes);
         }
+    }
+}
+
+// Where samples have no neighbour along x.
+template <TileLayout layout, PointKind kind, class PointAt>
+HWY_INLINE void sample_by_gathers(const TileBrick& brick, bool hardware, int first, int end,
+                                  const PointAt& point_at, float* scalars) {
+    for (int i = first; i < end; ++i) {
+        Cell cell = cell_at<kind>(brick, point_at(i));
+        if (hardware) {
+            for (Floats& share : cell.share) share = hardware_weight(share);
+        }
+        const Corners corners = fetch_corners<layout>(brick, cell.index);
+        hn::Store(scalar_in<layout, kind>(brick, corners, cell.share), FloatTag(),
+                  scalars + static_cast<std::size_t>(i) * most_lanes);
     }
 }
 
@@ -266,22 +263,13 @@ HWY_INLINE void sample_quads(const TileBrick& brick, bool hardware, int first, i
 template <PointKind kind, class PointAt>
 HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, int end,
                               const PointAt& point_at, float* scalars) {
-    const FloatTag d;
     const auto sample = [&](auto kind_of_layout) HWY_ATTR {
         constexpr TileLayout layout = decltype(kind_of_layout)::value;
-        for (int i = first; i < end; ++i) {
-            Cell cell = cell_at<kind>(brick, point_at(i));
-            if (hardware) {
-                for (Floats& share : cell.share) share = hardware_weight(share);
-            }
-            const Corners corners = fetch_corners<layout>(brick, cell.index);
-            hn::Store(scalar_in<layout, kind>(brick, corners, cell.share), d,
-                      scalars + static_cast<std::size_t>(i) * most_lanes);
-        }
+        if (brick.last_sample[0] > 0)
+            return sample_in_stages<layout, kind>(brick, hardware, first, end, point_at, scalars);
+        sample_by_gathers<layout, kind>(brick, hardware, first, end, point_at, scalars);
     };
     switch (brick.layout) {
-        case TileLayout::quads:
-            return sample_quads<kind>(brick, hardware, first, end, point_at, scalars);
         case TileLayout::bytes:
             return sample(std::integral_constant<TileLayout, TileLayout::bytes>());
         case TileLayout::words:

@@ -38,7 +38,7 @@ ValueRange exact_range(const ValueRange& range, SampleType type) {
 }  // namespace
 
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                               const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
+                               const Facts& facts, const SlicePlan& plan,
                                std::shared_ptr<const TileVolume> ready)
     : plan_(plan), grid_(in_units(facts.grid, plan.unit)), volume_(std::move(ready)) {
     const ValueRange range = drawn_range(transfer_function, facts.range);
@@ -73,7 +73,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     table_ms_ = tables.end();
     if (volume_ && volume_->serves(volume, unit, plan_)) return;
     Stage upload("upload");
-    volume_ = std::make_shared<TileVolume>(volume, unit, plan_, largest_copy);
+    volume_ = std::make_shared<TileVolume>(volume, unit, plan_);
     upload_ms_ = upload.end();
 }
 

@@ -13,10 +13,10 @@ namespace lamina {
 class TileSlabSource {
   public:
     // `plan` must outlive the source. The transfer function is in the plan's units, and so are
-    // views; facts are in world units. `largest_copy`: see TileVolume. `ready`: volume() of another
-    // source, which is taken over where it serves.
+    // views; facts are in world units. `ready`: volume() of another source, which is
+    // taken over where it serves.
     TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                   const Facts& facts, const SlicePlan& plan, std::int64_t largest_copy,
+                   const Facts& facts, const SlicePlan& plan,
                    std::shared_ptr<const TileVolume> ready);
     TileSlabSource(const TileSlabSource&) = delete;  // the slabs refer to its tables
     TileSlabSource& operator=(const TileSlabSource&) = delete;

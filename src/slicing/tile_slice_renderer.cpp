@@ -32,7 +32,6 @@ class SlabLeaves : public TileLeaves {
 TileSliceRenderer::TileSliceRenderer(const Volume& volume,
                                      const TransferFunction& transfer_function, const Facts& facts,
                                      const SlicePlan& plan, int width, int height,
-                                     std::int64_t largest_copy,
                                      std::shared_ptr<const TileVolume> ready)
     : plan_(plan),
       grid_(in_units(facts.grid, plan.unit)),
@@ -42,7 +41,7 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
         kept_ = std::move(ready);
         return;
     }
-    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_, largest_copy,
+    source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_,
                     std::move(ready));
     if (plan_.tree) shape_.emplace(plan_.tree->factors, plan_.slabs);
     if (plan_.has_tree(NodeArithmetic::fixed))

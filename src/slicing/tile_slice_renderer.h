@@ -19,12 +19,10 @@ namespace lamina {
 // OpenGL.
 class TileSliceRenderer : public FrameRenderer {
   public:
-    // Prepares the volume and the tables. Copies of the volume that only save time take at most
-    // `largest_copy` bytes. `ready`: volume() of another renderer, which is taken over where it
-    // serves.
+    // Prepares the volume and the tables. `ready`: volume() of another renderer, which is taken
+    // over where it serves.
     TileSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                       const Facts& facts, const SlicePlan& plan, int width, int height,
-                      std::int64_t largest_copy = TileVolume::largest_copy,
                       std::shared_ptr<const TileVolume> ready = nullptr);
     TileSliceRenderer(const TileSliceRenderer&) = delete;  // its members refer to its plan
     TileSliceRenderer& operator=(const TileSliceRenderer&) = delete;

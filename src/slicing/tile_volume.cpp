@@ -24,50 +24,22 @@ void for_each_row(const TextureBrick& part, const Visit& visit) {
                  [&](std::int64_t number) { visit(number % part.size[1], number / part.size[1]); });
 }
 
-void fill_quads(const Grid& grid, const TextureBrick& part, const std::uint8_t* samples,
-                std::uint32_t* quads) {
-    for_each_row(part, [&](std::int64_t y, std::int64_t z) {
-        const std::uint8_t* const row = samples + row_of(part, grid, y, z).first;
-        const std::uint8_t* const below =
-            samples + row_of(part, grid, std::min(y + 1, part.size[1] - 1), z).first;
-        std::uint32_t* const to = quads + (z * part.size[1] + y) * part.size[0];
-        for (std::int64_t x = 0; x < part.size[0]; ++x) {
-            const std::int64_t next = std::min(x + 1, part.size[0] - 1);
-            to[x] = std::uint32_t{row[x]} | std::uint32_t{row[next]} << 8 |
-                    std::uint32_t{below[x]} << 16 | std::uint32_t{below[next]} << 24;
-        }
-    });
-}
-
 }  // namespace
 
-TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
-                       std::int64_t most_bytes)
-    : volume_(volume),
-      range_(range),
-      parts_(plan.bricks),
-      float_texture_(plan.float_texture),
-      for_cells_(plan.integrates_cells()) {
-    // Rays that are integrated cell by cell fetch few cells: a copy would take longer than it
-    // saves.
-    const bool quads = volume.type() == SampleType::uint8 && !plan.float_texture &&
-                       !plan.integrates_cells() &&
-                       (4 * volume.grid().sample_count() <= most_bytes || volume.byte_count() < 4);
+TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
+    : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
     const bool whole = plan.bricks.size() == 1;
     for (const TextureBrick& part : plan.bricks) {
         TileBrick brick;
         brick.layout = plan.float_texture                   ? TileLayout::floats
                        : volume.type() != SampleType::uint8 ? TileLayout::words
-                       : quads                              ? TileLayout::quads
                                                             : TileLayout::bytes;
         for (std::size_t axis = 0; axis < 3; ++axis)
             brick.last_sample[axis] = static_cast<float>(part.size[axis] - 1);
         brick.row = part.size[1] > 1 ? static_cast<std::int32_t>(part.size[0]) : 0;
         brick.slice = part.size[2] > 1 ? static_cast<std::int32_t>(part.size[0] * part.size[1]) : 0;
         normalise(range, brick);
-        const bool as_it_is =
-            brick.layout == TileLayout::bytes || brick.layout == TileLayout::words;
-        if (whole && as_it_is && volume.byte_count() >= 4) {
+        if (whole && brick.layout != TileLayout::floats && volume.byte_count() >= 4) {
             refer_to_volume(brick);
         } else {
             copy_brick(part, brick);
@@ -105,10 +77,6 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
     brick.samples = copy.data();
     brick.last_word = static_cast<std::int32_t>(std::min<std::int64_t>(
         4 * static_cast<std::int64_t>(copy.size()) - 4, std::numeric_limits<std::int32_t>::max()));
-    if (brick.layout == TileLayout::quads) {
-        fill_quads(grid, part, static_cast<const std::uint8_t*>(volume_.data()), copy.data());
-        return;
-    }
     volume_.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
         const double scale = 1 / (range_.hi - range_.lo);
@@ -138,7 +106,7 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
 bool TileVolume::serves(const Volume& volume, const ValueRange& range,
                         const SlicePlan& plan) const {
     return volume.data() == volume_.data() && range == range_ && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_ && plan.integrates_cells() == for_cells_;
+           plan.float_texture == float_texture_;
 }
 
 std::int64_t TileVolume::byte_count() const {

@@ -14,21 +14,18 @@ namespace lamina {
 
 // How the samples of a brick are stored.
 enum class TileLayout {
-    quads,  // uint8; at each sample a word holds (x, y), (x+1, y), (x, y+1), (x+1, y+1) in its four
-            // bytes, lowest first, so that one gather fetches them
-    bytes,  // uint8 as in the volume
-    words,  // int16 or uint16 as in the volume
+    bytes,   // uint8 as in the volume
+    words,   // int16 or uint16 as in the volume
     floats,  // normalised to the volume's range; NaN where not finite
 };
 
 // Bytes from one element to the next.
-inline std::size_t bytes_of_sample(TileLayout layout) {
+constexpr std::size_t bytes_of_sample(TileLayout layout) {
     switch (layout) {
         case TileLayout::bytes:
             return 1;
         case TileLayout::words:
             return 2;
-        case TileLayout::quads:
         case TileLayout::floats:
             return 4;
     }
@@ -37,7 +34,7 @@ inline std::size_t bytes_of_sample(TileLayout layout) {
 
 // A brick in the form that vectors address: with 32-bit indices, x fastest.
 struct TileBrick {
-    TileLayout layout = TileLayout::quads;
+    TileLayout layout = TileLayout::bytes;
     const void* samples = nullptr;
     std::int32_t row = 0, slice = 0;  // elements to the next y and z; 0 on an axis with one sample
     std::int32_t last_word = 0;  // for bytes and words: offset of the last whole 32 bits, in bytes
@@ -51,12 +48,8 @@ struct TileBrick {
 // The bricks of a plan. They may refer to the volume's own samples, which are kept alive.
 class TileVolume {
   public:
-    // Copies that only save time are not made where they take more bytes than this in all.
-    static constexpr std::int64_t largest_copy = std::int64_t{1} << 31;
-
     // `range`: the scalars that become [0, 1]; lo < hi.
-    TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan,
-               std::int64_t most_bytes);
+    TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
     // Whether it equals what the constructor would make from these arguments.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
@@ -72,7 +65,7 @@ class TileVolume {
     Volume volume_;
     ValueRange range_;
     std::vector<TextureBrick> parts_;
-    bool float_texture_, for_cells_;
+    bool float_texture_;
     std::vector<std::vector<std::uint32_t>> copies_;
     std::vector<TileBrick> bricks_;
 };

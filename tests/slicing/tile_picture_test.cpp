@@ -202,20 +202,26 @@ TEST(TilePictureTest, EmptySpaceIsLeftOutBitForBit) {
     }
 }
 
-// Where a copy of the volume would be too large it is read as it is: the same numbers.
-TEST(TilePictureTest, TheLayoutInMemoryDoesNotChangeThePicture) {
+// Bytes and words are whole numbers in float, so all that follows is the same: rays through volumes
+// with and without a second sample along x, which are fetched in two ways.
+TEST(TilePictureTest, BytesAndWordsGiveThePictureBitForBit) {
     for (const std::array<std::int64_t, 3> size :
          {std::array<std::int64_t, 3>{37, 29, 33}, {1, 29, 33}, {37, 1, 33}, {2, 3, 1}}) {
-        const Volume volume = generate({"mixing", size, SampleType::uint8});
-        Scene scene = unit_box_scene(hues(volume, 3), Projection::perspective, 61, 47);
-        scene.slice.samples = 50;
-        const Facts facts = measure(scene, volume, measure_bricks(volume));
-        const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
-        TileSliceRenderer in_place(volume, scene.transfer_function, facts, plan.slice, scene.width,
-                                   scene.height, 0);
-        in_place.draw(View(scene.camera, scene.width, scene.height));
-        EXPECT_EQ(in_place.read().rgba, render_tiles(volume, scene).rgba);
-        EXPECT_LT(in_place.byte_count(), tile_renderer(volume, scene)->byte_count());
+        const Volume bytes = generate({"mixing", size, SampleType::uint8});
+        const auto* const samples = static_cast<const std::uint8_t*>(bytes.data());
+        const Volume words =
+            test::volume_of<std::uint16_t>(bytes.grid(), [&](double i, double j, double k) {
+                const double index =
+                    (k * static_cast<double>(size[1]) + j) * static_cast<double>(size[0]) + i;
+                return samples[static_cast<std::size_t>(index)];
+            });
+        for (const Classification classification :
+             {Classification::post, Classification::preintegrated, Classification::exact}) {
+            Scene scene = unit_box_scene(hues(bytes, 3), Projection::perspective, 61, 47);
+            scene.slice.samples = 50;
+            scene.slice.classification = classification;
+            EXPECT_EQ(render_tiles(bytes, scene).rgba, render_tiles(words, scene).rgba);
+        }
     }
 }
 
