@@ -22,6 +22,9 @@ namespace lamina {
 struct SessionOptions {
     ContextChoice context = ContextChoice::automatic;
     int threads = 0;  // that the session takes at most; 0: one for each processor
+    // Many pictures will be drawn: choices may take longer where they make each of them quicker.
+    // Otherwise the time to the first one counts.
+    bool many_frames = false;
 };
 
 // Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in

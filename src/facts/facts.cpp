@@ -9,10 +9,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
+#include "optics/front_weights.h"
+#include "optics/linear_pieces.h"
 
 namespace lamina {
 namespace {

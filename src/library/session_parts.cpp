@@ -28,6 +28,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
     : scene(std::move(first)),
       choice(options.context),
       threads(arena_threads(options.threads)),
+      many_frames(options.many_frames),
       warnings(scene.warnings) {
     check_view(scene.camera, scene.width, scene.height);
 }
@@ -64,6 +65,7 @@ SceneRenderer& Session::Parts::renderer() {
         case Method::slice:
             volume_data();
             drawn = std::make_unique<SceneRenderer>(scene, volume, context->capabilities());
+            if (many_frames) drawn->expect_many_frames();
             return *drawn;
         case Method::project:
             mesh_data();

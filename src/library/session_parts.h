@@ -61,6 +61,7 @@ struct Session::Parts {
     Scene scene;
     ContextChoice choice;
     tbb::task_arena threads;
+    bool many_frames;
     std::unique_ptr<DrawContext> context;
     std::shared_ptr<const VolumeData> volume;
     std::shared_ptr<const SceneMesh> mesh;

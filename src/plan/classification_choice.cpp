@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/classification_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/error.h"
@@ -25,7 +27,8 @@ void check_exact(const Scene& scene, const Capabilities& capabilities) {
 
 }  // namespace
 
-ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities) {
+ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
+                                           const SampleTrials& trials) {
     const Classification asked = scene.slice.classification;
     if (asked == Classification::exact) check_exact(scene, capabilities);
     if (asked != Classification::automatic) return {asked, {}};
@@ -33,8 +36,21 @@ ClassificationChoice choose_classification(const Scene& scene, const Capabilitie
         return {Classification::post, "exact segments need the native engine (--context cpu)"};
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, "exact segments have no use for the hardware's filter"};
+    const auto quicker = std::ranges::find_if(trials.exact, &SlabTrial::keeps_goal);
+    if (may_be_quicker(scene) && quicker != trials.exact.end()) {
+        return {Classification::post,
+                fmt::format("of many frames each is quicker: {} slabs, less than {:.2g} a voxel, "
+                            "keep the error",
+                            quicker->slabs, quicker_slabs_per_voxel)};
+    }
     return {Classification::exact,
             "a ray is integrated cell by cell: no number of slabs has to be tried"};
+}
+
+bool may_be_quicker(const Scene& scene) {
+    return scene.slice.classification == Classification::automatic && !scene.slice.samples &&
+           !scene.slice.tree && !scene.slice.dither && scene.target == Target::float32 &&
+           !scene.automatic_target;
 }
 
 Scene with_classification(Scene scene, Classification classification) {

@@ -5,6 +5,7 @@
 
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
+#include "plan/sample_trials.h"
 
 namespace lamina {
 
@@ -17,9 +18,19 @@ struct ClassificationChoice {
     std::string reason;  // empty where the scene names the classification
 };
 
-// The choice of "classification": "auto" for slicing. Throws Error where the context or the filter
-// cannot do what the scene asks for.
-ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities);
+// The choice of "classification": "auto" for slicing: exact segments where the context has them,
+// unless `trials` found few enough slabs that are quicker (slicing/slab_trials.h). Throws Error
+// where the context or the filter cannot do what the scene asks for.
+ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
+                                           const SampleTrials& trials = {});
+
+// Post-classified slabs, two a voxel, take less of a frame than exact segments: measured, these
+// take as long as 2.7 or more (docs/precision.md).
+inline constexpr double quicker_slabs_per_voxel = 2;
+
+// Whether trials may find slabs that are quicker than the exact segments which "auto" chooses: not
+// for targets whose error grows with the number of slabs.
+bool may_be_quicker(const Scene& scene);
 
 // The scene with a classification and, where exact segments make them equally good, a number of
 // slabs: that of the tree, or 1.

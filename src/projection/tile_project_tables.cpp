@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/stage.h"
+#include "executors/shader_intervals.h"
 #include "optics/front_weights.h"
 #include "optics/linear_pieces.h"
-#include "executors/shader_intervals.h"
 
 namespace lamina {
 

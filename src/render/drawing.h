@@ -25,8 +25,10 @@ class Drawing {
     // for the first view. What that plan has settled for all views is not measured again.
     virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
 
-    // Draws trial pictures where an automatic choice needs them.
-    virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/) {}
+    // Draws trial pictures where an automatic choice needs them. `many_frames`: also where they
+    // may make later frames quicker.
+    virtual void make_trials(const Scene& /*scene*/, const Capabilities& /*capabilities*/,
+                             bool /*many_frames*/) {}
     // `for_people`: the plan also says how much work each omission saves.
     virtual Plan plan(const Scene& scene, const Capabilities& capabilities,
                       const OmissionSwitch& omissions, bool for_people) const = 0;

@@ -65,6 +65,11 @@ void SceneRenderer::set_scene(Scene scene) {
     choose_again();
 }
 
+void SceneRenderer::expect_many_frames() {
+    many_frames_ = true;
+    choose_again();
+}
+
 void SceneRenderer::choose_again() {
     resolved_.reset();
     plan_.reset();
@@ -99,7 +104,7 @@ const Plan& SceneRenderer::plan() {
     const bool first = !resolved_;
     if (first) {
         Stage trying("trials");
-        drawing_->make_trials(asked_, capabilities_);
+        drawing_->make_trials(asked_, capabilities_, many_frames_);
         ++counts_.trials;
         stages_ms_["trials"] = trying.end();
     }

@@ -51,6 +51,9 @@ class SceneRenderer {
     // Replaces the scene by another one with the same data and method.
     void set_scene(Scene scene);
     void choose_again();
+    // Choices take longer from now on where they make every frame quicker. Without, the time to the
+    // first picture counts.
+    void expect_many_frames();
 
     // The scene as it was asked for, with "auto"; and the scene with what was chosen instead, which
     // save_scene() can write.
@@ -98,6 +101,7 @@ class SceneRenderer {
     OmissionSwitch omissions_;
     std::unique_ptr<Drawing> drawing_;
     bool data_measured_ = false, view_measured_ = false, planned_ = false;
+    bool many_frames_ = false;
     std::optional<Plan> plan_;
     std::unique_ptr<FrameRenderer> renderer_;
     bool renderer_fits_ = false;  // it has the scene's transfer function and size

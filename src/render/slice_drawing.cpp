@@ -30,8 +30,9 @@ void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
     }
 }
 
-void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities) {
-    trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities);
+void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities,
+                               bool many_frames) {
+    trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities, many_frames);
 }
 
 Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,

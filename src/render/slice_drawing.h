@@ -17,7 +17,8 @@ class SliceDrawing : public Drawing {
     const char* activity() const override { return "slicing"; }
     void measure_data(const Scene& scene) override;
     void measure_view(const Scene& scene, const Plan* planned) override;
-    void make_trials(const Scene& scene, const Capabilities& capabilities) override;
+    void make_trials(const Scene& scene, const Capabilities& capabilities,
+                     bool many_frames) override;
     Plan plan(const Scene& scene, const Capabilities& capabilities, const OmissionSwitch& omissions,
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;

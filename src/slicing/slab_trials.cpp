@@ -74,7 +74,7 @@ double rays_of(const Scene& scene) {
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
-               const Facts& facts, double rays, bool last,
+               const Facts& facts, int most, double rays, bool last,
                std::shared_ptr<const TileVolume> ready = nullptr)
         : asked_(scene),
           last_(last),
@@ -83,18 +83,17 @@ class SlabTrials {
           bricks_(bricks),
           facts_(seen_by(scene_, facts)),
           ready_(std::move(ready)),
-          most_(std::clamp(slabs_per_voxel(facts_, most_slabs_per_voxel), fewest_most_slabs,
-                           max_slabs / finer)),
+          most_(most),
           all_traced_(rays_of(scene_) <= all_traced_rays),
           truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
                  std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
                             coarsest_tolerance)) {}
 
-    std::vector<SlabTrial> run(int first) {
-        std::vector<SlabTrial> trials = run_from(first, Filter::exact);
-        if (std::ranges::none_of(trials, &SlabTrial::keeps_goal))
-            trials.push_back(try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact));
-        return trials;
+    std::vector<SlabTrial> run(int first) { return run_from(first, Filter::exact); }
+
+    // Where more slabs do not help.
+    SlabTrial try_two_a_voxel() {
+        return try_slabs(std::min(slabs_per_voxel(facts_, 2), most_), Filter::exact);
     }
 
     void try_fewer(int enough, std::vector<SlabTrial>& trials) {
@@ -229,21 +228,46 @@ bool shows_something(const Facts& facts) {
     return !facts.occupied.empty() && facts.far_depth > facts.near_depth;
 }
 
-// What is right by chance on some rays need not be so on others: fewer slabs are tried for all rays
-// alone.
+bool some_keep_goal(const std::vector<SlabTrial>& trials) {
+    return std::ranges::any_of(trials, &SlabTrial::keeps_goal);
+}
+
+// Up to `most` slabs. What is right by chance on some rays need not be so on others: fewer slabs
+// are tried for all rays alone.
 std::vector<SlabTrial> try_numbers(const Scene& scene, const Volume& volume,
-                                   const MinMaxBricks& bricks, const Facts& facts) {
+                                   const MinMaxBricks& bricks, const Facts& facts, int most) {
     const bool small = rays_of(scene) <= all_traced_rays;
-    SlabTrials first(scene, volume, bricks, facts, small ? all_traced_rays : first_rays, small);
+    SlabTrials first(scene, volume, bricks, facts, most, small ? all_traced_rays : first_rays,
+                     small);
     SampleTrials trials{first.run(slabs_per_voxel(facts, 1)), {}};
+    if (!some_keep_goal(trials.exact)) {
+        trials.exact.push_back(first.try_two_a_voxel());
+        if (!trials.exact.back().keeps_goal()) return trials.exact;
+    }
     const SlabTrial found = chosen_slabs(facts, trials);
-    if (!found.keeps_goal()) return trials.exact;
     if (!small) {
-        SlabTrials second(scene, volume, bricks, facts, most_rays, true, first.ready());
-        return second.run(found.slabs);
+        SlabTrials second(scene, volume, bricks, facts, most, most_rays, true, first.ready());
+        std::vector<SlabTrial> all = second.run(found.slabs);
+        if (!some_keep_goal(all)) all.push_back(second.try_two_a_voxel());
+        return all;
     }
     if (!are_of_second_order(trials.exact)) first.try_fewer(found.slabs, trials.exact);
     return trials.exact;
+}
+
+int most_slabs(const Facts& facts) {
+    return std::clamp(slabs_per_voxel(facts, most_slabs_per_voxel), fewest_most_slabs,
+                      max_slabs / finer);
+}
+
+// Empty where exact segments are as quick.
+std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
+                                   const MinMaxBricks& bricks, const Facts& facts) {
+    const Scene scene = with_classification(asked, Classification::post);
+    const int most = std::min(slabs_per_voxel(facts, quicker_slabs_per_voxel), most_slabs(facts));
+    std::vector<SlabTrial> trials = try_numbers(scene, volume, bricks, facts, most);
+    if (!some_keep_goal(trials)) trials.clear();
+    return trials;
 }
 
 // What texture units make of NaN is their own.
@@ -255,15 +279,20 @@ bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capa
 }  // namespace
 
 SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxBricks& bricks,
-                         const Facts& facts, const Capabilities& capabilities) {
+                         const Facts& facts, const Capabilities& capabilities, bool many_frames) {
     SampleTrials trials;
     if (asked.method != Method::slice || !shows_something(facts)) return trials;
     const Scene scene =
         with_classification(asked, choose_classification(asked, capabilities).classification);
-    if (scene.slice.classification == Classification::exact) return trials;
-    if (!scene.slice.samples) trials.exact = try_numbers(scene, volume, bricks, facts);
+    if (scene.slice.classification == Classification::exact) {
+        if (many_frames && may_be_quicker(asked))
+            trials.exact = try_quicker(asked, volume, bricks, facts);
+        return trials;
+    }
+    if (!scene.slice.samples)
+        trials.exact = try_numbers(scene, volume, bricks, facts, most_slabs(facts));
     if (!may_filter(scene, facts, capabilities)) return trials;
-    SlabTrials filtered(scene, volume, bricks, facts, filter_rays, true);
+    SlabTrials filtered(scene, volume, bricks, facts, most_slabs(facts), filter_rays, true);
     if (scene.slice.samples) {
         trials.hardware = {filtered.try_filter(*scene.slice.samples)};
     } else if (const SlabTrial exact = chosen_slabs(facts, trials); exact.keeps_goal()) {

@@ -23,7 +23,12 @@ namespace lamina {
 // For "filter": "auto", in a context whose texture units have weights worth using, the same is done
 // with such weights. The search then starts from the number of slabs that exact scalars need. Where
 // the scene gives the number of slabs, only that number is tried.
+//
+// Where "classification": "auto" has exact segments, no number is tried for one picture: the search
+// would take longer than it saves. For `many_frames` post-classified slabs are tried, as long as
+// they are few enough to be quicker (quicker_slabs_per_voxel); where they do not keep the goal the
+// result is empty.
 SampleTrials try_samples(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
-                         const Facts& facts, const Capabilities& capabilities);
+                         const Facts& facts, const Capabilities& capabilities, bool many_frames);
 
 }  // namespace lamina

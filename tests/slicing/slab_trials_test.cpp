@@ -21,10 +21,10 @@ struct Tried {
 };
 
 Tried try_slabs(const Scene& scene, const Volume& volume,
-                const Capabilities& capabilities = tile_capabilities()) {
+                const Capabilities& capabilities = tile_capabilities(), bool many_frames = false) {
     const MinMaxBricks bricks = measure_bricks(volume);
     Tried tried{measure(scene, volume, bricks), {}};
-    tried.trials = try_samples(scene, volume, bricks, tried.facts, capabilities);
+    tried.trials = try_samples(scene, volume, bricks, tried.facts, capabilities, many_frames);
     return tried;
 }
 
@@ -35,6 +35,60 @@ Image draw(const Volume& volume, const Scene& scene, const Tried& tried) {
                             tile_capabilities(), scene.width, scene.height);
     renderer->draw(View(scene.camera, scene.width, scene.height));
     return renderer->read();
+}
+
+Tried try_for_many_frames(const Scene& scene, const Volume& volume) {
+    return try_slabs(scene, volume, tile_capabilities(), true);
+}
+
+Classification classification_of(const Scene& scene, const Tried& tried) {
+    return make_plan(scene, tried.facts, tile_capabilities(), {}, tried.trials)
+        .slice.classification;
+}
+
+// Of many frames each is to be quick: where few slabs keep the error, these are drawn.
+TEST(SlabTrials, ManyFramesOfSmoothPicturesTakeFewSlabs) {
+    const Volume volume = gaussians(48);
+    Scene scene = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+    scene.slice = {};
+    EXPECT_TRUE(try_slabs(scene, volume).trials.exact.empty());
+    const Tried tried = try_for_many_frames(scene, volume);
+    EXPECT_EQ(classification_of(scene, tried), Classification::post);
+    EXPECT_LE(tried.chosen().slabs, slabs_per_voxel(tried.facts, quicker_slabs_per_voxel));
+    const Image traced = trace(volume, scene, 1e-7);
+    EXPECT_LE(image_error(draw(volume, scene, tried), traced).all.linf, scene.max_error);
+}
+
+TEST(SlabTrials, ManyFramesKeepExactSegmentsWhereFewSlabsDoNotDo) {
+    const Volume volume = gaussians(48);
+    const TransferFunction peak = TransferFunction::linear(
+        {knot(.5, {1, 1, 1}, 0), knot(.501, {1, .5, 0}, 200), knot(.502, {0, 0, 1}, 0)});
+    Scene scene = unit_box_scene(peak, Projection::perspective);
+    scene.slice = {};
+    const Tried tried = try_for_many_frames(scene, volume);
+    EXPECT_TRUE(tried.trials.exact.empty());
+    EXPECT_EQ(classification_of(scene, tried), Classification::exact);
+}
+
+// Where the error grows with the slabs, or the scene says how many there are, none are tried.
+TEST(SlabTrials, ManyFramesTryNothingWhereSlabsAreGivenOrRounded) {
+    const Volume volume = gaussians(24);
+    Scene automatic = unit_box_scene(smooth_transfer_function(), Projection::perspective);
+    automatic.slice = {};
+    const auto expect_exact = [&](const Scene& scene) {
+        const Tried tried = try_for_many_frames(scene, volume);
+        EXPECT_TRUE(tried.trials.exact.empty());
+        EXPECT_EQ(classification_of(scene, tried), Classification::exact);
+    };
+    Scene scene = automatic;
+    scene.slice.samples = 64;
+    expect_exact(scene);
+    scene = automatic;
+    scene.target = Target::fixed8;
+    expect_exact(scene);
+    scene = automatic;
+    scene.slice.tree = TreeSettings{.factors = {8, 8}};
+    expect_exact(scene);
 }
 
 // Pictures of as many slabs as the trials choose keep the error; those of half as many, whose error

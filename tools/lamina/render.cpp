@@ -105,7 +105,8 @@ void run(const RenderOptions& options) {
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
-    const auto job = make_job({scene, omissions, context, !options.stats.empty(), say});
+    const auto job =
+        make_job({scene, omissions, context, !options.stats.empty(), options.frames > 0, say});
     RenderStats stats;
     const Plan plan = job->plan(stats);
     const std::string explanation = job->explanation(plan);

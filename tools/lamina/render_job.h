@@ -20,6 +20,7 @@ struct RenderRequest {
     const OmissionSwitch& omissions;
     ContextChoice context;                            // --context
     bool count_fragments;                             // somebody will read the statistics
+    bool many_frames;                                 // the time of each counts
     std::function<void(const std::string&)> message;  // to stderr, unless --quiet
 };
 

@@ -16,8 +16,10 @@ class SliceMethod : public FrameMethod {
     void load(RenderStats& stats) override { data_ = load_volume_data(request_, stats); }
 
     std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) override {
-        return std::make_unique<SceneRenderer>(request_.scene, data_, capabilities,
-                                               request_.omissions);
+        auto renderer = std::make_unique<SceneRenderer>(request_.scene, data_, capabilities,
+                                                        request_.omissions);
+        if (request_.many_frames) renderer->expect_many_frames();
+        return renderer;
     }
 
     void report_plan(const Plan& plan, RenderStats& stats) override {
