@@ -91,21 +91,15 @@ HWY_INLINE Floats optics_at(const TileTransfer& transfer, std::size_t channel, I
                    look_up<kind>(transfer.left[channel], interval));
 }
 
-// Whether there is extinction anywhere between two scalars: in an interval before the last one, or
-// in the last one. The last interval does not count where `largest` is its left end and the
-// extinction there is 0.
+// Whether there is extinction anywhere from a scalar, which interval `first` holds, to `largest`:
+// in an interval before the last one, or in the last one. The last interval does not count where
+// `largest` is its left end and the extinction there is 0.
 template <Lookup kind>
-HWY_INLINE FloatMask shows_something(const TileTransfer& transfer, Floats least, Floats largest) {
-    const FloatTag d;
-    const Ints first = find_interval<kind>(transfer, least);
+HWY_INLINE FloatMask shows_something(const TileTransfer& transfer, Ints first, Floats largest) {
     const Ints last = find_interval<kind>(transfer, largest);
     const auto before = hn::Gt(look_up<kind>(transfer.shown_before, last),
                                look_up<kind>(transfer.shown_before, first));
-    const Floats share = share_of_interval<kind>(transfer, last, largest);
-    const Floats left = look_up<kind>(transfer.left[3], last);
-    const auto begun = hn::Gt(hn::Add(share, left), hn::Zero(d));
-    const auto shown = hn::Gt(look_up<kind>(transfer.shown, last), hn::Zero(d));
-    return hn::Or(before, hn::And(shown, begun));
+    return hn::Or(before, hn::Gt(largest, look_up<kind>(transfer.shown_beyond, last)));
 }
 
 // The extinction, in double precision.

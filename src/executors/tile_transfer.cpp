@@ -8,10 +8,12 @@
 namespace lamina {
 namespace {
 
+constexpr float beyond_all = 3e38f;  // scalars are at most 1
+
 // Coloured tables are read entry by entry, so extinction stands beside emission.
-TileTransfer::Texels with_extinction(const PreintegrationTable& table) {
+TileTransfer::Aligned with_extinction(const PreintegrationTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
-    TileTransfer::Texels texels(entries * 4 * layers);
+    TileTransfer::Aligned texels(entries * 4 * layers);
     for (std::size_t entry = 0; entry < entries; ++entry) {
         for (std::size_t layer = 0; layer < layers; ++layer) {
             const auto from = static_cast<std::ptrdiff_t>(3 * (layer * entries + entry));
@@ -22,6 +24,20 @@ TileTransfer::Texels with_extinction(const PreintegrationTable& table) {
         }
     }
     return texels;
+}
+
+TileTransfer::Aligned records_of(const TileTransfer& transfer) {
+    const std::size_t size = TileTransfer::record_size;
+    TileTransfer::Aligned records(size * transfer.end.size());
+    for (std::size_t i = 0; i < transfer.end.size(); ++i) {
+        float* to = records.data() + size * i;
+        const auto &left = transfer.left, &change = transfer.change;
+        for (const float value : {left[3][i], change[3][i], transfer.end[i], transfer.right_end[i],
+                                  transfer.inverse_width[i], left[0][i], left[1][i], left[2][i],
+                                  change[0][i], change[1][i], change[2][i]})
+            *to++ = value;
+    }
+    return records;
 }
 
 }  // namespace
@@ -63,11 +79,15 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
         for (std::size_t i = 0; i < left[c].size(); ++i) change[c][i] -= left[c][i];
     }
     right_extinction = component(2, 3);
+    for (int i = 0; i < padded; ++i)
+        right_end.push_back(i + 1 < intervals ? end[static_cast<std::size_t>(i) + 1] : beyond_all);
+    records = records_of(*this);
     float before = 0;
     for (std::size_t i = 0; i < right_extinction.size(); ++i) {
+        const bool at_left = left[3][i] > 0, shows = at_left || right_extinction[i] > 0;
         shown_before.push_back(before);
-        shown.push_back(left[3][i] > 0 || right_extinction[i] > 0 ? 1.0f : 0.0f);
-        before += shown.back();
+        shown_beyond.push_back(!shows ? beyond_all : at_left ? -1 : end[i]);
+        if (shows) ++before;
     }
     left_rest = component(3, 0);
     right_rest = component(3, 1);
@@ -75,7 +95,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
 }
 
 std::int64_t TileTransfer::byte_count() const {
-    const std::size_t per_interval = 4 + 8 + 5;
+    const std::size_t per_interval = 4 + 8 + 6 + record_size;
     return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
                                      sizeof(std::int32_t) * starts.size()) +
            (table ? table->byte_count() : 0);

@@ -33,17 +33,25 @@ struct TileTransfer {
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end
     std::array<std::vector<float>, 4> change;  // from the left end to the right end
     std::vector<float> right_extinction;
+    std::vector<float> right_end;  // of the last interval: beyond all scalars
     // Remainders of the extinctions that float does not hold.
     std::vector<float> left_rest, right_rest;
-    // Number of intervals with extinction before it; whether it has extinction: 0 or 1.
-    std::vector<float> shown_before, shown;
+    // Number of intervals with extinction before it; the scalar beyond which it has extinction
+    // itself
+    // (-1: from its left end on; beyond all scalars: nowhere).
+    std::vector<float> shown_before, shown_beyond;
     std::vector<std::int32_t> starts;  // ShaderIntervals::starts
+
+    // What is looked up of an interval together, in a line of the cache for each: extinction at the
+    // left end, its change, left end, right end; 1 / width, colour at the left end; its change.
+    static constexpr std::size_t record_size = 16;
+    using Aligned = std::vector<float, tbb::cache_aligned_allocator<float>>;
+    Aligned records;
 
     std::shared_ptr<const PreintegrationTable> table;
     // The texels of a coloured table: emission and mean extinction as RGBA. The layers of a pair of
     // scalars lie side by side and are aligned, so that two of them share a line of the cache.
-    using Texels = std::vector<float, tbb::cache_aligned_allocator<float>>;
-    Texels texels;
+    Aligned texels;
     float layers_per_length = 0;
 
     std::int64_t byte_count() const;

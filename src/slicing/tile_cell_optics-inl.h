@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstring>
+
 #include "executors/tile_optics-inl.h"
 #include "slicing/tile_cubic-inl.h"
 #include "tiles/opacity-inl.h"
@@ -22,48 +24,60 @@ inline constexpr float largest_part_depth = 0.75f;
 
 // One interval of the transfer function for each lane. Colour and extinction are linear in the
 // share, which is 0 at the left end and 1 at the right.
-template <Lookup kind>
 struct IntervalLanes {
-    const TileTransfer& transfer;
-    Ints number;
+    Number left_end, right_end;  // the right end of the last interval lies beyond all scalars
+    Number inverse_width;
+    Number left[4], change[4];  // colour and extinction
 
-    HWY_INLINE Number left_end() const { return look_up<kind>(transfer.end, number); }
-    // Beyond all scalars for the last interval.
-    HWY_INLINE Number right_end() const {
-        const FloatTag d;
-        const IntTag di;
-        const Floats beyond = hn::Set(d, 3e38f);
-        if constexpr (kind == Lookup::one) return beyond;
-        const float* const ends = transfer.end.data() + 1;
-        Floats end = beyond;
-        if constexpr (kind == Lookup::permute) {
-            end = hn::TableLookupLanes(hn::LoadU(d, ends), hn::IndicesFromVec(d, number));
-        } else {
-            end = hn::GatherIndex(d, ends, number);
-        }
-        const auto last = hn::Eq(number, hn::Set(di, transfer.intervals - 1));
-        return hn::IfThenElse(hn::RebindMask(d, last), beyond, end);
-    }
-    HWY_INLINE Number inverse_width() const {
-        return look_up<kind>(transfer.inverse_width, number);
-    }
-    HWY_INLINE Number left(std::size_t channel) const {
-        return look_up<kind>(transfer.left[channel], number);
-    }
-    HWY_INLINE Number change(std::size_t channel) const {
-        return look_up<kind>(transfer.change[channel], number);
-    }
     // A colour at a share, both times `opacity`.
     HWY_INLINE Number color(std::size_t channel, Number opacity, Number share) const {
-        return left(channel) * opacity + change(channel) * share;
+        return left[channel] * opacity + change[channel] * share;
     }
     // The share as a cubic, for scalars of this interval.
     HWY_INLINE CubicLanes share_along(const CubicLanes& scalar) const {
-        const Number inverse = inverse_width();
-        return {{(scalar.c[0] - left_end()) * inverse, scalar.c[1] * inverse, scalar.c[2] * inverse,
-                 scalar.c[3] * inverse}};
+        return {{(scalar.c[0] - left_end) * inverse_width, scalar.c[1] * inverse_width,
+                 scalar.c[2] * inverse_width, scalar.c[3] * inverse_width}};
     }
 };
+
+template <Lookup kind>
+HWY_INLINE IntervalLanes interval_lanes(const TileTransfer& transfer, Ints number) {
+    IntervalLanes lanes;
+    lanes.left_end = look_up<kind>(transfer.end, number);
+    lanes.right_end = look_up<kind>(transfer.right_end, number);
+    lanes.inverse_width = look_up<kind>(transfer.inverse_width, number);
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        lanes.left[channel] = look_up<kind>(transfer.left[channel], number);
+        lanes.change[channel] = look_up<kind>(transfer.change[channel], number);
+    }
+    return lanes;
+}
+
+// Records are fetched one by one and transposed, which is faster than a gather for each number.
+template <>
+HWY_INLINE IntervalLanes interval_lanes<Lookup::gather>(const TileTransfer& transfer, Ints number) {
+    const FloatTag d;
+    constexpr std::size_t parts = 3, size = 4;
+    alignas(64) std::int32_t numbers[most_lanes];
+    alignas(64) float records[parts][size * most_lanes];
+    hn::Store(number, IntTag(), numbers);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+        const float* const from =
+            transfer.records.data() +
+            TileTransfer::record_size * static_cast<std::size_t>(numbers[lane]);
+        for (std::size_t part = 0; part < parts; ++part)
+            std::memcpy(records[part] + size * lane, from + size * part, size * sizeof(float));
+    }
+    IntervalLanes lanes;
+    Floats unused;
+    hn::LoadInterleaved4(d, records[0], lanes.left[3].v, lanes.change[3].v, lanes.left_end.v,
+                         lanes.right_end.v);
+    hn::LoadInterleaved4(d, records[1], lanes.inverse_width.v, lanes.left[0].v, lanes.left[1].v,
+                         lanes.left[2].v);
+    hn::LoadInterleaved4(d, records[2], lanes.change[0].v, lanes.change[1].v, lanes.change[2].v,
+                         unused);
+    return lanes;
+}
 
 // A part of a ray in one interval: its share, and extinction times the part's length at share 0 and
 // its change to share 1.

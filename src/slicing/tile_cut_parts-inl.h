@@ -62,6 +62,7 @@ class CutParts {
 
     // The next monotone stretch of each part, as far as it stays in one interval.
     struct Stretch {
+        IntervalLanes interval;
         Number end, at_end, knot;
         FloatMask rising, crosses;
         RootLanes root;
@@ -192,8 +193,7 @@ class CutParts {
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
             for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(lanes[j].cubic);
         }
-        for (std::size_t i = 0; i < used; ++i)
-            done[i] = add_piece<kind>(transfer, colored, stretches[i], lanes[i]);
+        for (std::size_t i = 0; i < used; ++i) done[i] = add_piece(colored, stretches[i], lanes[i]);
     }
 
     template <Lookup kind>
@@ -205,10 +205,10 @@ class CutParts {
                           select(lanes.at < lanes.turns[1], lanes.turns[1], Number(1)));
         next.at_end = lanes.cubic.at(next.end);
         next.rising = next.at_end >= lanes.scalar;
-        const IntervalLanes<kind> interval{transfer, lanes.interval};
+        next.interval = interval_lanes<kind>(transfer, lanes.interval);
         const FloatMask lowest = hn::RebindMask(d, hn::Eq(lanes.interval, hn::Zero(di)));
-        const Number left_end = select(lowest, Number(-3e38f), interval.left_end());
-        next.knot = select(next.rising, interval.right_end(), left_end);
+        const Number left_end = select(lowest, Number(-3e38f), next.interval.left_end);
+        next.knot = select(next.rising, next.interval.right_end, left_end);
         next.crosses = hn::Or(hn::And(next.rising, next.knot < next.at_end),
                               hn::AndNot(next.rising, next.knot > next.at_end));
         next.root.begin(next.knot, lanes.at, next.end, lanes.scalar, next.at_end, next.crosses);
@@ -216,17 +216,14 @@ class CutParts {
     }
 
     // Returns the lanes that have reached the end.
-    template <Lookup kind>
-    static HWY_INLINE FloatMask add_piece(const TileTransfer& transfer, bool colored,
-                                          const Stretch& stretch, Lanes& lanes) {
+    static HWY_INLINE FloatMask add_piece(bool colored, const Stretch& stretch, Lanes& lanes) {
         const IntTag di;
-        const IntervalLanes<kind> interval{transfer, lanes.interval};
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
         Number extent = max(to - lanes.at, Number(0));
-        LinearPart part = part_of<kind>(interval, lanes, extent, at_to);
+        LinearPart part = part_of(stretch.interval, lanes, extent, at_to);
         const FloatMask whole = shorten(part, extent);
-        composite<kind>(interval, part, colored, lanes);
+        composite(stretch.interval, part, colored, lanes);
 
         const Number shortened = max(lanes.at + extent, lanes.at + Number(6e-8f));
         lanes.at = select(whole, to, shortened);
@@ -240,8 +237,7 @@ class CutParts {
     }
 
     // The piece of `extent` from where the parts are, up to where the scalar is `at_to`.
-    template <Lookup kind>
-    static HWY_INLINE LinearPart part_of(const IntervalLanes<kind>& interval, const Lanes& lanes,
+    static HWY_INLINE LinearPart part_of(const IntervalLanes& interval, const Lanes& lanes,
                                          Number extent, Number at_to) {
         const CubicLanes& cubic = lanes.cubic;
         CubicLanes piece;
@@ -250,8 +246,8 @@ class CutParts {
         piece.c[3] = cubic.c[3] * extent * extent * extent;
         piece.c[1] = (at_to - lanes.scalar) - (piece.c[2] + piece.c[3]);
         const Number length = lanes.length * extent;
-        return {interval.share_along(piece), interval.left(3) * length,
-                interval.change(3) * length};
+        return {interval.share_along(piece), interval.left[3] * length,
+                interval.change[3] * length};
     }
 
     // Shortens pieces that are too deep, from their backs. Returns the lanes that stay whole.
@@ -281,8 +277,7 @@ class CutParts {
         }
     }
 
-    template <Lookup kind>
-    static HWY_INLINE void composite(const IntervalLanes<kind>& interval, const LinearPart& part,
+    static HWY_INLINE void composite(const IntervalLanes& interval, const LinearPart& part,
                                      bool colored, Lanes& lanes) {
         const Number depth = part.depth();
         const Number opacity = opacity_from_depth(FloatTag(), depth.v);

@@ -199,17 +199,18 @@ class CellIntegrator {
                  load_number(parts_.cubic[2] + i), load_number(parts_.cubic[3] + i)}};
             const RangeLanes range = range_of(cubic);
             const Floats lowest = clamp01(d, range.lo.v);
-            const IntervalLanes<kind> interval{transfer, find_interval<kind>(transfer, lowest)};
-            const FloatMask crosses = range.hi > interval.right_end();
+            const Ints number = find_interval<kind>(transfer, lowest);
+            const IntervalLanes interval = interval_lanes<kind>(transfer, number);
+            const FloatMask crosses = range.hi > interval.right_end;
             const Number length = load_number(parts_.length + i);
-            const LinearPart part{interval.share_along(cubic), interval.left(3) * length,
-                                  interval.change(3) * length};
+            const LinearPart part{interval.share_along(cubic), interval.left[3] * length,
+                                  interval.change[3] * length};
             const Number depth = part.depth();
             const FloatMask stored = members_from(i);
             FloatMask hard = crosses;
             if (!hn::AllFalse(d, crosses))
                 hard = hn::And(crosses,
-                               shows_something<kind>(transfer, lowest, clamp01(d, range.hi.v)));
+                               shows_something<kind>(transfer, number, clamp01(d, range.hi.v)));
             const Number shown_depth = zero_unless(hn::Not(crosses), depth);
             if (colored_) hard = hn::Or(hard, shown_depth > Number(largest_part_depth));
             hard = hn::And(stored, hard);
@@ -220,9 +221,8 @@ class CellIntegrator {
         if (!cut_.empty()) cut_.run<kind>(transfer, colored_, parts_);
     }
 
-    template <Lookup kind>
-    HWY_INLINE void set_colors(const IntervalLanes<kind>& interval, const LinearPart& part,
-                               Number depth, std::size_t i) {
+    HWY_INLINE void set_colors(const IntervalLanes& interval, const LinearPart& part, Number depth,
+                               std::size_t i) {
         const FloatTag d;
         const FloatMask seen = depth > Number(0);
         if (hn::AllFalse(d, seen)) {

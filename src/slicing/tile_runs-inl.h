@@ -94,8 +94,9 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
             RunScalars run = run_scalars(block, begin, nan_transparent);
             const Floats least = clamp01(d, hn::Min(run.middle, hn::Min(run.front, run.back)));
             const Floats largest = clamp01(d, hn::Max(run.middle, hn::Max(run.front, run.back)));
+            const Ints first = find_interval<kind>(transfer, least);
             const auto seen =
-                hn::And(hn::Gt(run.length, zero), shows_something<kind>(transfer, least, largest));
+                hn::And(hn::Gt(run.length, zero), shows_something<kind>(transfer, first, largest));
             if (hn::AllFalse(d, seen)) {
                 store_run({{zero, zero, zero}, zero}, colored, begin, block);
                 continue;
