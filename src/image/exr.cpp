@@ -67,6 +67,7 @@ void write_pixels(FileStream& stream, const Image& image,
                   const std::map<std::string, std::string>& attributes) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
+    header.zipCompressionLevel() = 2;  // 1 % larger than by default, in three quarters of the time
     for (const auto& [name, text] : attributes) header.insert(name, Imf::StringAttribute(text));
     Imf::FrameBuffer pixels;
     for (int channel = 0; channel < 4; ++channel) {

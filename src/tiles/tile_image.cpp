@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/tile_image.h"
 
-#include "compositing/codes.h"
+#include "base/parallel.h"
 
 namespace lamina {
 
+// Memory is touched for the first time in parallel: the system takes its time to give it.
 TileImage::TileImage(int width, int height)
-    : grid_(width, height), tiles_(static_cast<std::size_t>(grid_.count())) {}
+    : grid_(width, height),
+      tiles_(
+          std::make_unique_for_overwrite<TilePixels[]>(static_cast<std::size_t>(grid_.count()))) {
+    parallel_for(grid_.count(), 1, [&](std::int64_t i) { tile(static_cast<int>(i)) = {}; });
+}
 
 void TileImage::read(float largest_code, Image& image) const {
     image.resize(grid_.width(), grid_.height());
-    for (int number = 0; number < grid_.count(); ++number) {
+    parallel_for(grid_.count(), 8, [&](std::int64_t i) {
+        const auto number = static_cast<int>(i);
         const TileGrid::Tile area = grid_.tile(number);
         const TilePixels& pixels = tile(number);
         for (int row = 0; row < area.height; ++row) {
@@ -23,7 +29,7 @@ void TileImage::read(float largest_code, Image& image) const {
                 rgba[3] = pixels.alpha[place] / largest_code;
             }
         }
-    }
+    });
 }
 
 }  // namespace lamina

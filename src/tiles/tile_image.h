@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "compositing/codes.h"
 #include "lamina/image.h"
@@ -32,12 +32,12 @@ class TileImage {
     // `largest_code`: what stands for 1; 1 where the tiles hold values.
     void read(float largest_code, Image& image) const;
     std::int64_t byte_count() const {
-        return static_cast<std::int64_t>(tiles_.size() * sizeof(TilePixels));
+        return grid_.count() * static_cast<std::int64_t>(sizeof(TilePixels));
     }
 
   private:
     TileGrid grid_;
-    std::vector<TilePixels> tiles_;
+    std::unique_ptr<TilePixels[]> tiles_;
 };
 
 }  // namespace lamina
