@@ -24,7 +24,6 @@ namespace {
 
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
-constexpr std::size_t most_points = 4096;  // the limit of a scene's transfer function
 
 nlohmann::json load(const std::filesystem::path& file) {
     nlohmann::json root = load_json(file);
@@ -66,8 +65,9 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     if (!flat.is_array() || flat.empty() || flat.size() % 4 != 0) {
         fail("{}: {} has {} numbers, expected four for every point", name, key, flat.size());
     }
-    if (flat.size() / 4 > most_points) {
-        fail("{}: {} has {} points, expected at most {}", name, key, flat.size() / 4, most_points);
+    if (flat.size() / 4 > most_scene_points) {
+        fail("{}: {} has {} points, expected at most {}", name, key, flat.size() / 4,
+             most_scene_points);
     }
     std::vector<std::array<double, 4>> rows(flat.size() / 4);
     for (std::size_t i = 0; i < flat.size(); ++i) {

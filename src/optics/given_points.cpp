@@ -30,6 +30,12 @@ class KnotBuilder {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             if (i > 0) add_between(points_[i - 1], points_[i]);
             add_point(i);
+            if (knots_.size() > most_scene_points) {
+                fail(
+                    "slopes of opacity take more than {} pieces up to point {}, expected fewer "
+                    "points",
+                    most_scene_points, i);
+            }
         }
         return std::move(knots_);
     }
@@ -63,10 +69,6 @@ class KnotBuilder {
         for (const OpacitySlopeKnot& knot : follow_opacity(a.density, b.density)) {
             const double value = glm::mix(a.value, b.value, knot.share);
             if (!(value > knots_.back().value && value < b.value)) continue;
-            if (++pieces_ > most_opacity_pieces) {
-                fail("slopes of opacity take more than {} pieces, expected fewer points",
-                     most_opacity_pieces);
-            }
             knots_.push_back(
                 {value,
                  {glm::mix(a.color, b.color, knot.share), knot.optical_depth / unit_length_}});
@@ -76,7 +78,6 @@ class KnotBuilder {
     const std::vector<GivenPoint>& points_;
     double unit_length_;
     std::vector<TransferKnot> knots_;
-    int pieces_ = 0;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <vector>
 
 #include "lamina/transfer_function.h"
@@ -29,10 +30,10 @@ std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& po
 // others. Where opacity is 1 over an interval, or beyond the first or last point, the optical depth
 // over unit_length is opaque_optical_depth; beside a slope it is at most steepest_optical_depth.
 // The points must pass TransferFunction::linear() as linear_in_extinction() has them. Throws Error
-// where there are more pieces than most_opacity_pieces.
+// where there are more knots than a scene file may have points.
 std::vector<TransferKnot> linear_in_opacity(const std::vector<GivenPoint>& points,
                                             double unit_length);
 
-inline constexpr int most_opacity_pieces = 65536;
+inline constexpr std::size_t most_scene_points = 4096;
 
 }  // namespace lamina

@@ -141,7 +141,7 @@ TEST(GivenPoints, MistakesAreSaid) {
                  {"point 2", "for the third time"});
     std::vector<OpacityKnot> zigzag;
     for (int i = 0; i < 4096; ++i) zigzag.push_back({double(i), {1, 1, 1}, double(i % 2)});
-    expect_error(make(zigzag, 1), {"more than 65536 pieces"});
+    expect_error(make(zigzag, 1), {"more than 4096 pieces"});
 }
 
 }  // namespace

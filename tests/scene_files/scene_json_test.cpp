@@ -40,6 +40,7 @@ TEST(SceneJson, KeepsEveryKey) {
         {"/nan", "transparent"},
         {"/mesh", {{"tolerance", .1 + .2}, {"max_tets", 77}, {"kuhn", true}}},
         {"/transfer_function/interpolation", "nearest"},
+        {"/transfer_function/points/0", {{"value", 0}, {"opacity", 1}}},
         {"/camera/projection", "perspective"},
         {"/camera/up", {.1, 1, 1. / 3}},
         {"/camera/fov_y", 33.3},
