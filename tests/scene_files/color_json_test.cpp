@@ -47,16 +47,19 @@ TEST(ColorJson, DisplayValuesAreDecodedForLinearLight) {
 }
 
 TEST(ColorJson, MistakesAreSaid) {
-    const std::pair<nlohmann::json, std::initializer_list<std::string>> mistakes[] = {
-        {"tomatoe", {"points.1.color", "tomatoe", "did you mean \"tomato\"?"}},
-        {"#12345", {"points.1.color", "#12345", "six hexadecimal digits"}},
-        {7, {"points.1.color", "7", "[r, g, b], \"#rrggbb\""}},
-        {{{"srgb", {0, 0, 1.5}}}, {"points.1.color.srgb", "three numbers from 0 to 1"}},
-        {{{"srbg", {0, 0, 1}}}, {"points.1.color.srgb", "three finite numbers"}},
-        {{{"srgb", {0, 0, 1}}, {"a", 1}}, {"points.1.color.a", "unknown key"}},
-        {{0, -1, 0}, {"points.1.color", "components from 0 to 1e30"}}};
-    for (const auto& [color, parts] : mistakes)
+    const auto expect_refused = [](const nlohmann::json& color,
+                                   std::initializer_list<std::string> parts) {
         expect_error([&] { read_scene(colored(color, "display"), "s"); }, parts);
+    };
+    const nlohmann::json bright{{"srgb", {0, 0, 1.5}}}, misspelt{{"srbg", {0, 0, 1}}};
+    const nlohmann::json more{{"srgb", {0, 0, 1}}, {"a", 1}};
+    expect_refused("tomatoe", {"points.1.color", "tomatoe", "did you mean \"tomato\"?"});
+    expect_refused("#12345", {"points.1.color", "#12345", "six hexadecimal digits"});
+    expect_refused(7, {"points.1.color", "7", "[r, g, b], \"#rrggbb\""});
+    expect_refused(bright, {"points.1.color.srgb", "three numbers from 0 to 1"});
+    expect_refused(misspelt, {"points.1.color.srgb", "three finite numbers"});
+    expect_refused(more, {"points.1.color.a", "unknown key"});
+    expect_refused({0, -1, 0}, {"points.1.color", "components from 0 to 1e30"});
     expect_error([] { read_scene(with("/image/background", "grren"), "s"); },
                  {"image.background", "did you mean \"green\"?"});
     expect_error([] { read_scene(with("/image/color_space", "srgb"), "s"); },

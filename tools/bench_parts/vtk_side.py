@@ -151,7 +151,7 @@ class Window:
         width, height = self.size
         self.frame_ms(0)
         pixels = vtk.vtkUnsignedCharArray()
-        self.window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels)
+        self.window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
         return numpy_support.vtk_to_numpy(pixels).reshape(height, width, 3)[::-1]
 
     def close(self):
