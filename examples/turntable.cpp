@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
         session.set_camera(lamina::turned(first, 360.0 * i / views));
         const lamina::Image& picture = session.draw();
         lamina::save_picture(picture, folder / (std::to_string(1000 + i).substr(1) + ".png"),
-                             session.scene().background);
+                             session.scene().background, session.scene().color_space);
         std::printf("view %d: %.1f ms\n", i, session.statistics().draw_ms);
     }
     for (const std::string& warning : session.take_warnings())

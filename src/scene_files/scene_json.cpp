@@ -129,6 +129,7 @@ Json scene_json(const Scene& scene) {
     json["camera"] = camera_json(scene.camera);
     json["image"] = {{"width", scene.width},
                      {"height", scene.height},
+                     {"color_space", name_of(scene.color_space)},
                      {"background", vector_json(scene.background)}};
     json["render"] = render_json(scene);
     return json;

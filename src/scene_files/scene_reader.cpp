@@ -10,6 +10,8 @@
 #include "base/shortened.h"
 #include "image/image_limits.h"
 #include "scene/camera.h"
+#include "scene_files/color_json.h"
+#include "scene_files/data_range.h"
 #include "scene_files/data_reader.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/project_reader.h"
@@ -48,6 +50,13 @@ Camera read_camera(JsonReader reader) {
     return camera;
 }
 
+// What colours mean is known before the first one is read.
+ImageColorSpace read_color_space(JsonReader& reader) {
+    if (!reader.has("image")) reader.reject("image", "an object {...}");
+    return reader.object("image").choice<ImageColorSpace>("color_space",
+                                                          enum_words<ImageColorSpace>());
+}
+
 void read_image(JsonReader reader, Scene& scene) {
     const std::int64_t width = reader.whole("width", 1, max_image_side);
     const std::int64_t height = reader.whole("height", 1, max_image_side);
@@ -57,7 +66,8 @@ void read_image(JsonReader reader, Scene& scene) {
     }
     scene.width = static_cast<int>(width);
     scene.height = static_cast<int>(height);
-    scene.background = reader.vector_or("background", scene.background);
+    reader.has("color_space");  // read_color_space() has read it
+    scene.background = read_color(reader, "background", scene.background, scene.color_space);
     reader.close();
 }
 
@@ -157,13 +167,15 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     reader.whole("version", 1, 1);
     read_data(reader, scene);
     if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
+    scene.color_space = read_color_space(reader);
     JsonReader transfer_function = reader.object("transfer_function");
-    if (transfer_function.has("colormap"))
-        scene.colormap_file = transfer_function.path_of("colormap");
-    scene.transfer_function = read_transfer_function(transfer_function, &scene.warnings);
+    scene.colormap_file = colormap_file_of(transfer_function);
+    scene.transfer_function =
+        read_transfer_function(transfer_function, {.space = scene.color_space,
+                                                   .data_range = [&] { return data_range(scene); },
+                                                   .warnings = &scene.warnings});
     if (!reader.has("camera")) reader.reject("camera", "an object {...}");
     scene.camera = read_camera(reader.object("camera"));
-    if (!reader.has("image")) reader.reject("image", "an object {...}");
     read_image(reader.object("image"), scene);
     read_render(reader.object("render"), scene);
     reader.close();

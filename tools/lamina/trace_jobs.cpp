@@ -44,7 +44,8 @@ class VolumeTraceJob : public RenderJob {
     void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
-        return picture.write(result_->image, request_.scene.background, attributes);
+        return picture.write(result_->image, request_.scene.background, attributes,
+                             request_.scene.color_space);
     }
 
   private:
@@ -97,7 +98,8 @@ class MeshTraceJob : public RenderJob {
     void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
-        return picture.write(result_->image, request_.scene.background, attributes);
+        return picture.write(result_->image, request_.scene.background, attributes,
+                             request_.scene.color_space);
     }
 
   private:
