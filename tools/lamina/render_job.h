@@ -10,6 +10,7 @@
 #include "plan/plan.h"
 #include "render/context_choice.h"
 #include "render_stats.h"
+#include "scene_data.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -17,6 +18,7 @@ namespace lamina {
 // What a job of `lamina render` is given; all outlive it.
 struct RenderRequest {
     const Scene& scene;
+    const SceneData& data;
     const OmissionSwitch& omissions;
     ContextChoice context;                            // --context
     bool count_fragments;                             // somebody will read the statistics
