@@ -8,8 +8,9 @@
 
 namespace lamina {
 
-// An image of associated (premultiplied) RGBA in linear light, before any background. Row 0 is the
-// top. Pixels are stored row by row, four numbers each.
+// An image of associated (premultiplied) RGBA before any background, in linear light unless
+// Scene::color_space says otherwise. Row 0 is the top. Pixels are stored row by row, four numbers
+// each.
 template <typename Real>
 struct RgbaImage {
     int width = 0;

@@ -12,6 +12,7 @@
 #include "lamina/emulation.h"
 #include "lamina/export.h"
 #include "lamina/generator_request.h"
+#include "lamina/image_color_space.h"
 #include "lamina/mesh_settings.h"
 #include "lamina/project_settings.h"
 #include "lamina/slice_settings.h"
@@ -43,7 +44,9 @@ struct Scene {
     std::vector<std::string> chosen;  // what was, for people; empty where nothing was automatic
     int width = 800;
     int height = 600;
-    glm::dvec3 background{0};  // linear
+    // What colours and background are given in, and pictures composited in.
+    ImageColorSpace color_space = ImageColorSpace::linear;
+    glm::dvec3 background{0};
     Method method = Method::slice;
     Target target = Target::float32;
     bool automatic_target = false;  // "target": "auto": the plan chooses

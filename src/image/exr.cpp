@@ -22,6 +22,7 @@
 namespace lamina {
 namespace {
 
+constexpr const char* space_attribute = "color_space";
 constexpr const char* rgba_names[4] = {"R", "G", "B", "A"};
 constexpr std::size_t pixel_bytes = 4 * sizeof(float);
 
@@ -64,10 +65,12 @@ Imf::Slice slice(const Image& image, int channel, const Imath::Box2i& window, do
 }
 
 void write_pixels(FileStream& stream, const Image& image,
-                  const std::map<std::string, std::string>& attributes) {
+                  const std::map<std::string, std::string>& attributes, ImageColorSpace space) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [name, text] : attributes) header.insert(name, Imf::StringAttribute(text));
+    if (space != ImageColorSpace::linear)
+        header.insert(space_attribute, Imf::StringAttribute(name_of(space)));
     Imf::FrameBuffer pixels;
     for (int channel = 0; channel < 4; ++channel) {
         header.channels().insert(rgba_names[channel], Imf::Channel(Imf::FLOAT));
@@ -97,6 +100,13 @@ Contents contents(const Imf::ChannelList& channels) {
     // Y beside RY and BY is the luminance of a colour picture, not a grey one.
     found.grey = !has("R") && !has("G") && !has("B") && has("Y") && !has("RY") && !has("BY");
     return found;
+}
+
+ImageColorSpace space_of(const Imf::Header& header) {
+    const auto* const attribute = header.findTypedAttribute<Imf::StringAttribute>(space_attribute);
+    return attribute != nullptr && attribute->value() == name_of(ImageColorSpace::display)
+               ? ImageColorSpace::display
+               : ImageColorSpace::linear;
 }
 
 Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
@@ -130,16 +140,36 @@ Image read_pixels(const std::string& name, std::uint64_t file_bytes) {
     return image;
 }
 
+// Calls read(bytes of the file), and turns what OpenEXR throws into Error.
+template <typename Read>
+auto read_with(const std::filesystem::path& path, const Read& read) {
+    const std::uint64_t file_bytes = length_of_file(path);
+    check_exr_header(path, file_bytes);
+    // Makes OpenEXR refuse such headers before it takes memory for its own tables.
+    Imf::Header::setMaxImageSize(max_image_side, max_image_side);
+    Imf::Header::setMaxTileSize(max_image_side, max_image_side);
+    try {
+        return read(file_bytes);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string why = one_line(error.what());
+        const std::size_t begin = why.find("\". ");  // after: Cannot read image file "NAME".
+        if (begin != std::string::npos) why.erase(0, begin + 3);
+        fail("{}: cannot read as OpenEXR: {}", path.string(), why);
+    }
+}
+
 }  // namespace
 
 void write_exr(AtomicFile& file, const Image& image,
-               const std::map<std::string, std::string>& attributes) {
+               const std::map<std::string, std::string>& attributes, ImageColorSpace space) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
     require_finite(name, image);
     FileStream stream(file);
     try {
-        write_pixels(stream, image, attributes);
+        write_pixels(stream, image, attributes, space);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
@@ -150,21 +180,13 @@ void write_exr(AtomicFile& file, const Image& image,
 }
 
 Image read_exr(const std::filesystem::path& path) {
-    const std::uint64_t file_bytes = length_of_file(path);
-    check_exr_header(path, file_bytes);
-    // Makes OpenEXR refuse such headers before it takes memory for its own tables.
-    Imf::Header::setMaxImageSize(max_image_side, max_image_side);
-    Imf::Header::setMaxTileSize(max_image_side, max_image_side);
-    try {
-        return read_pixels(path.string(), file_bytes);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        std::string why = one_line(error.what());
-        const std::size_t begin = why.find("\". ");  // after: Cannot read image file "NAME".
-        if (begin != std::string::npos) why.erase(0, begin + 3);
-        fail("{}: cannot read as OpenEXR: {}", path.string(), why);
-    }
+    return read_with(
+        path, [&](std::uint64_t file_bytes) { return read_pixels(path.string(), file_bytes); });
+}
+
+ImageColorSpace color_space_of_exr(const std::filesystem::path& path) {
+    return read_with(
+        path, [&](std::uint64_t) { return space_of(Imf::InputFile(path.c_str()).header()); });
 }
 
 }  // namespace lamina

@@ -7,18 +7,25 @@
 
 #include "base/atomic_file.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
 // Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings.
+// Display values are marked by one more, "color_space" of "display"; without it a file holds linear
+// light.
 // There is no time stamp: equal images make equal files. Throws Error where a component is not
 // finite or the disk is full. The caller commits the file.
 void write_exr(AtomicFile& file, const Image& image,
-               const std::map<std::string, std::string>& attributes);
+               const std::map<std::string, std::string>& attributes,
+               ImageColorSpace space = ImageColorSpace::linear);
 
 // Reads the data window of the first part, which must be flat, with any pixel type. A missing A
 // becomes 1, and a file with only Y is grey. Throws Error for anything else that lacks R, G or B,
 // for damaged files and for sizes beyond image_limits.h.
 Image read_exr(const std::filesystem::path& path);
+
+// What the numbers of a file are that read_exr() reads.
+ImageColorSpace color_space_of_exr(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -24,7 +24,13 @@ std::string lower_suffix(const std::filesystem::path& path) {
 template <typename Real>
 LoadedImage finite(std::string name, RgbaImage<Real> image) {
     require_finite(name, image);
-    return {std::move(name), std::move(image)};
+    return {std::move(name), std::move(image), {}};
+}
+
+LoadedImage load_exr(const std::filesystem::path& path) {
+    LoadedImage image = finite(path.string(), read_exr(path));
+    image.space = color_space_of_exr(path);
+    return image;
 }
 
 template <typename A, typename B>
@@ -43,13 +49,20 @@ Difference pixel_difference(const A& a, const B& b) {
 
 LoadedImage load_image(const std::filesystem::path& path) {
     const std::string suffix = lower_suffix(path);
-    if (suffix == ".exr") return finite(path.string(), read_exr(path));
+    if (suffix == ".exr") return load_exr(path);
     if (suffix == ".npy") return finite(path.string(), read_npy(path));
-    if (suffix == ".png") return {path.string(), read_png(path)};
+    if (suffix == ".png") return {path.string(), read_png(path), {}};
     fail("{}: suffix '{}'; expected .exr, .npy or .png", path.string(), suffix);
 }
 
 Difference difference(const LoadedImage& a, const LoadedImage& b) {
+    if (a.space && b.space && *a.space != *b.space) {
+        fail(
+            "{}, {}: one holds linear light, the other display values (image.color_space); "
+            "expected "
+            "the same of both",
+            a.name, b.name);
+    }
     try {
         return std::visit([](const auto& x, const auto& y) { return pixel_difference(x, y); },
                           a.pixels, b.pixels);

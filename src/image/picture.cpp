@@ -7,9 +7,10 @@
 namespace lamina {
 
 std::size_t write_picture(AtomicFile& file, const Image& image, const glm::dvec3& background,
-                          const std::map<std::string, std::string>& attributes) {
-    if (file.path().extension() == ".png") return write_png(file, image, background);
-    write_exr(file, image, attributes);
+                          const std::map<std::string, std::string>& attributes,
+                          ImageColorSpace space) {
+    if (file.path().extension() == ".png") return write_png(file, image, background, space);
+    write_exr(file, image, attributes, space);
     return 0;
 }
 

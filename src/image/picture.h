@@ -9,12 +9,15 @@
 
 #include "base/atomic_file.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
 // Writes a PNG file (image/png.h) where the suffix is .png, else an EXR file (image/exr.h) with the
-// attributes. Returns how many pixels were clamped. The caller commits the file.
+// attributes. `space`: of image and background. Returns how many pixels were clamped. The caller
+// commits the file.
 std::size_t write_picture(AtomicFile& file, const Image& image, const glm::dvec3& background,
-                          const std::map<std::string, std::string>& attributes);
+                          const std::map<std::string, std::string>& attributes,
+                          ImageColorSpace space = ImageColorSpace::linear);
 
 }  // namespace lamina

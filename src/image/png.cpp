@@ -109,7 +109,8 @@ void expand(Reader& reader) {
 
 }  // namespace
 
-std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background) {
+std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background,
+                      ImageColorSpace space) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
     require_finite(name, image);
@@ -120,11 +121,9 @@ std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& ba
         const float* const rgba = &image.rgba[4 * pixel];
         bool clamped = false;
         for (int channel = 0; channel < 3; ++channel) {
-            const double linear = rgba[channel] + (1.0 - rgba[3]) * background[channel];
-            clamped = clamped || linear < -rounding || linear > 1 + rounding;
-            const double stored = srgb_from_linear(std::clamp(linear, 0.0, 1.0));
-            coded.codes[3 * pixel + static_cast<std::size_t>(channel)] =
-                static_cast<std::uint16_t>(std::lround(255 * stored));
+            const double value = rgba[channel] + (1.0 - rgba[3]) * background[channel];
+            clamped = clamped || value < -rounding || value > 1 + rounding;
+            coded.codes[3 * pixel + static_cast<std::size_t>(channel)] = display_code(value, space);
         }
         clamped_pixels += clamped;
     }

@@ -9,14 +9,17 @@
 #include "base/atomic_file.h"
 #include "image/coded_image.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
-// Writes a picture to look at: C + (1-A) * background in linear light, clamped to 0..1 and encoded
-// to the nearest 8-bit sRGB code, as RGB with an sRGB chunk and no time stamp. Returns how many
-// pixels were clamped by more than 1/510 in some channel; less is the rounding of a low-precision
-// target. Throws Error as write_exr does. The caller commits the file.
-std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background);
+// Writes a picture to look at: C + (1-A) * background in the numbers of `space`, clamped to 0..1,
+// encoded from linear light to sRGB or, as display values, taken as they are, and rounded to the
+// nearest 8-bit code, as RGB with an sRGB chunk and no time stamp. Returns how many pixels were
+// clamped by more than 1/510 in some channel; less is the rounding of a low-precision target.
+// Throws Error as write_exr does. The caller commits the file.
+std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background,
+                      ImageColorSpace space = ImageColorSpace::linear);
 
 // Writes the codes unchanged, marked as sRGB.
 void write_png(AtomicFile& file, const CodedImage& image);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -14,8 +15,8 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
+#include "lamina/color.h"
 #include "optics/color_space.h"
-#include "optics/opacity.h"
 
 namespace lamina {
 
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
-constexpr std::size_t most_points = 4096;  // the limit of a scene's transfer function
 
 nlohmann::json load(const std::filesystem::path& file) {
     nlohmann::json root = load_json(file);
@@ -65,8 +65,9 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     if (!flat.is_array() || flat.empty() || flat.size() % 4 != 0) {
         fail("{}: {} has {} numbers, expected four for every point", name, key, flat.size());
     }
-    if (flat.size() / 4 > most_points) {
-        fail("{}: {} has {} points, expected at most {}", name, key, flat.size() / 4, most_points);
+    if (flat.size() / 4 > most_scene_points) {
+        fail("{}: {} has {} points, expected at most {}", name, key, flat.size() / 4,
+             most_scene_points);
     }
     std::vector<std::array<double, 4>> rows(flat.size() / 4);
     for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -92,12 +93,13 @@ std::vector<std::array<double, 4>> read_rows(const nlohmann::json& preset, const
     return rows;
 }
 
-// Samples the colour space between two points, halving intervals until straight lines in linear
-// light are close enough.
+// Samples the colour space between two points, halving intervals until straight lines in the
+// wanted numbers are close enough.
 class SegmentSampler {
   public:
-    SegmentSampler(ColorSpace space, const std::array<double, 4>& a, const std::array<double, 4>& b)
-        : space_(space), a_(a), b_(b) {}
+    SegmentSampler(ColorSpace space, ImageColorSpace wanted, const std::array<double, 4>& a,
+                   const std::array<double, 4>& b)
+        : space_(space), wanted_(wanted), a_(a), b_(b) {}
 
     // Appends the points between share `lo`, exclusive, and share `hi`, inclusive.
     void append(double lo, double hi, int halvings, std::vector<ColorPoint>& points) const {
@@ -113,9 +115,9 @@ class SegmentSampler {
     glm::dvec3 color(double share) const {
         const glm::dvec3 from(a_[1], a_[2], a_[3]), to(b_[1], b_[2], b_[3]);
         // The ends are taken as they are, free of round trips through other spaces.
-        if (share == 1) return linear_from_srgb(to);
-        if (share == 0) return linear_from_srgb(from);
-        return linear_from_srgb(interpolate_srgb(space_, from, to, share));
+        if (share == 1) return color_of_display(to, wanted_);
+        if (share == 0) return color_of_display(from, wanted_);
+        return color_of_display(interpolate_srgb(space_, from, to, share), wanted_);
     }
 
     bool straight(double lo, double hi) const {
@@ -129,14 +131,15 @@ class SegmentSampler {
     }
 
     ColorSpace space_;
+    ImageColorSpace wanted_;
     const std::array<double, 4>& a_;
     const std::array<double, 4>& b_;
 };
 
-std::vector<ColorPoint> sample_colors(ColorSpace space,
+std::vector<ColorPoint> sample_colors(ColorSpace space, ImageColorSpace wanted,
                                       const std::vector<std::array<double, 4>>& rows) {
-    const auto color_of = [](const std::array<double, 4>& row) {
-        return linear_from_srgb(glm::dvec3(row[1], row[2], row[3]));
+    const auto color_of = [&](const std::array<double, 4>& row) {
+        return color_of_display(glm::dvec3(row[1], row[2], row[3]), wanted);
     };
     std::vector<ColorPoint> points = {{rows[0][0], color_of(rows[0])}};
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -149,7 +152,7 @@ std::vector<ColorPoint> sample_colors(ColorSpace space,
             points.push_back({a[0], color_of(b)});
             points.push_back({b[0], color_of(b)});
         } else {
-            SegmentSampler(space, a, b).append(0, 1, most_halvings, points);
+            SegmentSampler(space, wanted, a, b).append(0, 1, most_halvings, points);
         }
     }
     return points;
@@ -188,9 +191,11 @@ auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
 
 }  // namespace
 
-Colormap read_paraview_colormap(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const nlohmann::json preset = load(file);
+Colormap read_paraview_colormap(const std::filesystem::path& file, ImageColorSpace space) {
+    return colormap_of(load(file), file.string(), space);
+}
+
+Colormap colormap_of(const nlohmann::json& preset, const std::string& name, ImageColorSpace space) {
     const auto log_scale = preset.find("UseLogScale");
     if (log_scale != preset.end() && *log_scale != 0 && *log_scale != false) {
         fail("{}: UseLogScale is {}, only linear colour maps are supported", name,
@@ -201,9 +206,19 @@ Colormap read_paraview_colormap(const std::filesystem::path& file) {
     }
     Colormap colormap;
     colormap.colors =
-        sample_colors(color_space(preset, name), read_rows(preset, "RGBPoints", name));
+        sample_colors(color_space(preset, name), space, read_rows(preset, "RGBPoints", name));
     if (preset.contains("Points")) colormap.opacities = read_opacities(preset, name);
     return colormap;
+}
+
+void stretch(Colormap& colormap, double lo, double hi) {
+    const double from = colormap.colors.front().value, to = colormap.colors.back().value;
+    assert(from < to && lo < hi);
+    const auto stretched = [&](double value) {
+        return lo + (hi - lo) * ((value - from) / (to - from));
+    };
+    for (ColorPoint& point : colormap.colors) point.value = stretched(point.value);
+    for (OpacityPoint& point : colormap.opacities) point.value = stretched(point.value);
 }
 
 std::vector<TransferKnot> combine(const Colormap& colormap,
@@ -239,24 +254,17 @@ std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length) 
         fail(
             "the colour map has no opacities (Points), expected points with extinction or opacity");
     }
-    // Opacity is linear between the file's points, extinction is not: 16 straight lines approximate
-    // it.
-    constexpr int parts = 16;
     std::vector<ExtinctionPoint> extinctions;
-    for (std::size_t i = 0; i < colormap.opacities.size(); ++i) {
-        const OpacityPoint& b = colormap.opacities[i];
-        if (i > 0 && colormap.opacities[i - 1].opacity != b.opacity) {
-            const OpacityPoint& a = colormap.opacities[i - 1];
-            for (int n = 1; n < parts && a.value < b.value; ++n) {
-                const double share = double(n) / parts;
-                extinctions.push_back(
-                    {glm::mix(a.value, b.value, share),
-                     extinction_from_opacity(glm::mix(a.opacity, b.opacity, share), unit_length)});
-            }
-        }
-        extinctions.push_back({b.value, extinction_from_opacity(b.opacity, unit_length)});
-    }
+    for (const TransferKnot& knot : linear_in_opacity(given_points(colormap), unit_length))
+        extinctions.push_back({knot.value, knot.optics.extinction});
     return combine(colormap, extinctions);
+}
+
+std::vector<GivenPoint> given_points(const Colormap& colormap) {
+    std::vector<GivenPoint> given;
+    for (const OpacityPoint& point : colormap.opacities)
+        given.push_back({point.value, {}, GivenPoint::Density::opacity, point.opacity});
+    return given;
 }
 
 }  // namespace lamina

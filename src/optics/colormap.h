@@ -4,15 +4,19 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
+#include "lamina/image_color_space.h"
 #include "lamina/transfer_function.h"
+#include "optics/given_points.h"
 
 namespace lamina {
 
 struct ColorPoint {
     double value = 0;
-    glm::dvec3 color{0};  // linear light
+    glm::dvec3 color{0};
 };
 
 struct OpacityPoint {
@@ -30,23 +34,33 @@ struct ExtinctionPoint {
 struct Colormap {
     std::vector<ColorPoint> colors;       // at least one
     std::vector<OpacityPoint> opacities;  // empty where the file has no opacity function
+    // Whether its values are data values (a preset in HU), not to be stretched over other data.
+    bool own_range = true;
 };
 
 // Reads a ParaView preset, which is a JSON object or an array whose first element is used. Known
 // keys: ColorSpace ("RGB" where absent, "HSV" with HSVWrap, "Lab", "Diverging", "Step"), RGBPoints
 // [x, r, g, b, ...] in sRGB, Points [x, opacity, midpoint, sharpness, ...]. Between its points the
-// map is sampled in its own colour space, so finely that linear interpolation in linear light is
-// within 5e-4. Throws Error, which names the file and the key.
-Colormap read_paraview_colormap(const std::filesystem::path& file);
+// map is sampled in its own colour space, so finely that linear interpolation in `space`, which its
+// colours are converted to, is within 5e-4. Throws Error, which names the file and the key.
+Colormap read_paraview_colormap(const std::filesystem::path& file,
+                                ImageColorSpace space = ImageColorSpace::linear);
+// The same of an object that was read; `name` stands for the file in messages.
+Colormap colormap_of(const nlohmann::json& preset, const std::string& name, ImageColorSpace space);
+
+// Stretches the map, whose colours must not all be at one value, from the first and last of these
+// values to lo and hi > lo; opacities with them.
+void stretch(Colormap& colormap, double lo, double hi);
 
 // Combines colours and extinctions over the union of both sets of points. A step of either becomes
 // a step.
 std::vector<TransferKnot> combine(const Colormap& colormap,
                                   const std::vector<ExtinctionPoint>& extinctions);
 
-// The same with the file's own opacities. They are converted at their points and at 15 values
-// between two points that differ. Throws Error where the file has none. unit_length > 0, in world
-// units.
+// The same with the map's own opacities, linear between its points (optics/given_points.h). Throws
+// Error where it has none. unit_length > 0, in world units.
 std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length);
+// The map's own opacities as points, without colours.
+std::vector<GivenPoint> given_points(const Colormap& colormap);
 
 }  // namespace lamina

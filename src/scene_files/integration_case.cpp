@@ -18,9 +18,8 @@ double read_scalar(JsonReader& reader, const std::string& key) {
 
 IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings) {
     JsonReader given = reader.object("transfer_function");
-    const auto colormap_file =
-        given.has("colormap") ? given.path_of("colormap") : std::filesystem::path();
-    TransferFunction transfer_function = read_transfer_function(given, warnings);
+    const auto colormap_file = colormap_file_of(given);
+    TransferFunction transfer_function = read_transfer_function(given, {.warnings = warnings});
     const double front = read_scalar(reader, "sf");
     const double back = read_scalar(reader, "sb");
     const double length = reader.number("length");

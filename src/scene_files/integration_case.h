@@ -19,7 +19,7 @@ struct IntegrationCase {
 };
 
 // Reads {"transfer_function", "sf", "sb", "length"} and closes the reader. `warnings`: as in
-// read_transfer_function().
+// TransferFunctionSurroundings.
 IntegrationCase read_integration_case(JsonReader reader, std::vector<std::string>* warnings);
 
 }  // namespace lamina

@@ -1,44 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files/json_reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 #include "base/shortened.h"
+#include "base/suggestion.h"
 
 namespace lamina {
 namespace {
 
 constexpr std::size_t most_of_path = 100;  // that a message shows
 const nlohmann::json empty_object = nlohmann::json::object();
-
-// Levenshtein distance, for suggestions.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
-// Returns the nearest of the known words where it is likely to be meant, else all of them.
-std::string suggestion(const std::set<std::string>& words, const std::string& word) {
-    if (words.empty()) return "";
-    const auto distance = [&](const std::string& known) { return edit_distance(known, word); };
-    const std::string& nearest = *std::ranges::min_element(words, {}, distance);
-    if (distance(nearest) <= std::max<std::size_t>(2, word.size() / 3)) {
-        return fmt::format(", did you mean \"{}\"?", nearest);
-    }
-    return fmt::format(", expected one of {}", fmt::join(words, ", "));
-}
 
 // Returns the value as it stands in the file, shortened where it is long.
 std::string shown(const nlohmann::json& value) {

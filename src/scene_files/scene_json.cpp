@@ -136,6 +136,7 @@ Json scene_json(const Scene& scene) {
     json["camera"] = scene.automatic_camera ? Json("auto") : camera_json(scene.camera);
     json["image"] = {{"width", scene.width},
                      {"height", scene.height},
+                     {"color_space", name_of(scene.color_space)},
                      {"background", vector_json(scene.background)}};
     json["render"] = render_json(scene);
     return json;

@@ -10,6 +10,8 @@
 #include "base/shortened.h"
 #include "image/image_limits.h"
 #include "scene/camera.h"
+#include "scene_files/color_json.h"
+#include "scene_files/data_range.h"
 #include "scene_files/data_reader.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/project_reader.h"
@@ -55,6 +57,12 @@ bool is_automatic(JsonReader& reader, const char* key) {
     return false;
 }
 
+// What colours mean is known before the first one is read.
+ImageColorSpace read_color_space(JsonReader& reader) {
+    return reader.object("image").choice<ImageColorSpace>("color_space",
+                                                          enum_words<ImageColorSpace>());
+}
+
 void read_image(JsonReader reader, Scene& scene) {
     const auto side = [&](const char* key, int otherwise) {
         return reader.has(key) ? reader.whole(key, 1, max_image_side) : std::int64_t{otherwise};
@@ -67,7 +75,8 @@ void read_image(JsonReader reader, Scene& scene) {
     }
     scene.width = static_cast<int>(width);
     scene.height = static_cast<int>(height);
-    scene.background = reader.vector_or("background", scene.background);
+    reader.has("color_space");  // read_color_space() has read it
+    scene.background = read_color(reader, "background", scene.background, scene.color_space);
     reader.close();
 }
 
@@ -168,12 +177,15 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     scene.file = file;
     reader.whole("version", 1, 1);
     read_data(reader, scene);
+    scene.color_space = read_color_space(reader);
     scene.automatic_transfer_function = is_automatic(reader, "transfer_function");
     if (!scene.automatic_transfer_function) {
         JsonReader transfer_function = reader.object("transfer_function");
-        if (transfer_function.has("colormap"))
-            scene.colormap_file = transfer_function.path_of("colormap");
-        scene.transfer_function = read_transfer_function(transfer_function, &scene.warnings);
+        scene.colormap_file = colormap_file_of(transfer_function);
+        scene.transfer_function = read_transfer_function(
+            transfer_function, {.space = scene.color_space,
+                                .data_range = [&] { return data_range(scene); },
+                                .warnings = &scene.warnings});
     }
     scene.automatic_camera = is_automatic(reader, "camera");
     if (!scene.automatic_camera) scene.camera = read_camera(reader.object("camera"));

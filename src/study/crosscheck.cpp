@@ -95,6 +95,7 @@ class Crosschecker {
         made_.reference_error = reference.error_estimate;
         made_.reference_ms = reference.ms;
         made_.pictures.traced_volume = to_float(reference.image);
+        made_.pictures.space = scene_.color_space;
     }
 
     void slice(int samples) {

@@ -52,7 +52,7 @@ Json runs_json(const Crosscheck& crosscheck, double scale) {
     Json runs = Json::array();
     const auto add = [&](Json run, const Image& picture) {
         const int step = reduction(picture.width, picture.height);
-        run["image"] = data_uri(shown(reduced(picture, step)));
+        run["image"] = data_uri(shown(reduced(picture, step), crosscheck.pictures.space));
         run["difference"] = data_uri(false_color(
             reduced(difference(picture, crosscheck.pictures.traced_volume), step), scale));
         runs.push_back(std::move(run));
@@ -123,7 +123,7 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                                        {"traced mesh", &four.traced_mesh},
                                        {"sliced volume", &four.sliced},
                                        {"projected mesh", &four.projected}})
-        add(title, "", shown(reduced(*image, step)));
+        add(title, "", shown(reduced(*image, step), four.space));
     for (const ErrorBudget::Part& part : budget.parts) {
         add(part.name,
             fmt::format("{:.1f} % of PT - slicing; darkest at {:.3g}/255", 100 * part.share, scale),
@@ -193,13 +193,14 @@ nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const Err
     const double scale = std::max(budget.raw_error.all.linf / 2, 1e-6);
     const Image& traced = crosscheck.pictures.traced_volume;
     const int step = reduction(traced.width, traced.height);
-    const Json reference{{"id", "volume"},
-                         {"of", "volume"},
-                         {"error_estimate", crosscheck.reference_error},
-                         {"ms", crosscheck.reference_ms},
-                         {"width", traced.width},
-                         {"height", traced.height},
-                         {"image", data_uri(shown(reduced(traced, step)))}};
+    const Json reference{
+        {"id", "volume"},
+        {"of", "volume"},
+        {"error_estimate", crosscheck.reference_error},
+        {"ms", crosscheck.reference_ms},
+        {"width", traced.width},
+        {"height", traced.height},
+        {"image", data_uri(shown(reduced(traced, step), crosscheck.pictures.space))}};
     Json comparison{
         {"scene", subject.name},
         {"baseline", fmt::format("slicing, {} slabs", crosscheck.slicings.front().samples)},

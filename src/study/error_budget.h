@@ -8,12 +8,14 @@
 #include "image/difference.h"
 #include "image/metrics.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina::study {
 
 // One volume drawn by two methods, and for each method the exact picture of the data that it draws.
 struct FourPictures {
     Image traced_volume, traced_mesh, sliced, projected;
+    ImageColorSpace space = ImageColorSpace::linear;  // of all four
 };
 
 // Splits the difference of the two methods into parts, in every pixel:

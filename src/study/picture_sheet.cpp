@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "base/atomic_file.h"
 #include "image/png.h"
@@ -27,12 +26,10 @@ void paste(CodedImage& sheet, const CodedImage& picture, int column, int row) {
 
 }  // namespace
 
-CodedImage shown(const Image& image) {
+CodedImage shown(const Image& image, ImageColorSpace space) {
     CodedImage coded(image.width, image.height, 3, 8);
-    for (std::size_t i = 0; i < coded.codes.size(); ++i) {
-        const double linear = std::clamp<double>(image.rgba[i / 3 * 4 + i % 3], 0, 1);
-        coded.codes[i] = static_cast<std::uint16_t>(std::lround(255 * srgb_from_linear(linear)));
-    }
+    for (std::size_t i = 0; i < coded.codes.size(); ++i)
+        coded.codes[i] = display_code(static_cast<double>(image.rgba[i / 3 * 4 + i % 3]), space);
     return coded;
 }
 

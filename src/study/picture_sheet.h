@@ -7,11 +7,12 @@
 
 #include "image/coded_image.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina::study {
 
 // The picture as write_png shows it on black: 8-bit sRGB codes, three channels.
-CodedImage shown(const Image& image);
+CodedImage shown(const Image& image, ImageColorSpace space = ImageColorSpace::linear);
 
 // Writes one PNG with rows of pictures side by side and white gaps. All pictures are RGB of 8 bits
 // and have one size. Rows may differ in length.

@@ -96,17 +96,24 @@ void add_pictures_to(Json& comparison, const StudyFolder& folder) {
         each["ms"] = reference.ms;
         each["width"] = reference.image.width;
         each["height"] = reference.image.height;
-        const int step = reduction(reference.image.width, reference.image.height);
-        each["image"] = data_uri(shown(reduced(to_float(reference.image), step)));
         references[each["id"]] = std::move(reference);
     }
+    // Of the runs that were compared with a reference.
+    std::map<std::string, ImageColorSpace> spaces;
     for (Json& run : comparison["runs"]) {
         if (run.contains("failed")) continue;
-        const Image image = read_exr(folder.picture(run["id"]));
+        const std::filesystem::path file = folder.picture(run["id"]);
+        const Image image = read_exr(file);
+        const ImageColorSpace space = spaces[run["reference"]] = color_space_of_exr(file);
         const int step = reduction(image.width, image.height);
         const Difference e = difference(image, references[run["reference"]].image);
-        run["image"] = data_uri(shown(reduced(image, step)));
+        run["image"] = data_uri(shown(reduced(image, step), space));
         run["difference"] = data_uri(false_color(reduced(e, step), comparison["difference_scale"]));
+    }
+    for (Json& each : comparison["references"]) {
+        const PreciseImage& image = references[each["id"]].image;
+        const int step = reduction(image.width, image.height);
+        each["image"] = data_uri(shown(reduced(to_float(image), step), spaces[each["id"]]));
     }
 }
 

@@ -174,7 +174,7 @@ void StudyRunner::give_up(std::size_t run, const std::string& why) {
 void StudyRunner::record(std::size_t run, int round, const Measured& measured) {
     if (measured.picture) {
         AtomicFile file(folder_.picture(list_.runs[run].id));
-        write_exr(file, *measured.picture, {});
+        write_exr(file, *measured.picture, {}, measured.space);
         file.commit();
     }
     for (const Json& record : measured.records) journal_.append(record);
@@ -212,6 +212,7 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     drawn["stages"]["set_up"] = frames.set_up_ms();
     drawn["first_ms"] = frames.first_ms();
     measured.picture = image;
+    measured.space = scene.color_space;
     measured.records.push_back({{"run", list_.runs[run].id}, {"drawn", drawn}});
 }
 

@@ -65,6 +65,7 @@ class StudyRunner {
     // The measurements of one visit, before they are written to disk.
     struct Measured {
         std::optional<Image> picture;
+        ImageColorSpace space = ImageColorSpace::linear;
         std::vector<nlohmann::ordered_json> records;
     };
 

@@ -26,7 +26,7 @@ class StudyTestCase : public testing::Test {
         ramp = json::parse(R"({
             "version": 1,
             "volume": {"generate": "ramp"},
-            "transfer_function": {"points": [
+            "transfer_function": {"interpolation": "extinction", "points": [
                 {"value": 0, "color": [1, 1, 1], "opacity": 0},
                 {"value": 255, "color": [1, 1, 1], "opacity": 0.996}]},
             "camera": {"projection": "orthographic", "eye": [127.5, 1.5, 10],

@@ -54,6 +54,23 @@ TEST_F(LoadedImageTest, WhatCannotBeComparedIsAnErrorThatNamesTheFiles) {
     expect_error([&] { load_image(folder / "c.tiff"); }, {"c.tiff", "'.tiff'", ".exr"});
 }
 
+TEST_F(LoadedImageTest, LinearLightIsNotComparedWithDisplayValues) {
+    const PreciseImage image(2, 2);
+    write("a.exr", image);
+    write("a.npy", image);
+    for (const char* const name : {"b.exr", "c.exr"}) {
+        AtomicFile file(folder / name);
+        write_exr(file, to_float(image), {{"software", "test"}}, ImageColorSpace::display);
+        file.commit();
+    }
+    EXPECT_EQ(color_space_of_exr(folder / "a.exr"), ImageColorSpace::linear);
+    EXPECT_EQ(color_space_of_exr(folder / "b.exr"), ImageColorSpace::display);
+    EXPECT_EQ(linf("b.exr", "c.exr"), 0);
+    EXPECT_EQ(linf("b.exr", "a.npy"), 0);  // which does not say what it holds
+    for (const auto& [a, b] : {std::pair("a.exr", "b.exr"), {"b.exr", "a.exr"}})
+        expect_error([&] { linf(a, b); }, {a, b, "linear light", "display values", "color_space"});
+}
+
 TEST_F(LoadedImageTest, NotFiniteNamesFilePixelAndChannel) {
     PreciseImage image(2, 2);
     image.pixel(0, 1)[1] = 7;

@@ -94,6 +94,17 @@ TEST(Png, BackgroundThenCurveThenNearestCode) {
     EXPECT_EQ(back.codes, (Codes{188, 118, 3, 188, 118, 188, 188, 162, 255}));
 }
 
+// 255 (.25 + .5 * .5) = 127.5 rounds up; 255 * .1 = 25.5, too, but .1f is a little more. Beyond 1
+// is clamped.
+TEST(Png, DisplayValuesAreStoredAsTheyAre) {
+    const TemporaryFolder folder;
+    const Image image = row_of({{0.25f, 0, 0.1f, 0.5f}, {1, 0.2f, 1.5f, 1}});
+    AtomicFile file(folder / "a.png");
+    EXPECT_EQ(write_png(file, image, {0.5, 1, 0}, ImageColorSpace::display), 1u);
+    file.commit();
+    EXPECT_EQ(read_png(folder / "a.png").codes, (Codes{128, 128, 26, 255, 51, 255}));
+}
+
 TEST(Png, EveryCodeComesBack) {
     const TemporaryFolder folder;
     Image image(256, 1);

@@ -67,6 +67,7 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<Target>(), "float32 float16 fixed16 fixed8 emulated");
     EXPECT_EQ(words_of<TraceOf>(), "volume mesh");
     EXPECT_EQ(words_of<NanPolicy>(), "error transparent");
+    EXPECT_EQ(words_of<ImageColorSpace>(), "linear display");
     EXPECT_EQ(words_of<Projection>(), "perspective orthographic");
     EXPECT_EQ(words_of<Classification>(), "auto post preintegrated exact");
     EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");

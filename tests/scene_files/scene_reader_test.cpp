@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "optics/opacity_slope.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 #include "support/temporary_folder.h"
@@ -31,11 +32,39 @@ TEST(SceneReader, OpacityBecomesExtinction) {
     EXPECT_DOUBLE_EQ(knots[1].optics.extinction, std::log(2.) / 4);
 }
 
-TEST(SceneReader, OpacityOneIsAWarningWhereItIsInterpolatedTo) {
+TransferFunction by_opacity(const nlohmann::json& points, const char* interpolation) {
+    nlohmann::json document = with("/transfer_function/points", points);
+    document["transfer_function"]["unit_length"] = 4;
+    document["transfer_function"]["interpolation"] = interpolation;
+    const Scene scene = read_scene(document, "s");
+    EXPECT_EQ(scene.warnings.empty(), std::string(interpolation) != "extinction");
+    return scene.transfer_function;
+}
+
+TEST(SceneReader, OpacityIsLinearBetweenTwoPointsThatHaveIt) {
+    const nlohmann::json tent = {{{"value", 0}, {"color", {0, 0, 0}}, {"opacity", 0}},
+                                 {{"value", 8}, {"color", {1, .5, 0}}, {"opacity", 1}},
+                                 {{"value", 16}, {"color", {1, 1, 1}}, {"opacity", 0}}};
+    const auto linear = by_opacity(tent, "linear");
+    EXPECT_EQ(linear, TransferFunction::linear_opacity(
+                          {{0, {0, 0, 0}, 0}, {8, {1, .5, 0}, 1}, {16, {1, 1, 1}, 0}}, 4));
+    EXPECT_NEAR(linear.at(6).extinction, std::log(4) / 4,
+                std::log(4) / 4 * opacity_slope_tolerance);
+    const auto extinction = by_opacity(tent, "extinction");
+    EXPECT_EQ(extinction.knots().size(), 3u);
+    EXPECT_EQ(extinction.at(4).extinction, 1e7 / 8);
+    const auto nearest = by_opacity(tent, "nearest");
+    EXPECT_EQ(nearest.at(6).extinction, 1e7 / 4);
+    EXPECT_EQ(nearest.at(3).extinction, 0);
+}
+
+TEST(SceneReader, OpacityOneIsAWarningWhereExtinctionIsInterpolatedToIt) {
     const nlohmann::json document = with("/transfer_function/points/1/opacity", 1);
     const Scene linear = read_scene(document, "s");
-    EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 1e7);
-    EXPECT_EQ(linear.warnings.size(), 1u);
+    EXPECT_EQ(linear.transfer_function.knots()[1].optics.extinction, 17);
+    EXPECT_EQ(linear.transfer_function.at(255).extinction, 1e7);
+    ASSERT_EQ(linear.warnings.size(), 1u);
+    EXPECT_NE(linear.warnings[0].find("optical depth of 17 per"), std::string::npos);
     nlohmann::json nearest = document;
     nearest["transfer_function"]["interpolation"] = "nearest";
     EXPECT_TRUE(read_scene(nearest, "s").warnings.empty());

@@ -49,6 +49,9 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     // Keys that are asked for only beside others.
     in_reader.merge(asked_for(with("/transfer_function/colormap_range", {0, 1})));
     in_reader.insert("transfer_function.colormap_range");
+    const nlohmann::json display{{"srgb", {.1, .2, .3}}};
+    in_reader.merge(asked_for(with("/transfer_function/points/0/color", display)));
+    in_reader.merge(asked_for(with("/image/background", display)));
     in_reader.merge(asked_for(with("/render/slice/dither", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/slice/tree", {{"factors", {4, 4}}})));
     in_reader.merge(asked_for(with("/render/slice/table", nlohmann::json::object())));

@@ -20,15 +20,20 @@ STEPS = 64  # opacity points between two points of the scene
 GL_RGBA, GL_RGBA32F, GL_FLOAT = 0x1908, 0x8814, 0x1406
 
 
+def linear_in_opacity(function):
+    """Whether all points give opacity, and opacity is linear between them, as VTK has it."""
+    return function.get("interpolation", "linear") == "linear" and all("opacity" in p for p in function["points"])
+
+
 def extinction_of(point, unit_length):
     return point.get("extinction", -math.log1p(-min(point.get("opacity", 0), 1 - 1e-9)) / unit_length)
 
 
 def transfer_points(scene):
-    """Value, colour and extinction of each point of the scene's transfer function."""
+    """Value, colour and extinction of each point of the scene's transfer function; extinction is linear between them."""
     function = scene.json["transfer_function"]
-    if function.get("interpolation") == "nearest" or "points" not in function:
-        raise SystemExit(f"bench: {scene.path}: transfer_function: expected points and linear interpolation")
+    if function.get("interpolation") == "nearest" or "points" not in function or linear_in_opacity(function):
+        raise SystemExit(f"bench: {scene.path}: transfer_function: expected points with linear extinction")
     return [(p["value"], p["color"], extinction_of(p, function.get("unit_length", 1))) for p in function["points"]]
 
 
@@ -50,7 +55,12 @@ def make_property(points, opacities, unit_distance):
 
 def volume_property(scene):
     """The ray caster takes the opacity of a step as 1 - (1 - opacity)^(step / unit distance). It is linear in opacity
-    between points and a scene in extinction: opacities are resampled, the largest is 0.95."""
+    between points: a scene whose opacities are, too, has them as they are; of one that is linear in extinction they are
+    resampled, the largest is 0.95."""
+    function = scene.json["transfer_function"]
+    if "points" in function and linear_in_opacity(function):
+        return make_property([(p["value"], p["color"], None) for p in function["points"]],
+                             [(p["value"], p["opacity"]) for p in function["points"]], function.get("unit_length", 1))
     points = transfer_points(scene)
     unit = 3 / (max(extinction for _, _, extinction in points) or 3)
     opacities = [(x0 + i / STEPS * (x1 - x0), -math.expm1(-unit * (e0 + i / STEPS * (e1 - e0))))
@@ -135,6 +145,14 @@ class Window:
         if numpy.abs(rgb * 255 - numpy.round(rgb * 255)).max() < 1e-3:
             raise SystemExit("bench: VTK's picture came in 8 bits, expected float32")
         numpy.save(path, numpy.ascontiguousarray(rgb))
+
+    def codes(self):
+        """The scene's own frame as VTK shows it: 8-bit R, G, B, row 0 on top."""
+        width, height = self.size
+        self.frame_ms(0)
+        pixels = vtk.vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels)
+        return numpy_support.vtk_to_numpy(pixels).reshape(height, width, 3)[::-1]
 
     def close(self):
         self.window.Finalize()

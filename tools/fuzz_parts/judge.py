@@ -109,7 +109,8 @@ class Judge:
         spread = numpy.abs(colors - colors[0]).max((0, 2))
         converged = numpy.abs(colors - coarser).max((0, 2))
         # Beside these, double precision: some 1e-10 of full scale where a peak is 1e-4 of the values' range wide.
-        bound = traced.stats["error_estimate"] + 4 * spread + 4 * converged + doubt + 1e-9 * self.optics.brightest
+        bound = (traced.stats["error_estimate"] + 4 * spread + 4 * converged + doubt + 1e-9 * self.optics.brightest
+                 + self.optics.off)
         error = numpy.abs(traced.picture[pixels[1], pixels[0]] - colors[0]).max(1)
         self.check("tracer", error, bound, f" (estimate {255 * traced.stats['error_estimate']:.2g})")
 
@@ -189,7 +190,7 @@ class Judge:
         rows, columns = numpy.divmod(chosen, self.rays.width)
         cut = volume_oracle.SlabRays(self.made.volume, self.rays, (columns, rows), plan["slabs"])
         wanted, doubt = (volume_oracle.preintegrated if straight else volume_oracle.post_classified)(cut, self.optics)
-        bound = doubt + self.left_out(plan)
+        bound = doubt + self.left_out(plan) + self.optics.off
         error = numpy.abs(drawn.picture[rows, columns] - wanted)
         error[cut.chord.tied] = 0
         by = f" by {plan['slabs']} slabs"

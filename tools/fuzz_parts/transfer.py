@@ -18,6 +18,22 @@ def color_source(dice):
     return lambda: dice.vector(0, 8 if kind == "bright" else 1000)
 
 
+def as_written(color, dice):
+    """Triples, now and then the nearest "#rrggbb"."""
+    if max(color) > 1 or dice.chance(0.9):
+        return color
+    codes = [round(255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055)) for c in color]
+    return "#" + "".join(f"{code:02x}" for code in codes)
+
+
+def linear_light(color):
+    """Of a colour as scenes have it (docs/scene.md, "Colours")."""
+    if not isinstance(color, str):
+        return color
+    stored = [int(color[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+    return [v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in stored]
+
+
 def points_of(kind, low, high, dice):
     """(value, strength 0..1), in order."""
     span = high - low
@@ -80,8 +96,10 @@ def make(dice, value_range, length):
         result["unit_length"] = float(length * dice.pick(1, 0.1, 0.01))
     if dice.chance(0.15):
         result["interpolation"] = "nearest"
+    elif opacities and (kind == "many" or dice.chance(0.3)):  # many slopes would be too many pieces
+        result["interpolation"] = "extinction"
     for value, strength in points:
-        point = {"value": float(value), "color": color()}
+        point = {"value": float(value), "color": as_written(color(), dice)}
         if opacities:
             point["opacity"] = 1 if opaque and strength > 0.9 else strength
         else:
@@ -90,20 +108,56 @@ def make(dice, value_range, length):
     return result, kind
 
 
+SLOPE_PIECES = 400  # of a slope of opacity, here
+STEEPEST = 17  # optical depth over unit_length
+
+
+def slope(a, b):
+    """Opacities between two, evenly in the root of the optical depth, which makes the errors of chords even: at most
+    STEEPEST / (2 * 400^2) = 5.3e-5 of the depth."""
+    low, high = (math.sqrt(min(-math.log1p(-x), STEEPEST)) if x < 1 else math.sqrt(STEEPEST) for x in (a, b))
+    depths = numpy.linspace(low, high, SLOPE_PIECES + 1)[1:-1] ** 2
+    return -numpy.expm1(-depths)
+
+
+def knots_of(spec):
+    """Values with colour and extinction, in order, where extinction is linear between them. docs/scene.md,
+    "Transfer function", says what opacity means between points."""
+    unit, points = spec.get("unit_length", 1), spec["points"]
+    linear = spec.get("interpolation", "linear") == "linear"
+
+    def extinction(point, beside=None):
+        if "opacity" not in point:
+            return point["extinction"]
+        opacity = point["opacity"]
+        depth = 1e7 if opacity == 1 else -math.log1p(-opacity)
+        on_slope = linear and beside is not None and beside.get("opacity") != opacity
+        return (min(depth, STEEPEST) if on_slope else depth) / unit
+
+    found = []
+    for i, point in enumerate(points):
+        color, value = linear_light(point["color"]), point["value"]
+        before = points[i - 1] if i else None
+        after = points[i + 1] if i + 1 < len(points) else None
+        if linear and before and "opacity" in before and "opacity" in point and before["value"] < value \
+                and before["opacity"] != point["opacity"]:
+            rise, start = point["opacity"] - before["opacity"], numpy.array(linear_light(before["color"]))
+            for opacity in slope(before["opacity"], point["opacity"]):
+                share = (opacity - before["opacity"]) / rise
+                found.append((before["value"] + share * (value - before["value"]),
+                              [*(start + share * (numpy.array(color) - start)), -math.log1p(-opacity) / unit]))
+        sides = [extinction(point, side) for side in (before, after) if side is None or side["value"] != value]
+        found += [(value, [*color, side]) for side in (sides if len(sides) == 2 and sides[0] != sides[1] else
+                                                       sides[:1] or [extinction(point)])]
+    return found
+
+
 class Optics:
-    """Knots with colour and extinction on both sides: linear between them, constant outside."""
+    """Knots with colour and extinction on both sides: linear between them, constant outside. off: how far lamina may be
+    from it, of full scale (docs/precision.md, "Opacity that is linear")."""
 
     def __init__(self, spec):
-        values, right = [], []
-        unit = spec.get("unit_length", 1)
-        for point in spec["points"]:
-            if "opacity" in point:
-                opacity = point["opacity"]
-                extinction = 1e7 / unit if opacity == 1 else -math.log1p(-opacity) / unit
-            else:
-                extinction = point["extinction"]
-            values.append(point["value"])
-            right.append([*point["color"], extinction])
+        values, right = (list(part) for part in zip(*knots_of(spec)))
         if spec.get("interpolation") == "nearest":
             middles = [(a + b) / 2 for a, b in zip(values, values[1:])]
             self.knots = numpy.array(middles)
@@ -117,6 +171,8 @@ class Optics:
             self.at_high = numpy.vstack([table, table[-1:]])
         self.brightest = max(1.0, float(numpy.array(right)[:, :3].max()))
         self.densest = float(numpy.array(right)[:, 3].max())
+        follows = len(values) > 2 * len(spec["points"])
+        self.off = 0.11 / 255 * self.brightest if follows else 0.0
 
     def part_at(self, scalars):
         """The number of the part; on a knot the one above it."""

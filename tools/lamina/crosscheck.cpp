@@ -59,9 +59,9 @@ void check_ladder(const study::CrosscheckSettings& settings) {
     }
 }
 
-void write_picture(const std::filesystem::path& path, const Image& image) {
+void write_picture(const std::filesystem::path& path, const Image& image, ImageColorSpace space) {
     AtomicFile file(path);
-    write_exr(file, image, {});
+    write_exr(file, image, {}, space);
     file.commit();
 }
 
@@ -69,10 +69,11 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
                const study::CrosscheckSubject& subject) {
     const study::ErrorBudget budget = study::error_budget(made.pictures);
     OwnFiles(folder, crosscheck_name).add(file_names);
-    write_picture(folder / "traced_volume.exr", made.pictures.traced_volume);
-    write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh);
-    write_picture(folder / "sliced.exr", made.pictures.sliced);
-    write_picture(folder / "projected.exr", made.pictures.projected);
+    const ImageColorSpace space = made.pictures.space;
+    write_picture(folder / "traced_volume.exr", made.pictures.traced_volume, space);
+    write_picture(folder / "traced_mesh.exr", made.pictures.traced_mesh, space);
+    write_picture(folder / "sliced.exr", made.pictures.sliced, space);
+    write_picture(folder / "projected.exr", made.pictures.projected, space);
     study::write_text(folder / "budget.json",
                       json_text(study::budget_json(made, budget, subject), 1) + "\n");
     study::write_text(folder / "report.html",

@@ -72,7 +72,8 @@ void FrameJob::draw_frame(const Camera& camera) {
 }
 
 std::size_t FrameJob::write(PictureFile& picture, const PictureAttributes& attributes) {
-    return picture.write(*image_, request_.scene.background, attributes);
+    return picture.write(*image_, request_.scene.background, attributes,
+                         request_.scene.color_space);
 }
 
 }  // namespace lamina

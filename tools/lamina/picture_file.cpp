@@ -29,15 +29,15 @@ PictureFile::PictureFile(const std::filesystem::path& path, bool precise)
     : suffix_(checked_suffix(path, precise)), file_(path) {}
 
 std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
-                               const PictureAttributes& attributes) {
-    const std::size_t clamped = write_picture(file_, image, background, attributes);
+                               const PictureAttributes& attributes, ImageColorSpace space) {
+    const std::size_t clamped = write_picture(file_, image, background, attributes, space);
     file_.commit();
     return clamped;
 }
 
 std::size_t PictureFile::write(const PreciseImage& image, const glm::dvec3& background,
-                               const PictureAttributes& attributes) {
-    if (suffix_ != ".npy") return write(to_float(image), background, attributes);
+                               const PictureAttributes& attributes, ImageColorSpace space) {
+    if (suffix_ != ".npy") return write(to_float(image), background, attributes, space);
     write_npy(file_, image);
     file_.commit();
     return 0;

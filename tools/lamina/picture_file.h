@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina {
 
@@ -21,11 +22,11 @@ class PictureFile {
     // suffix.
     PictureFile(const std::filesystem::path& path, bool precise);
 
-    // Returns how many pixels had to be clamped (PNG).
+    // `space`: of image and background. Returns how many pixels had to be clamped (PNG).
     std::size_t write(const Image& image, const glm::dvec3& background,
-                      const PictureAttributes& attributes);
+                      const PictureAttributes& attributes, ImageColorSpace space);
     std::size_t write(const PreciseImage& image, const glm::dvec3& background,
-                      const PictureAttributes& attributes);
+                      const PictureAttributes& attributes, ImageColorSpace space);
 
   private:
     std::string suffix_;

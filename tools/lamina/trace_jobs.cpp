@@ -45,7 +45,8 @@ class VolumeTraceJob : public RenderJob {
     void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
-        return picture.write(result_->image, request_.scene.background, attributes);
+        return picture.write(result_->image, request_.scene.background, attributes,
+                             request_.scene.color_space);
     }
 
   private:
@@ -98,7 +99,8 @@ class MeshTraceJob : public RenderJob {
     void draw_frame(const Camera& camera) override { trace(camera); }
 
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override {
-        return picture.write(result_->image, request_.scene.background, attributes);
+        return picture.write(result_->image, request_.scene.background, attributes,
+                             request_.scene.color_space);
     }
 
   private:

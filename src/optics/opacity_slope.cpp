@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pieces run between two curves, (1 - e) f and (1 + e) f, of the optical depth f = -log1p(-o)
+// as a function of opacity o: from the lower curve they rise to touch the upper one and fall back
+// to the lower one. Such chords are as long as any within the tolerance e, sqrt(2) times as long as
+// chords between points of f.
+#include "optics/opacity_slope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lamina {
+namespace {
+
+struct Place {
+    double opacity;
+    double depth;   // f there
+    double height;  // of the pieces
+};
+
+// The x >= 0 with x - log1p(x) = d.
+double rise_to_touch(double d) {
+    const double s = std::sqrt(2 * d);
+    double x = s + d * 2 / 3 + s * d / 18;
+    if (d < 1e-8) return x;  // the series is good to s^3
+    for (int i = 0; i < 6; ++i) x -= (x - std::log1p(x) - d) * (1 + x) / x;
+    return x;
+}
+
+// One piece after another, from `from` on, to a tolerance.
+class Chain {
+  public:
+    Chain(double from, double tolerance)
+        : lower_(1 - tolerance), upper_(1 + tolerance), at_{from, -std::log1p(-from), 0} {
+        at_.height = at_.depth;
+        aim();
+    }
+
+    // Whether this piece can end on the curve at `opacity`: before it touches the upper curve, or
+    // while it is above f.
+    bool reaches(double opacity, double depth) const {
+        return opacity <= touch_ || at_.height + slope_ * (opacity - at_.opacity) >= depth;
+    }
+
+    // The place where the next piece begins.
+    const Place& advance() {
+        const double clear = 1 - at_.opacity;
+        // With v = the part of `clear` that is left: height + slope clear (1 - v) = lower (depth -
+        // ln v). The difference of both sides is concave and rises left of its larger root, so
+        // Newton's steps approach the smaller one from the left.
+        const double offset = at_.height - lower_ * at_.depth, rise = slope_ * clear;
+        const auto above = [&](double v) { return offset + rise * (1 - v) + lower_ * std::log(v); };
+        double v = lower_ / rise / 2;
+        while (above(v) > 0) v /= 2;
+        for (int i = 0; i < 40; ++i) {
+            const double step = above(v) / (lower_ / v - rise);
+            v -= step;
+            if (std::abs(step) <= 1e-15 * v) break;
+        }
+        at_.opacity += clear * (1 - v);
+        at_.depth -= std::log(v);
+        at_.height = lower_ * at_.depth;
+        aim();
+        return at_;
+    }
+
+  private:
+    // The line from here that touches upper f, at 1 - o = clear / r: r - 1 - ln r = depth - height
+    // / upper. Its slope is that of upper f there.
+    void aim() {
+        const double x = rise_to_touch(at_.depth - at_.height / upper_), clear = 1 - at_.opacity;
+        slope_ = upper_ * (1 + x) / clear;
+        touch_ = at_.opacity + clear * x / (1 + x);
+    }
+
+    double lower_, upper_;
+    Place at_;
+    double slope_ = 0, touch_ = 0;
+};
+
+// The pieces from one opacity up to another, to a tolerance; false where they are more than `most`.
+bool follow(double from, double to, double tolerance, std::size_t most,
+            std::vector<Place>& places) {
+    places.clear();
+    const double depth = -std::log1p(-to);
+    Chain chain(from, tolerance);
+    while (!chain.reaches(to, depth)) {
+        if (places.size() + 1 == most) return false;
+        places.push_back(chain.advance());
+    }
+    return true;
+}
+
+// The same with the fewest pieces, of nearly the smallest tolerance that these permit.
+std::vector<Place> follow_evenly(double from, double to) {
+    constexpr std::size_t any = 1000;
+    double kept = opacity_slope_tolerance, missed = 0;
+    std::vector<Place> best, tried;
+    follow(from, to, kept, any, best);
+    const std::size_t pieces = best.size() + 1;
+    if (pieces == 1) return best;
+    for (int halvings = 0; halvings < 12; ++halvings) {
+        const double tolerance = (kept + missed) / 2;
+        const bool enough = follow(from, to, tolerance, pieces, tried);
+        (enough ? kept : missed) = tolerance;
+        if (enough) best.swap(tried);
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<OpacitySlopeKnot> follow_opacity(double from, double to) {
+    const double low = std::min(from, to), high = std::max(from, to);
+    const double steepest = -std::expm1(-steepest_optical_depth);
+    std::vector<OpacitySlopeKnot> knots;
+    if (low >= steepest || low == high) return knots;
+    const double top = std::min(high, steepest);
+    for (const Place& place : follow_evenly(low, top))
+        knots.push_back({(place.opacity - low) / (high - low), place.height});
+    if (top < high) knots.push_back({(top - low) / (high - low), steepest_optical_depth});
+    if (from < to) return knots;
+    std::ranges::reverse(knots);
+    for (OpacitySlopeKnot& knot : knots) knot.share = 1 - knot.share;
+    return knots;
+}
+
+}  // namespace lamina

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lamina/image_color_space.h"
+#include "scene_files/json_reader.h"
+
+namespace lamina {
+
+// Reads a colour (docs/scene.md): three numbers of `space`, or display values, which are converted
+// to it: "#rrggbb", a CSS name, or {"srgb": [r, g, b]}. Throws KeyError.
+glm::dvec3 read_color(JsonReader& reader, const std::string& key, const glm::dvec3& otherwise,
+                      ImageColorSpace space);
+
+}  // namespace lamina

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/data_range.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "mesh/scalar_range.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+namespace {
+
+ValueRange measured(const Scene& scene) {
+    if (scene.has_volume()) return measure_bricks(load_volume(scene)).whole;
+    return measure_range(load_mesh(scene).scalar.values).range;
+}
+
+// What identifies a file's contents without reading them. None: it cannot be told.
+std::optional<std::string> identity(const Scene& scene) {
+    if (scene.volume_request) return std::nullopt;
+    const std::filesystem::path& file = scene.has_volume() ? scene.volume_file : scene.mesh_file;
+    std::error_code unknown;
+    const auto bytes = std::filesystem::file_size(file, unknown);
+    if (unknown) return std::nullopt;
+    const auto time = std::filesystem::last_write_time(file, unknown);
+    if (unknown) return std::nullopt;
+    return fmt::format("{} {} {} {}", file.string(), bytes, time.time_since_epoch().count(),
+                       scene.scalar);
+}
+
+}  // namespace
+
+// A study reads a scene for each of its runs.
+ValueRange data_range(const Scene& scene) {
+    static std::mutex access;
+    static std::map<std::string, ValueRange> known;
+    const std::optional<std::string> name = identity(scene);
+    if (!name) return measured(scene);
+    const std::lock_guard lock(access);
+    const auto found = known.find(*name);
+    return found != known.end() ? found->second : known[*name] = measured(scene);
+}
+
+}  // namespace lamina

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/color.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "optics/css_colors.h"
+#include "support/expect_error.h"
+
+namespace lamina {
+namespace {
+
+TEST(Color, HexAndNamesAreDisplayValues) {
+    const glm::dvec3 orange = color_of("#ff8019", ImageColorSpace::display);
+    EXPECT_EQ(orange, glm::dvec3(255, 128, 25) / 255.0);
+    EXPECT_EQ(color_of("#FF8019", ImageColorSpace::display), orange);
+    EXPECT_EQ(color_of("tomato", ImageColorSpace::display), glm::dvec3(255, 99, 71) / 255.0);
+    EXPECT_EQ(color_of("Tomato", ImageColorSpace::display),
+              color_of("#ff6347", ImageColorSpace::display));
+}
+
+TEST(Color, IsDecodedForLinearLight) {
+    // IEC 61966-2-1: ((v + .055) / 1.055)^2.4 above .04045, v / 12.92 below; up to rounding.
+    const glm::dvec3 orange = color_of("#ff8005");
+    EXPECT_EQ(orange.r, 1);
+    EXPECT_NEAR(orange.g, std::pow((128 / 255.0 + .055) / 1.055, 2.4), 1e-15);
+    EXPECT_NEAR(orange.b, 5 / 255.0 / 12.92, 1e-15);
+    EXPECT_EQ(color_of_display({1, 0, 5 / 255.0}).b, orange.b);
+}
+
+TEST(Color, NamesAreThoseOfCss) {
+    const auto colors = css_colors();
+    EXPECT_EQ(colors.size(), 148u);
+    for (std::size_t i = 1; i < colors.size(); ++i) EXPECT_LT(colors[i - 1].name, colors[i].name);
+    EXPECT_EQ(css_color("rebeccapurple"), 0x663399u);
+    EXPECT_EQ(css_color("aliceblue"), 0xf0f8ffu);
+    EXPECT_EQ(css_color("yellowgreen"), 0x9acd32u);
+    EXPECT_FALSE(css_color("zebra"));
+}
+
+TEST(Color, MistakesAreSaid) {
+    expect_error([] { color_of("#ff80"); }, {"#ff80", "six hexadecimal digits"});
+    expect_error([] { color_of("#ff80g0"); }, {"six hexadecimal digits"});
+    expect_error([] { color_of("tomatoe"); }, {"tomatoe", "did you mean \"tomato\"?"});
+    expect_error([] { color_of("of a ripe plum"); }, {"\"#rrggbb\" or the name of a CSS colour"});
+    expect_error([] { color_of(""); }, {"CSS colour"});
+}
+
+}  // namespace
+}  // namespace lamina

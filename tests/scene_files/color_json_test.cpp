@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours of points, background and colour maps in scene files.
+#include "scene_files/color_json.h"
+
+#include <cmath>
+#include <fstream>
+
+#include "lamina/color.h"
+#include "optics/color_space.h"
+#include "scene_files/integration_case.h"
+#include "support/expect_error.h"
+#include "support/scene_fixture.h"
+#include "support/temporary_folder.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+namespace {
+
+nlohmann::json colored(const nlohmann::json& color, const char* space) {
+    nlohmann::json document = with("/transfer_function/points/1/color", color);
+    document["image"]["background"] = color;
+    if (space != nullptr) document["image"]["color_space"] = space;
+    return document;
+}
+
+void expect_color(const nlohmann::json& color, const char* space, const glm::dvec3& expected) {
+    const Scene scene = read_scene(colored(color, space), "s");
+    EXPECT_EQ(scene.transfer_function.knots()[1].optics.color, expected) << color;
+    EXPECT_EQ(scene.background, expected) << color;
+}
+
+TEST(ColorJson, TriplesAreTakenAsTheyAre) {
+    for (const char* const space : {static_cast<const char*>(nullptr), "linear", "display"})
+        expect_color({.1, .2, .3}, space, {.1, .2, .3});
+}
+
+TEST(ColorJson, DisplayValuesAreDecodedForLinearLight) {
+    const glm::dvec3 orange(1, 128 / 255., 25 / 255.);
+    for (const nlohmann::json& same :
+         {nlohmann::json("#ff8019"), nlohmann::json{{"srgb", {1, 128 / 255., 25 / 255.}}}}) {
+        expect_color(same, nullptr, linear_from_srgb(orange));
+        expect_color(same, "linear", linear_from_srgb(orange));
+        expect_color(same, "display", orange);
+    }
+    expect_color("tomato", "linear", color_of("#ff6347"));
+    expect_color("tomato", "display", glm::dvec3(255, 99, 71) / 255.);
+}
+
+TEST(ColorJson, MistakesAreSaid) {
+    const std::pair<nlohmann::json, std::initializer_list<std::string>> mistakes[] = {
+        {"tomatoe", {"points.1.color", "tomatoe", "did you mean \"tomato\"?"}},
+        {"#12345", {"points.1.color", "#12345", "six hexadecimal digits"}},
+        {7, {"points.1.color", "7", "[r, g, b], \"#rrggbb\""}},
+        {{{"srgb", {0, 0, 1.5}}}, {"points.1.color.srgb", "three numbers from 0 to 1"}},
+        {{{"srbg", {0, 0, 1}}}, {"points.1.color.srgb", "three finite numbers"}},
+        {{{"srgb", {0, 0, 1}}, {"a", 1}}, {"points.1.color.a", "unknown key"}},
+        {{0, -1, 0}, {"points.1.color", "components from 0 to 1e30"}}};
+    for (const auto& [color, parts] : mistakes)
+        expect_error([&] { read_scene(colored(color, "display"), "s"); }, parts);
+    expect_error([] { read_scene(with("/image/background", "grren"), "s"); },
+                 {"image.background", "did you mean \"green\"?"});
+    expect_error([] { read_scene(with("/image/color_space", "srgb"), "s"); },
+                 {"image.color_space", "\"linear\", \"display\""});
+}
+
+nlohmann::json mapped(const nlohmann::json& map, const char* space) {
+    nlohmann::json document = with("/image/color_space", space);
+    document["transfer_function"] = map;
+    return document;
+}
+
+TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
+    nlohmann::json map{{"colormap", "greys"}, {"points", {{{"value", 0}, {"extinction", 1}}}}};
+    const auto over_data = read_scene(mapped(map, "display"), "s").transfer_function;
+    const ValueRange data = measure_bricks(load_volume(read_scene(minimal_scene(), "s"))).whole;
+    ASSERT_LT(data.lo, data.hi);
+    EXPECT_EQ(over_data.at(data.lo).color, glm::dvec3(0));
+    EXPECT_EQ(over_data.at(data.hi).color, glm::dvec3(1));
+    const double middle = (data.lo + data.hi) / 2;
+    EXPECT_NEAR(over_data.at(middle).color.g, .5, 1e-15);  // a few roundings
+    map["colormap_range"] = {100, 200};
+    const auto told = read_scene(mapped(map, "display"), "s").transfer_function;
+    EXPECT_EQ(told.at(150).color, glm::dvec3(.5));
+    const auto linear = read_scene(mapped(map, "linear"), "s").transfer_function;
+    // The map is resampled to 5e-4.
+    EXPECT_NEAR(linear.at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
+}
+
+TEST(ColorJson, APresetInUnitsAndAFileKeepTheirRange) {
+    const Scene bone = read_scene(mapped({{"colormap", "ct-bone"}}, "display"), "s");
+    EXPECT_TRUE(bone.transfer_function.transparent(-1e9, 150));
+    EXPECT_TRUE(bone.colormap_file.empty());
+    const TemporaryFolder folder;
+    std::ofstream(folder / "two.json")
+        << R"({"RGBPoints": [5, 0, 0, 0, 7, 1, 1, 1], "Points": [5, 0, 0.5, 0, 7, 0.5, 0.5, 0]})";
+    const Scene two =
+        read_scene(mapped({{"colormap", "two.json"}}, "display"), folder / "scene.json");
+    EXPECT_EQ(two.transfer_function.at(6).color, glm::dvec3(.5));
+    EXPECT_EQ(two.colormap_file, folder / "two.json");
+}
+
+TEST(ColorJson, MistakesWithMapsAreSaid) {
+    const nlohmann::json no_such{{"colormap", "virdis"}, {"points", nlohmann::json::array()}};
+    expect_error([&] { read_scene(mapped(no_such, "linear"), "dir/s"); },
+                 {"dir/s", "transfer_function.colormap", "did you mean \"viridis\"?"});
+    const nlohmann::json segment = nlohmann::json::parse(R"({"transfer_function":
+        {"colormap": "viridis", "points": [{"value": 0, "extinction": 1}]}, "sf": 0, "sb": 1,
+        "length": 1})");
+    const std::filesystem::path file = "cases.json";
+    expect_error([&] { read_integration_case(JsonReader(segment, file), nullptr); },
+                 {"cases.json", "transfer_function.colormap_range", "is missing", "no data"});
+}
+
+}  // namespace
+}  // namespace lamina
