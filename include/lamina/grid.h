@@ -31,7 +31,7 @@ struct LAMINA_API Grid {
     glm::dvec3 origin{0};  // world position of sample (0, 0, 0)
     std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
                                    glm::dvec3{0, 0, 1}};  // orthogonal
-    WorldAxes axes = WorldAxes::unnamed;  // for the automatic camera alone
+    WorldAxes axes = WorldAxes::unnamed;                  // for the automatic camera alone
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // of the box, index space

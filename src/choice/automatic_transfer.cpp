@@ -24,11 +24,8 @@ constexpr std::size_t most_labels = 24;
 
 // Colours in linear light, from values next to the common ones to the rarest. They become lighter
 // and change hue, and none has a component of 1, so that no picture is saturated by them.
-constexpr std::array<glm::dvec3, 5> upwards{{{.035, .10, .30},
-                                             {.05, .30, .38},
-                                             {.55, .22, .07},
-                                             {.86, .45, .10},
-                                             {.92, .80, .55}}};
+constexpr std::array<glm::dvec3, 5> upwards{
+    {{.035, .10, .30}, {.05, .30, .38}, {.55, .22, .07}, {.86, .45, .10}, {.92, .80, .55}}};
 constexpr std::array<glm::dvec3, 3> downwards{{{.05, .12, .35}, {.05, .40, .55}, {.55, .80, .75}}};
 constexpr std::array<glm::dvec3, 3> beyond{{{.45, .12, .04}, {.86, .42, .08}, {.92, .80, .50}}};
 
@@ -129,7 +126,8 @@ std::vector<TransferKnot> joined(const Side& down, const Side& up, double start)
         std::ranges::reverse(points);
     }
     if (!up.empty()) {
-        const auto more = points_of(up, both ? std::span<const glm::dvec3>(beyond) : upwards, start);
+        const auto more =
+            points_of(up, both ? std::span<const glm::dvec3>(beyond) : upwards, start);
         points.insert(points.end(), more.begin(), more.end());
     }
     return points;
@@ -159,13 +157,12 @@ AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonVal
     const std::string hidden = common.background ? "are transparent" : "are faint";
     std::string shown;
     if (!down.empty()) shown = fmt::format("down to {:.4g}", down.end());
-    if (!up.empty())
-        shown += fmt::format("{}up to {:.4g}", shown.empty() ? "" : " and ", up.end());
-    return {normalized(points),
-            fmt::format("values from {:.4g} to {:.4g}, {:.3g} % of the field, {}; beyond, {}, the "
-                        "rarer the denser",
-                        common.lo, common.hi, 100 * values.share(common.lo, common.hi), hidden,
-                        shown)};
+    if (!up.empty()) shown += fmt::format("{}up to {:.4g}", shown.empty() ? "" : " and ", up.end());
+    return {
+        normalized(points),
+        fmt::format("values from {:.4g} to {:.4g}, {:.3g} % of the field, {}; beyond, {}, the "
+                    "rarer the denser",
+                    common.lo, common.hi, 100 * values.share(common.lo, common.hi), hidden, shown)};
 }
 
 AutomaticTransfer in_own_colors(const ValueDistribution& values, bool whole_numbers,

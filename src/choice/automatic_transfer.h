@@ -13,12 +13,13 @@ namespace lamina {
 
 // What a user may ask of it.
 struct TransferWishes {
-    std::optional<Colormap> colormap;  // in place of its own colours; spread over what shows
+    std::optional<Colormap> colormap;  // in place of its own colours
     std::optional<ValueRange> range;   // what shows, lo < hi: values below are transparent
 };
 
 struct AutomaticTransfer {
-    // Its extinctions are relative, the largest 1: how dense the data are to be depends on the view.
+    // Its extinctions are relative, the largest 1: how dense the data are to be depends on the
+    // view.
     TransferFunction transfer_function;
     std::string reason;  // for people: what shows, and what not
 };

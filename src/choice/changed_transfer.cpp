@@ -29,31 +29,29 @@ TransferFunction stretched(const TransferFunction& transfer_function, const Valu
     std::vector<TransferKnot> knots(transfer_function.knots().begin(),
                                     transfer_function.knots().end());
     if (knots.front().value == knots.back().value)
-        fail("transfer function: has a single value, {}, expected two that a range could lie between",
-             knots.front().value);
+        fail(
+            "transfer function: has a single value, {}, expected two that a range could lie "
+            "between",
+            knots.front().value);
     const Stretch stretch(knots.front().value, knots.back().value, range);
     for (TransferKnot& knot : knots) knot.value = stretch(knot.value);
     return TransferFunction::linear(knots);
 }
 
-TransferFunction recolored(const TransferFunction& transfer_function, const Colormap& colormap) {
+TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap) {
     const auto knots = transfer_function.knots();
     const double from = colormap.colors.front().value, to = colormap.colors.back().value;
     const double lo = knots.front().value, hi = knots.back().value;
     if (lo == hi) {
-        const auto colors = TransferFunction::linear(combine({colormap.colors, {}}, {{from, 0}}));
+        const auto colors = TransferFunction::linear(combine(colormap, {{from, 0}}));
         const glm::dvec3 middle = colors.at(from + (to - from) / 2).color;
         return TransferFunction::linear({{lo, {middle, knots.front().optics.extinction}}});
     }
     std::vector<ExtinctionPoint> extinctions;
     for (const TransferKnot& knot : knots)
         extinctions.push_back({knot.value, knot.optics.extinction});
-    Colormap spread{colormap.colors, {}};
-    if (from < to) {
-        const Stretch stretch(from, to, {lo, hi});
-        for (ColorPoint& point : spread.colors) point.value = stretch(point.value);
-    }
-    return TransferFunction::linear(combine(spread, extinctions));
+    if (from < to && !colormap.own_range) stretch(colormap, lo, hi);
+    return TransferFunction::linear(combine(colormap, extinctions));
 }
 
 }  // namespace lamina

@@ -11,8 +11,9 @@ namespace lamina {
 // others in proportion. Throws Error where it has one point alone.
 TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range);
 
-// The function with the colours of a map, which is spread from its first to its last point. A
-// function of one point gets the colour in the middle.
-TransferFunction recolored(const TransferFunction& transfer_function, const Colormap& colormap);
+// The function with the colours of a map, which is spread from its first to its last point unless
+// it is one of data values (Colormap::own_range). A function of one point gets the colour in the
+// middle.
+TransferFunction recolored(const TransferFunction& transfer_function, Colormap colormap);
 
 }  // namespace lamina

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "choice/changed_transfer.h"
+#include "image/srgb.h"
 
 namespace lamina {
 namespace {
@@ -27,8 +28,8 @@ double largest_extinction(const TransferFunction& transfer_function) {
 
 std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,
                                       const Field& field) {
-    std::vector<glm::dvec3> points = field.shown_points(
-        transfer_function, seen_share * largest_extinction(transfer_function));
+    std::vector<glm::dvec3> points =
+        field.shown_points(transfer_function, seen_share * largest_extinction(transfer_function));
     if (!points.empty()) return points;
     const auto corners = field.corners();
     return {corners.begin(), corners.end()};
@@ -48,6 +49,16 @@ double density_of(const Scene& scene, const Field& field) {
     return -std::log1p(-median_opacity) / *middle;
 }
 
+// Its colours as display values.
+TransferFunction displayed(const TransferFunction& transfer_function) {
+    std::vector<TransferKnot> knots(transfer_function.knots().begin(),
+                                    transfer_function.knots().end());
+    for (TransferKnot& knot : knots) {
+        for (int c = 0; c < 3; ++c) knot.optics.color[c] = srgb_from_linear(knot.optics.color[c]);
+    }
+    return TransferFunction::linear(knots);
+}
+
 void change_transfer_function(Scene& scene, const Wishes& wishes) {
     TransferFunction& changed = scene.transfer_function;
     if (wishes.transfer.range) changed = stretched(changed, *wishes.transfer.range);
@@ -59,9 +70,11 @@ void change_transfer_function(Scene& scene, const Wishes& wishes) {
 Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
     std::string reason;
     if (scene.automatic_transfer_function) {
-        AutomaticTransfer chosen = choose_transfer_function(field.distribution(),
-                                                            field.whole_numbers(), wishes.transfer);
+        AutomaticTransfer chosen =
+            choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer);
         scene.transfer_function = std::move(chosen.transfer_function);
+        if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
+            scene.transfer_function = displayed(scene.transfer_function);
         reason = std::move(chosen.reason);
     } else {
         change_transfer_function(scene, wishes);
@@ -75,17 +88,19 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
     if (scene.automatic_transfer_function) {
         const double density = density_of(scene, field);
         scene.transfer_function = scene.transfer_function.attenuated(density);
-        scene.chosen.push_back(fmt::format(
-            "transfer function: {}; extinction up to {:.4g} per unit of length", reason,
-            wishes.density * largest_extinction(scene.transfer_function)));
+        scene.chosen.push_back(
+            fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
+                        wishes.density * largest_extinction(scene.transfer_function)));
     }
-    scene.transfer_function = scene.transfer_function.attenuated(wishes.density);
+    // As it is read from a file again: without points that rounding has put on straight lines.
+    const TransferFunction dense = scene.transfer_function.attenuated(wishes.density);
+    scene.transfer_function =
+        TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(scene.camera, wishes.zoom);
     if (scene.automatic_camera) {
-        scene.chosen.push_back(fmt::format("camera: from {} to {}, up {}, fov_y {:.4g}",
-                                           vector_text(scene.camera.eye),
-                                           vector_text(scene.camera.center),
-                                           vector_text(scene.camera.up), scene.camera.fov_y));
+        scene.chosen.push_back(fmt::format(
+            "camera: from {} to {}, up {}, fov_y {:.4g}", vector_text(scene.camera.eye),
+            vector_text(scene.camera.center), vector_text(scene.camera.up), scene.camera.fov_y));
     }
     scene.automatic_transfer_function = scene.automatic_camera = false;
     return scene;

@@ -10,7 +10,7 @@ namespace lamina {
 namespace {
 
 constexpr int most_bins = 256;
-constexpr double outer_share = 1e-3;   // at each end
+constexpr double outer_share = 1e-3;     // at each end
 constexpr double outer_width = 1.0 / 8;  // of the range, that all but these have at most
 
 // A peak ends where the next twentieth of the range has less than this share of its density: below
@@ -45,7 +45,8 @@ class Bins {
 
     // Where the peak ends on its way up (step 1) or down (-1): the last bin that belongs to it.
     std::size_t end_of_peak(std::size_t peak, int step) const {
-        const auto window = static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares_.size() / tail_width, 1));
+        const auto window =
+            static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares_.size() / tail_width, 1));
         const auto count = static_cast<std::ptrdiff_t>(shares_.size());
         const double limit = tail * shares_[peak];
         auto last = static_cast<std::ptrdiff_t>(peak);
@@ -98,8 +99,7 @@ CommonValues find_common_values(const ValueDistribution& values, bool whole_numb
     if (first == 0) found.lo = values.lowest();
     if (last + 1 == bins.count()) found.hi = values.highest();
     const double width = static_cast<double>(last - first + 1) / static_cast<double>(bins.count());
-    const bool background =
-        width <= most_width && values.share(found.lo, found.hi) >= least_share;
+    const bool background = width <= most_width && values.share(found.lo, found.hi) >= least_share;
     return background ? found : densest(values, common_share);
 }
 

@@ -42,8 +42,7 @@ double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
         return mesh.points()[static_cast<std::size_t>(tet[corner])] / diagonal;
     };
     const glm::dvec3 origin = at(0);
-    return std::abs(
-        glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
+    return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
 }
 
 double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run& run) {

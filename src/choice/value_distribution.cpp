@@ -30,7 +30,8 @@ ValueDistribution::ValueDistribution(std::vector<WeightedValue> values) {
 
 double ValueDistribution::share_up_to(double value) const {
     const auto above = std::ranges::upper_bound(values_, value);
-    return above == values_.begin() ? 0 : up_to_[static_cast<std::size_t>(above - values_.begin()) - 1];
+    return above == values_.begin() ? 0
+                                    : up_to_[static_cast<std::size_t>(above - values_.begin()) - 1];
 }
 
 double ValueDistribution::share_below(double value) const {
@@ -40,7 +41,8 @@ double ValueDistribution::share_below(double value) const {
 
 double ValueDistribution::quantile(double share) const {
     const auto at = std::ranges::lower_bound(up_to_, share);
-    return at == up_to_.end() ? values_.back() : values_[static_cast<std::size_t>(at - up_to_.begin())];
+    return at == up_to_.end() ? values_.back()
+                              : values_[static_cast<std::size_t>(at - up_to_.begin())];
 }
 
 ValueDistribution ValueDistribution::between(double lo, double hi) const {

@@ -29,7 +29,8 @@ std::vector<WeightedValue> weighted_values(const T* samples, std::int64_t count)
     parallel_for(parts, 1, [&](std::int64_t part) {
         std::vector<std::int64_t>& found = counts[static_cast<std::size_t>(part)];
         found.resize(static_cast<std::size_t>(codes));
-        const std::int64_t end = count / parts * (part + 1) + (part + 1 == parts ? count % parts : 0);
+        const std::int64_t end =
+            count / parts * (part + 1) + (part + 1 == parts ? count % parts : 0);
         for (std::int64_t i = count / parts * part; i < end; ++i)
             ++found[static_cast<std::size_t>(std::int64_t{samples[i]} - lowest)];
     });

@@ -120,7 +120,8 @@ PlanSummary Session::plan() {
 
 std::string Session::explanation() {
     std::string text;
-    parts_->run_drawing([&] { text = chosen_text(parts_->scene) + parts_->renderer().explanation(); });
+    parts_->run_drawing(
+        [&] { text = chosen_text(parts_->scene) + parts_->renderer().explanation(); });
     return text;
 }
 

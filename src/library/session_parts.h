@@ -59,8 +59,8 @@ struct Session::Parts {
     // Warns of what `picture` lacks.
     void warn_of(const Image& picture);
 
-    // Replaces the scene that is drawn, and forgets the mesh and the renderer where these are not of
-    // the next.
+    // Replaces the scene that is drawn, and forgets the mesh and the renderer where these are not
+    // of the next.
     void take_scene(Scene next);
     bool changes_mesh(const Scene& next) const;
 

@@ -32,8 +32,7 @@ bool is_vtk(const std::string& beginning) {
 
 bool is_vtu(const std::string& beginning) {
     const std::size_t tag = beginning.find("<VTKFile");
-    return tag != std::string::npos &&
-           beginning.find("UnstructuredGrid", tag) != std::string::npos;
+    return tag != std::string::npos && beginning.find("UnstructuredGrid", tag) != std::string::npos;
 }
 
 // TetGen's files are numbers, which could mean anything.

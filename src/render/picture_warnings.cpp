@@ -20,8 +20,9 @@ namespace {
 
 // Half a code of 8 bits: no opacity below it shows.
 constexpr float least_opacity = .5F / 255;
-// Linear light that is stored as the last of the 256 codes of a PNG: of sRGB 254.5 / 255.
-constexpr float full_light = .9956F;
+// What is stored as the last of the 256 codes of a PNG: 254.5 / 255, which sRGB has for so much
+// light.
+constexpr float full_display = 254.5F / 255, full_light = .9956F;
 
 std::string name_of_scene(const Scene& scene) {
     return scene.file.empty() ? "picture" : scene.file.string();
@@ -84,7 +85,8 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
         return fmt::format("the camera looks past the data, which lie {} the picture", side);
     if (largest > 0) {
         return fmt::format(
-            "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of length "
+            "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of "
+            "length "
             "is small for these data",
             largest, scene.transfer_function.max_extinction(range.lo, range.hi));
     }
@@ -101,16 +103,18 @@ void warn_of_colors(const Scene& scene, const ValueRange& range) {
     while (first < last && !change(first)) ++first;
     while (last > first && !change(last - 1)) --last;
     const ValueRange colors{knots[first].value, knots[last].value};
-    if (first == last || (colors.hi > range.lo && colors.lo < range.hi)) return;
-    warn(fmt::format("{}: the colour map has its colours from {}, and the data have {}: they get "
-                     "one colour (transfer_function.colormap_range moves the map)",
-                     name_of_scene(scene), range_text(colors), range_text(range)));
+    if (first == last || range.lo == range.hi || (colors.hi > range.lo && colors.lo < range.hi))
+        return;
+    warn(
+        fmt::format("{}: the transfer function's colours change from {}, and the data have {}: "
+                    "they all get one colour",
+                    name_of_scene(scene), range_text(colors), range_text(range)));
 }
 
 }  // namespace
 
 void warn_of_picture(const Scene& scene, const Field& field, const Image& picture) {
-    if (!scene.colormap_file.empty()) warn_of_colors(scene, field.range());
+    const float full = scene.color_space == ImageColorSpace::display ? full_display : full_light;
     float largest = 0;
     std::size_t shown = 0, saturated = 0;
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
@@ -118,16 +122,18 @@ void warn_of_picture(const Scene& scene, const Field& field, const Image& pictur
         largest = std::max(largest, pixel[3]);
         if (pixel[3] < least_opacity) continue;
         ++shown;
-        saturated += std::max({pixel[0], pixel[1], pixel[2]}) >= full_light ? 1U : 0U;
+        saturated += std::max({pixel[0], pixel[1], pixel[2]}) >= full ? 1U : 0U;
     }
+    if (shown > 0) warn_of_colors(scene, field.range());
     if (shown == 0) {
         warn(fmt::format("{}: the picture shows nothing: {}", name_of_scene(scene),
                          why_nothing_shows(scene, field, largest)));
     } else if (2 * saturated > shown) {
-        warn(fmt::format("{}: {:.0f} % of the pixels that show something are saturated: less "
-                         "extinction or darker colours would show more of the data",
-                         name_of_scene(scene),
-                         100 * static_cast<double>(saturated) / static_cast<double>(shown)));
+        warn(
+            fmt::format("{}: {:.0f} % of the pixels that show something are saturated: less "
+                        "extinction or darker colours would show more of the data",
+                        name_of_scene(scene),
+                        100 * static_cast<double>(saturated) / static_cast<double>(shown)));
     }
 }
 

@@ -30,9 +30,10 @@ FileKind kind_of_file(const std::filesystem::path& file) {
 nlohmann::json scene_document(const std::filesystem::path& file) {
     const FileKind kind = kind_of_file(file);
     if (kind == FileKind::scene) return load_json(file);
-    return {{"version", 1},
-            {kind == FileKind::volume ? "volume" : "mesh", std::filesystem::absolute(file).string()},
-            {"nan", "transparent"}};
+    return {
+        {"version", 1},
+        {kind == FileKind::volume ? "volume" : "mesh", std::filesystem::absolute(file).string()},
+        {"nan", "transparent"}};
 }
 
 }  // namespace lamina

@@ -118,7 +118,9 @@ void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
         crosscheck_name, "Slice a volume and project its mesh, and say where they differ, and why");
-    verb->add_option("SCENE", options->scene.file, "Scene file (JSON) with a volume, or a volume (NRRD)")->required();
+    verb->add_option("SCENE", options->scene.file,
+                     "Scene file (JSON) with a volume, or a volume (NRRD)")
+        ->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();
     verb->add_option("--set", options->scene.settings,

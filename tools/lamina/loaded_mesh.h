@@ -6,7 +6,8 @@
 
 namespace lamina {
 
-// Says and counts what is noteworthy of the mesh that is rendered, once it is known that it can be drawn.
+// Says and counts what is noteworthy of the mesh that is rendered, once it is known that it can be
+// drawn.
 void report_mesh(const RenderRequest& request, const SceneMesh& mesh, RenderStats& stats);
 
 }  // namespace lamina

@@ -6,7 +6,8 @@
 
 namespace lamina {
 
-// Says and counts what is noteworthy of the volume that is rendered, once it is known that it can be drawn.
+// Says and counts what is noteworthy of the volume that is rendered, once it is known that it can
+// be drawn.
 void report_volume(const RenderRequest& request, const VolumeData& data, RenderStats& stats);
 
 }  // namespace lamina

@@ -96,7 +96,7 @@ void run(const RenderOptions& options) {
     Stage reading("scene");
     nlohmann::json document;
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
-    const Wishes wishes = wishes_of(options.view);
+    const Wishes wishes = wishes_of(options.view, scene.color_space);
     reading.end();
     expect_different_files(files_of(scene), {options.output, options.stats, options.profile});
     for (const std::string& warning : scene.warnings) message(options, warning);
@@ -111,8 +111,8 @@ void run(const RenderOptions& options) {
     const auto say = [&](const std::string& text) { message(options, text); };
     RenderStats stats;
     const SceneData data = load_data(scene, wishes, stats);
-    const std::string scene_text =
-        json_text(scene.chosen.empty() ? document : nlohmann::json(document_of(scene, document)), 2);
+    const std::string scene_text = json_text(
+        scene.chosen.empty() ? document : nlohmann::json(document_of(scene, document)), 2);
     for (const std::string& chosen : scene.chosen) say(chosen);
     const auto job = make_job({scene, data, omissions, context, !options.stats.empty(), say});
     const Plan plan = job->plan(stats);
@@ -146,10 +146,12 @@ void run(const RenderOptions& options) {
 
 void add_render(CLI::App& app, int&) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* const verb = app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
-    verb->add_option("SCENE", options->scene.file,
-                     "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .vtk, .node, "
-                     ".ele); what a scene leaves open is chosen from the data")
+    CLI::App* const verb =
+        app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
+    verb->add_option(
+            "SCENE", options->scene.file,
+            "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .vtk, .node, "
+            ".ele); what a scene leaves open is chosen from the data")
         ->required();
     verb->add_option("-o,--output", options->output,
                      "Picture to write: .exr, .png, or .npy (trace only)");

@@ -10,8 +10,8 @@
 #include "plan/plan.h"
 #include "render/context_choice.h"
 #include "render_stats.h"
-#include "scene_data.h"
 #include "scene/camera.h"
+#include "scene_data.h"
 
 namespace lamina {
 

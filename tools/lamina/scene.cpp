@@ -29,7 +29,7 @@ struct SceneVerbOptions {
 void run(const SceneVerbOptions& options) {
     nlohmann::json document;
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
-    const Wishes wishes = wishes_of(options.view);
+    const Wishes wishes = wishes_of(options.view, scene.color_space);
     expect_different_files(files_of(scene), {options.output});
     AtomicFile output(options.output);
     RenderStats ignored;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/shortened.h"
+#include "optics/shipped_colormaps.h"
 
 namespace lamina {
 namespace {
@@ -24,8 +25,7 @@ std::pair<Number, Number> pair_of(const char* option, const std::string& text, c
         const auto [stop, other] = std::from_chars(middle + 1, end, second);
         if (other == std::errc{} && stop == end) return {first, second};
     }
-    throw UsageError(
-        fmt::format("{} {}: expected {}", option, shortened(text), expected));
+    throw UsageError(fmt::format("{} {}: expected {}", option, shortened(text), expected));
 }
 
 ValueRange range_of(const std::string& text) {
@@ -47,7 +47,8 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
     verb.add_option("--zoom", options.zoom, "Show things this many times as large")->group(group);
     verb.add_option("--size", options.size, "Pixels of the picture, WxH (800x600)")->group(group);
     verb.add_option("--colormap", options.colormap,
-                    "Colours: a ParaView preset (JSON), spread over the values that show")
+                    "Colours: viridis, inferno, cividis, cool-warm, greys, ct-bone or "
+                    "ct-soft-tissue, or a ParaView preset (JSON), spread over the values that show")
         ->group(group);
     verb.add_option("--range", options.range,
                     "Values that colours and density are spread over, LO,HI")
@@ -55,14 +56,18 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
         ->group(group);
     verb.add_option("--density", options.density, "Factor on the extinction")->group(group);
     verb.add_option("--background", options.background,
-                    "Colour behind the picture, linear light: [r, g, b]")
+                    "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]")
         ->group(group);
 }
 
-Wishes wishes_of(const ViewOptions& options) {
+Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
     Wishes wishes;
-    if (!options.colormap.empty())
-        wishes.transfer.colormap = read_paraview_colormap(options.colormap);
+    if (!options.colormap.empty()) {
+        Colormap colormap = load_colormap(options.colormap, space);
+        // A file seldom says whether its values are those of data. Most are not.
+        if (!is_colormap_name(options.colormap)) colormap.own_range = false;
+        wishes.transfer.colormap = std::move(colormap);
+    }
     if (!options.range.empty()) wishes.transfer.range = range_of(options.range);
     for (const auto& [name, number] : {std::pair{"--azimuth", options.turn.azimuth},
                                        std::pair{"--elevation", options.turn.elevation}}) {
@@ -84,13 +89,12 @@ Wishes wishes_of(const ViewOptions& options) {
 std::vector<std::string> settings_of(const ViewOptions& options) {
     std::vector<std::string> settings;
     if (!options.size.empty()) {
-        const auto [width, height] = pair_of<int>("--size", options.size, 'x',
-                                                  "WxH in pixels, as in 800x600");
+        const auto [width, height] =
+            pair_of<int>("--size", options.size, 'x', "WxH in pixels, as in 800x600");
         settings.push_back(fmt::format("image.width={}", width));
         settings.push_back(fmt::format("image.height={}", height));
     }
-    if (!options.background.empty())
-        settings.push_back("image.background=" + options.background);
+    if (!options.background.empty()) settings.push_back("image.background=" + options.background);
     return settings;
 }
 

@@ -19,7 +19,7 @@ struct ViewOptions {
 void add_view_options(CLI::App& verb, ViewOptions& options);
 
 // What is to be changed in the scene, which --colormap may have to read. Throws UsageError.
-Wishes wishes_of(const ViewOptions& options);
+Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
 
 // The others, as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);
