@@ -12,6 +12,15 @@ namespace lamina {
 
 enum class Centering { node, cell };
 
+// What the axes of the world mean where the file says so: where x, y and z grow to in a patient's
+// body. All have z to the head.
+enum class WorldAxes {
+    unnamed,
+    left_posterior_superior,
+    right_anterior_superior,
+    left_anterior_superior
+};
+
 // Where the samples of a regular grid lie in the world. In index space sample (i, j, k) lies at (i,
 // j, k). The box that is rendered is chosen axis by axis: with Centering::node it spans the
 // samples; with Centering::cell it spans whole voxels, half a voxel more at each end, where the
@@ -22,6 +31,7 @@ struct LAMINA_API Grid {
     glm::dvec3 origin{0};  // world position of sample (0, 0, 0)
     std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
                                    glm::dvec3{0, 0, 1}};  // orthogonal
+    WorldAxes axes = WorldAxes::unnamed;                  // for the automatic camera alone
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // of the box, index space

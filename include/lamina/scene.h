@@ -38,8 +38,12 @@ struct Scene {
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
     Camera camera;
-    int width = 0;
-    int height = 0;
+    // Where these are set, what stands above is replaced by what the data suggest, once they are
+    // known (docs/first-picture.md).
+    bool automatic_transfer_function = false, automatic_camera = false;
+    std::vector<std::string> chosen;  // what was, for people; empty where nothing was automatic
+    int width = 800;
+    int height = 600;
     // What colours and background are given in, and pictures composited in.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
@@ -82,7 +86,8 @@ LAMINA_API const char* name_of(OverRounding rounding);
 // Loads the volume that the scene names: it is read from its file, or generated.
 LAMINA_API Volume load_volume(const Scene& scene);
 
-// Reads a scene file (docs/scene.md). Writes one with every key written out. Both throw Error.
+// Reads a scene file (docs/scene.md), or makes a scene that draws a data file, with all else
+// automatic. Writes one with every key written out. Both throw Error.
 LAMINA_API Scene load_scene(const std::filesystem::path& file);
 LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);
 

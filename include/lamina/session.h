@@ -41,8 +41,9 @@ using ProgressCallback = std::function<void(const std::string& activity, double 
 //                       the transfer function
 //   settings            all of that, and what is automatic is chosen again
 //
-// What is automatic ("auto" in scene files) is chosen for the first picture and kept:
-// resolved_scene() has it written out. With the native engine (ContextChoice::cpu) a picture is,
+// What is automatic ("auto" in scene files) is chosen for the first picture and kept, transfer
+// function and camera (docs/first-picture.md) when the session gets the scene: resolved_scene() has
+// it written out. With the native engine (ContextChoice::cpu) a picture is,
 // bit for bit, the one that `lamina render` draws of that scene.
 //
 // Every call may throw Error. Sessions of several threads do not disturb each other; calls of one
@@ -53,7 +54,7 @@ class LAMINA_API Session {
     // Reads what the scene names as its data (docs/scene.md), or makes it.
     explicit Session(Scene scene, SessionOptions options = {});
     // Draws these data, whatever the scene says of files. Volumes share their samples: nothing is
-    // copied.
+    // copied. A Scene{} with automatic_transfer_function and automatic_camera is enough.
     Session(Scene scene, Volume volume, SessionOptions options = {});
     // Draws `scene.scalar` of the mesh, or its first scalar at points.
     Session(Scene scene, MeshData mesh, SessionOptions options = {});
@@ -88,7 +89,8 @@ class LAMINA_API Session {
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
 
     const FrameStatistics& statistics() const;
-    // The warnings since the last call: what is noteworthy in the data and shows in no picture.
+    // The warnings since the last call, each once: what is noteworthy in the data and shows in no
+    // picture, and pictures that show nothing or are saturated.
     std::vector<std::string> take_warnings();
 
   private:

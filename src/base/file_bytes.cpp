@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <system_error>
 
@@ -44,6 +45,16 @@ std::string read_file_bytes(const std::filesystem::path& path) {
         }
         bytes.resize(done);  // another process has shortened the file meanwhile
     }
+    return bytes;
+}
+
+std::string file_beginning(const std::filesystem::path& path, std::size_t most) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return {};
+    std::ifstream stream(path, std::ios::binary);
+    std::string bytes(most, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(most));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;
 }
 

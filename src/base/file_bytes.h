@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -11,5 +12,9 @@ void expect_regular_file(const std::filesystem::path& path);
 
 // Reads all bytes of a regular file. Throws Error where it is not one or cannot be read.
 std::string read_file_bytes(const std::filesystem::path& path);
+
+// Up to so many bytes of the file's beginning; none where it is not a regular file or cannot be
+// read.
+std::string file_beginning(const std::filesystem::path& path, std::size_t most);
 
 }  // namespace lamina

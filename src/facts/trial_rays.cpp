@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "facts/mesh_facts.h"
+#include "facts/view_rays.h"
 #include "mesh/face_tree.h"
 #include "mesh/ray_walk.h"
 #include "scene/camera.h"
@@ -59,8 +60,7 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 
 }  // namespace
 
-std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
-                                                         const TetPieces& pieces) {
+std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
     const View view(scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     const int columns = std::min(rays_along_side, view.width);
@@ -75,6 +75,12 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, con
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
+    return rays;
+}
+
+std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
+                                                         const TetPieces& pieces) {
+    std::vector<std::vector<MeshFacts::Run>> rays = find_view_rays(scene, mesh);
     append_tets(mesh, pieces, rays);
     return rays;
 }

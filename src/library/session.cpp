@@ -5,12 +5,14 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "choice/choose.h"
 #include "library/session_parts.h"
 
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->run([&] {
+        parts_->scene = parts_->chosen();
         if (parts_->scene.draws_mesh())
             parts_->mesh_data();
         else
@@ -20,7 +22,10 @@ Session::Session(Scene scene, SessionOptions options)
 
 Session::Session(Scene scene, Volume volume, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run([&] { parts_->volume = std::make_shared<const VolumeData>(std::move(volume)); });
+    parts_->run([&] {
+        parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
+        parts_->scene = parts_->chosen();
+    });
 }
 
 Session::Session(Scene scene, MeshData mesh, SessionOptions options)
@@ -29,6 +34,7 @@ Session::Session(Scene scene, MeshData mesh, SessionOptions options)
     parts_->run([&] {
         parts_->mesh =
             std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
+        parts_->scene = parts_->chosen();
     });
 }
 
@@ -38,20 +44,22 @@ Session& Session::operator=(Session&& other) noexcept = default;
 
 void Session::set_camera(const Camera& camera) {
     check_view(camera, parts_->scene.width, parts_->scene.height);
-    parts_->scene.camera = camera;
+    parts_->scene.camera = parts_->asked.camera = camera;
+    parts_->asked.automatic_camera = false;
     if (parts_->drawn) parts_->drawn->set_camera(camera);
 }
 
 void Session::set_size(int width, int height) {
     check_view(parts_->scene.camera, width, height);
-    parts_->scene.width = width;
-    parts_->scene.height = height;
+    parts_->scene.width = parts_->asked.width = width;
+    parts_->scene.height = parts_->asked.height = height;
     if (parts_->drawn) parts_->drawn->set_size(width, height);
 }
 
 void Session::set_transfer_function(const TransferFunction& transfer_function) {
     Scene scene = parts_->scene;
-    scene.transfer_function = transfer_function;
+    scene.transfer_function = parts_->asked.transfer_function = transfer_function;
+    parts_->asked.automatic_transfer_function = false;
     parts_->run([&] {
         parts_->take_scene(std::move(scene));
         if (parts_->drawn) parts_->drawn->set_transfer_function(transfer_function);
@@ -61,17 +69,18 @@ void Session::set_transfer_function(const TransferFunction& transfer_function) {
 void Session::set_scene(Scene scene) {
     check_view(scene.camera, scene.width, scene.height);
     parts_->run([&] {
-        parts_->take_scene(std::move(scene));
+        parts_->asked = std::move(scene);
+        parts_->take_scene(parts_->chosen());
         if (parts_->drawn) parts_->drawn->set_scene(parts_->scene);
     });
 }
 
 void Session::choose_again() {
-    if (parts_->drawn) parts_->drawn->choose_again();
+    set_scene(parts_->asked);
 }
 
 const Scene& Session::scene() const {
-    return parts_->scene;
+    return parts_->asked;
 }
 
 const Scene& Session::resolved_scene() {
@@ -111,7 +120,8 @@ PlanSummary Session::plan() {
 
 std::string Session::explanation() {
     std::string text;
-    parts_->run_drawing([&] { text = parts_->renderer().explanation(); });
+    parts_->run_drawing(
+        [&] { text = chosen_text(parts_->scene) + parts_->renderer().explanation(); });
     return text;
 }
 

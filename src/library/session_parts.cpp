@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "library/session_parts.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
 #include "base/unreachable.h"
+#include "choice/choose.h"
+#include "choice/mesh_field.h"
+#include "choice/volume_field.h"
 #include "reference/scene_tracer.h"
+#include "render/picture_warnings.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -25,7 +30,8 @@ void check_view(const Camera& camera, int width, int height) {
 }
 
 Session::Parts::Parts(Scene first, const SessionOptions& options)
-    : scene(std::move(first)),
+    : asked(std::move(first)),
+      scene(asked),
       choice(options.context),
       threads(arena_threads(options.threads)),
       many_frames(options.many_frames),
@@ -38,9 +44,10 @@ Session::Parts::~Parts() {
     if (drawn) run([&] { drawn.reset(); });
 }
 
+// A warning of a picture comes again with every picture.
 void Session::Parts::keep_warning(const std::string& text) {
     const std::lock_guard lock(keeping);
-    warnings.push_back(text);
+    if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(text);
 }
 
 const VolumeData& Session::Parts::volume_data() {
@@ -57,6 +64,25 @@ const SceneMesh& Session::Parts::mesh_data() {
             scene.mesh_file.empty() ? scene_mesh(scene, volume_data().volume) : load_mesh(scene));
     }
     return *mesh;
+}
+
+Scene Session::Parts::chosen() {
+    if (!asked.automatic_transfer_function && !asked.automatic_camera) return asked;
+    if (!asked.draws_mesh() || (!mesh_given && asked.mesh_file.empty())) {
+        const VolumeData& data = volume_data();
+        return choose(asked, VolumeField(data.volume, data.bricks));
+    }
+    // The mesh may be one that an earlier scene made from the volume.
+    if (!mesh_given && scene.mesh_file.empty()) mesh.reset();
+    scene.mesh_file = asked.mesh_file;
+    return choose(asked, MeshField(mesh_data()));
+}
+
+void Session::Parts::warn_of(const Image& drawn_picture) {
+    if (scene.draws_mesh())
+        warn_of_picture(scene, MeshField(mesh_data()), drawn_picture);
+    else
+        warn_of_picture(scene, VolumeField(volume_data().volume, volume->bricks), drawn_picture);
 }
 
 SceneRenderer& Session::Parts::renderer() {
@@ -86,11 +112,13 @@ void Session::Parts::draw() {
     for (const auto& [stage, ms] : frames.renderer().stages_ms()) statistics.stages_ms[stage] = ms;
     statistics.fragments = frames.renderer().fragments();
     statistics.bytes = frames.renderer().byte_count();
+    warn_of(picture);
 }
 
 void Session::Parts::trace() {
     truth = scene.draws_mesh() ? lamina::trace(scene, mesh_data()).image
                                : lamina::trace(scene, volume_data().volume).image;
+    warn_of(to_float(truth));
 }
 
 // A mesh that is made from a volume depends on the transfer function.

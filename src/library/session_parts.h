@@ -54,11 +54,18 @@ struct Session::Parts {
     void draw();
     void trace();
 
-    // Replaces the scene, and forgets the mesh and the renderer where these are not of the next.
+    // The scene that was asked for, with what it leaves open chosen from the data that it draws.
+    Scene chosen();
+    // Warns of what `picture` lacks.
+    void warn_of(const Image& picture);
+
+    // Replaces the scene that is drawn, and forgets the mesh and the renderer where these are not
+    // of the next.
     void take_scene(Scene next);
     bool changes_mesh(const Scene& next) const;
 
-    Scene scene;
+    Scene asked;  // as the user has it
+    Scene scene;  // with nothing automatic in transfer function and camera
     ContextChoice choice;
     tbb::task_arena threads;
     bool many_frames;

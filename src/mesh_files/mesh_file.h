@@ -8,7 +8,8 @@
 
 namespace lamina {
 
-// Whether a path names a mesh, by its extension: .vtu, .vtk, .node or .ele.
+// Whether a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .vtk,
+// .node or .ele.
 bool is_mesh_file(const std::filesystem::path& path);
 
 // Reads a mesh: a VTK XML or legacy VTK unstructured grid, or TetGen's pair of .node and .ele

@@ -4,13 +4,14 @@
 #include "base/atomic_file.h"
 #include "base/json_text.h"
 #include "lamina/scene.h"
+#include "scene_files/scene_document.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
 
 Scene load_scene(const std::filesystem::path& file) {
-    return read_scene(load_json(file), file);
+    return read_scene(scene_document(file), file);
 }
 
 void save_scene(const Scene& scene, const std::filesystem::path& file) {

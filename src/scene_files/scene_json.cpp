@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 
 namespace lamina {
-namespace {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 Json vector_json(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -32,6 +33,8 @@ Json mesh_json(const Scene& scene) {
             {"kuhn", settings.kuhn}};
 }
 
+}  // namespace
+
 Json transfer_function_json(const TransferFunction& transfer_function) {
     Json points = Json::array();
     for (const TransferKnot& knot : transfer_function.knots()) {
@@ -50,6 +53,8 @@ Json camera_json(const Camera& camera) {
             {"fov_y", camera.fov_y},
             {"height", camera.height}};
 }
+
+namespace {
 
 Json emulate_json(const Emulation& emulation) {
     return {{"bits", emulation.bits},
@@ -125,8 +130,10 @@ Json scene_json(const Scene& scene) {
     if (scene.has_mesh()) json["mesh"] = mesh_json(scene);
     if (!scene.scalar.empty()) json["scalar"] = scene.scalar;
     json["nan"] = name_of(scene.nan);
-    json["transfer_function"] = transfer_function_json(scene.transfer_function);
-    json["camera"] = camera_json(scene.camera);
+    json["transfer_function"] = scene.automatic_transfer_function
+                                    ? Json("auto")
+                                    : transfer_function_json(scene.transfer_function);
+    json["camera"] = scene.automatic_camera ? Json("auto") : camera_json(scene.camera);
     json["image"] = {{"width", scene.width},
                      {"height", scene.height},
                      {"color_space", name_of(scene.color_space)},

@@ -12,4 +12,8 @@ namespace lamina {
 // whatever they were made from. save_scene() writes it.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
+// The two keys of these names.
+nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_function);
+nlohmann::ordered_json camera_json(const Camera& camera);
+
 }  // namespace lamina

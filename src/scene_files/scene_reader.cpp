@@ -50,16 +50,25 @@ Camera read_camera(JsonReader reader) {
     return camera;
 }
 
+// Absent means the same as "auto".
+bool is_automatic(JsonReader& reader, const char* key) {
+    if (!reader.has(key) || reader.value(key) == "auto") return true;
+    if (!reader.value(key).is_object()) reader.reject(key, "an object {...}, or \"auto\"");
+    return false;
+}
+
 // What colours mean is known before the first one is read.
 ImageColorSpace read_color_space(JsonReader& reader) {
-    if (!reader.has("image")) reader.reject("image", "an object {...}");
     return reader.object("image").choice<ImageColorSpace>("color_space",
                                                           enum_words<ImageColorSpace>());
 }
 
 void read_image(JsonReader reader, Scene& scene) {
-    const std::int64_t width = reader.whole("width", 1, max_image_side);
-    const std::int64_t height = reader.whole("height", 1, max_image_side);
+    const auto side = [&](const char* key, int otherwise) {
+        return reader.has(key) ? reader.whole(key, 1, max_image_side) : std::int64_t{otherwise};
+    };
+    const std::int64_t width = side("width", scene.width);
+    const std::int64_t height = side("height", scene.height);
     if (width * height > max_image_pixels) {
         reader.fail_at("width", fmt::format("found {} x {} pixels, expected at most {} in all",
                                             width, height, max_image_pixels));
@@ -100,7 +109,9 @@ void read_target(JsonReader& reader, Scene& scene) {
 }
 
 void read_render(JsonReader reader, Scene& scene) {
-    scene.method = reader.choice<Method>("method", enum_words<Method>());
+    scene.method = reader.has("method") ? reader.choice<Method>("method", enum_words<Method>())
+                   : scene.has_volume() ? Method::slice
+                                        : Method::project;
     read_target(reader, scene);
     scene.emulate = read_emulation(reader.object("emulate"));
     scene.max_error = reader.number_or("max_error", scene.max_error);
@@ -166,16 +177,18 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     scene.file = file;
     reader.whole("version", 1, 1);
     read_data(reader, scene);
-    if (!reader.has("transfer_function")) reader.reject("transfer_function", "an object {...}");
     scene.color_space = read_color_space(reader);
-    JsonReader transfer_function = reader.object("transfer_function");
-    scene.colormap_file = colormap_file_of(transfer_function);
-    scene.transfer_function =
-        read_transfer_function(transfer_function, {.space = scene.color_space,
-                                                   .data_range = [&] { return data_range(scene); },
-                                                   .warnings = &scene.warnings});
-    if (!reader.has("camera")) reader.reject("camera", "an object {...}");
-    scene.camera = read_camera(reader.object("camera"));
+    scene.automatic_transfer_function = is_automatic(reader, "transfer_function");
+    if (!scene.automatic_transfer_function) {
+        JsonReader transfer_function = reader.object("transfer_function");
+        scene.colormap_file = colormap_file_of(transfer_function);
+        scene.transfer_function = read_transfer_function(
+            transfer_function, {.space = scene.color_space,
+                                .data_range = [&] { return data_range(scene); },
+                                .warnings = &scene.warnings});
+    }
+    scene.automatic_camera = is_automatic(reader, "camera");
+    if (!scene.automatic_camera) scene.camera = read_camera(reader.object("camera"));
     read_image(reader.object("image"), scene);
     read_render(reader.object("render"), scene);
     reader.close();

@@ -42,6 +42,16 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
                                    "\"project\": the tracer is what runs are measured against",
                                    name));
     }
+    const char* const automatic = scene.automatic_transfer_function ? "transfer_function"
+                                  : scene.automatic_camera          ? "camera"
+                                                                    : nullptr;
+    if (automatic != nullptr) {
+        throw KeyError(automatic,
+                       fmt::format("{0}: {1}: is \"auto\" or missing, expected an object {{...}}: "
+                                   "the runs of a study share one ('lamina scene {0} -o NEW.json' "
+                                   "writes what would be chosen)",
+                                   name, automatic));
+    }
     const TraceOf reference = reference_of(scene, file);
     if (reference == TraceOf::volume && !scene.has_volume())
         throw KeyError("volume", fmt::format("{}: the reference is a volume's, and the scene has "

@@ -78,6 +78,20 @@ double first_position_of(const NrrdAxisInfo& axis) {
     return centering_of(axis) == Centering::cell ? axis.min + spacing_of(axis) / 2 : axis.min;
 }
 
+WorldAxes axes_of(int space) {
+    switch (space) {
+        case nrrdSpaceLeftPosteriorSuperior:
+        case nrrdSpaceScannerXYZ:  // the same by definition
+            return WorldAxes::left_posterior_superior;
+        case nrrdSpaceRightAnteriorSuperior:
+            return WorldAxes::right_anterior_superior;
+        case nrrdSpaceLeftAnteriorSuperior:
+            return WorldAxes::left_anterior_superior;
+        default:
+            return WorldAxes::unnamed;
+    }
+}
+
 void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
                              const std::vector<unsigned>& axes, Grid& grid) {
     if (nrrd.spaceDim != 3) {
@@ -130,6 +144,7 @@ void check_steps(const std::string& file, const Grid& grid) {
 Grid nrrd_grid(const std::string& file, const Nrrd& nrrd) {
     const std::vector<unsigned> axes = volume_axes(file, nrrd);
     Grid grid;
+    grid.axes = axes_of(nrrd.space);
     for (std::size_t i = 0; i < 3; ++i) {
         const NrrdAxisInfo& axis = nrrd.axis[axes[i]];
         grid.size[i] = static_cast<std::int64_t>(axis.size);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "volume/nrrd.h"
 #include "volume/nrrd_header.h"
 
@@ -47,7 +48,7 @@ const VolumeFormat& format_of(const Path& path) {
 }  // namespace
 
 bool is_volume_file(const Path& path) {
-    return find_format(path) != nullptr;
+    return file_beginning(path, 5).starts_with("NRRD0") || find_format(path) != nullptr;
 }
 
 Volume read_volume(const Path& path) {

@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// By the extension, in capitals or not: .nrrd or .nhdr.
+// By its content, or by the extension, in capitals or not: .nrrd or .nhdr.
 bool is_volume_file(const std::filesystem::path& path);
 
 // Reads a volume: a NRRD file (volume/nrrd.h), whatever its extension. Throws Error: one line that

@@ -178,5 +178,50 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
     expect_error([&] { session.plan(); }, {"\"trace\" has no plan"});
 }
 
+TEST(Session, ChoosesWhatASceneLeavesOpen) {
+    const Volume volume = waves(12);
+    Scene open;
+    open.width = 50;
+    open.height = 40;
+    open.automatic_transfer_function = open.automatic_camera = true;
+    Session session(open, volume, native);
+    const Image picture = session.draw();
+    EXPECT_TRUE(session.scene().automatic_camera);  // as asked for
+    const Scene resolved = session.resolved_scene();
+    EXPECT_FALSE(resolved.automatic_transfer_function || resolved.automatic_camera);
+    EXPECT_EQ(Session(resolved, volume, native).draw().rgba, picture.rgba);
+    EXPECT_EQ(session.explanation().find("chosen\n  transfer function: "), 0u);
+    // It is chosen once, and again on request.
+    session.set_camera(orbit(volume.grid().bounds(), 40, -10));
+    EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
+    EXPECT_FALSE(session.scene().automatic_camera);
+    session.choose_again();
+    EXPECT_NE(session.resolved_scene().transfer_function, resolved.transfer_function);
+    session.set_scene(open);
+    EXPECT_EQ(session.draw().rgba, picture.rgba);
+    // A mesh that is made from the volume follows what the volume suggests.
+    open.mesh_request = MeshSettings{.kuhn = true};
+    open.method = Method::project;
+    session.set_scene(open);
+    EXPECT_EQ(session.resolved_scene().transfer_function, resolved.transfer_function);
+    open.mesh_request.reset();
+    Session mesh(open, test::kuhn_box({3, 2, 4}, [](const glm::dvec3& p) { return p.x * p.y; }),
+                 native);
+    mesh.draw();
+    EXPECT_GT(mesh.resolved_scene().transfer_function.max_extinction(0, 6), 0);
+}
+
+TEST(Session, WarnsOnceOfAPictureThatShowsNothing) {
+    const Volume volume = waves(12);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    session.set_transfer_function(
+        TransferFunction::linear({knot(7, {1, 1, 1}, 0), knot(8, {1, 1, 1}, 1)}));
+    for (int i = 0; i < 3; ++i) session.draw();
+    const std::vector<std::string> warnings = session.take_warnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("the transfer function shows values above 7"), std::string::npos)
+        << warnings[0];
+}
+
 }  // namespace
 }  // namespace lamina

@@ -37,6 +37,8 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
         {"/image/height", "tall", {"image.height", "tall"}},
         {"/image/background", {1, 2}, {"image.background", "three"}},
         {"/camera/eye", {0.5, 0.5, 0.5}, {"camera", "same point"}},
+        {"/camera", "automatic", {"camera: found \"automatic\"", "or \"auto\""}},
+        {"/transfer_function", 3, {"transfer_function: found 3", "or \"auto\""}},
         {"/camera/up", {0, 0, 0}, {"camera", "up"}},
         {"/camera/up", {1.5, 0.5, 2.5}, {"camera", "up"}},
         {"/camera/fov_y", 180, {"camera.fov_y: found 180"}},
@@ -75,7 +77,7 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
 }
 
 TEST(SceneErrors, MissingPartsAreNamed) {
-    for (const char* key : {"version", "volume", "transfer_function", "camera", "image"}) {
+    for (const char* key : {"version", "volume"}) {
         nlohmann::json document = minimal_scene();
         document.erase(key);
         expect_error([&] { read_scene(document, "bad.json"); }, {"bad.json", key, "missing"});

@@ -156,5 +156,24 @@ TEST(SceneReader, TurnedCameraKeepsItsDistanceAndHeight) {
     EXPECT_NEAR(quarter.eye.z, 1 - 2, 1e-14);
 }
 
+TEST(SceneReader, WhatIsLeftOutIsAutomatic) {
+    nlohmann::json document{{"version", 1}, {"volume", {{"generate", "gaussians"}}}};
+    Scene scene = read_scene(document, "s.json");
+    EXPECT_TRUE(scene.automatic_transfer_function && scene.automatic_camera);
+    EXPECT_EQ(scene.width, 800);
+    EXPECT_EQ(scene.height, 600);
+    EXPECT_EQ(scene.method, Method::slice);
+    document["transfer_function"] = document["camera"] = "auto";
+    document["image"] = {{"height", 30}};
+    scene = read_scene(document, "s.json");
+    EXPECT_TRUE(scene.automatic_transfer_function && scene.automatic_camera);
+    EXPECT_EQ(scene.width, 800);
+    EXPECT_EQ(scene.height, 30);
+    scene = read_scene({{"version", 1}, {"mesh", "m.vtu"}}, "s.json");
+    EXPECT_EQ(scene.method, Method::project);
+    scene = read_scene(minimal_scene(), "s.json");
+    EXPECT_FALSE(scene.automatic_transfer_function || scene.automatic_camera);
+}
+
 }  // namespace
 }  // namespace lamina

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "output_folder.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
+#include "scene_data.h"
 #include "scene_files.h"
 #include "scene_options.h"
 #include "study/crosscheck.h"
@@ -82,10 +84,17 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
 
 void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
-    std::string ignored;
-    const Scene scene = load_scene(options.scene, ignored);
+    nlohmann::json ignored;
+    Scene scene = load_scene(options.scene, {}, ignored);
+    if (!scene.has_volume())
+        fail("{}: volume: is missing, expected the volume that both methods show",
+             options.scene.file);
     const std::filesystem::path folder = options.output;
     expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
+    choose_for_volume(scene);
+    if (!options.quiet) {
+        for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
+    }
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     make_folder(folder);
@@ -109,7 +118,9 @@ void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
         crosscheck_name, "Slice a volume and project its mesh, and say where they differ, and why");
-    verb->add_option("SCENE", options->scene.file, "Scene file (JSON) with a volume")->required();
+    verb->add_option("SCENE", options->scene.file,
+                     "Scene file (JSON) with a volume, or a volume (NRRD)")
+        ->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();
     verb->add_option("--set", options->scene.settings,

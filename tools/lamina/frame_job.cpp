@@ -5,6 +5,7 @@
 #include "clamped_colors.h"
 #include "gl/memory.h"
 #include "gl/query.h"
+#include "render/picture_warnings.h"
 
 namespace lamina {
 
@@ -12,7 +13,6 @@ FrameJob::FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> me
     : request_(request), method_(std::move(method)) {}
 
 Plan FrameJob::plan(RenderStats& stats) {
-    method_->load(stats);
     Stage opening("context");
     context_.emplace(request_.context);
     current_ = context_->make_current();
@@ -44,6 +44,7 @@ void FrameJob::draw(const Plan& plan, RenderStats& stats) {
     Stage reading("read");
     image_.emplace(frames_->picture());
     stats.stages_ms["read"] = reading.end();
+    warn_of_picture(request_.scene, *request_.data.field(), *image_);
     const FrameRenderer& renderer = frames_->renderer();
     stats.bytes_gpu = gl::bytes_allocated();
     stats.bytes_host = renderer.byte_count();

@@ -15,7 +15,6 @@ namespace lamina {
 class FrameMethod {
   public:
     virtual ~FrameMethod() = default;
-    virtual void load(RenderStats& stats) = 0;
     virtual std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) = 0;
     // Says and counts what is noteworthy of the data and of the plan.
     virtual void report_plan(const Plan& plan, RenderStats& stats) = 0;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "base/stage.h"
 #include "mesh/scalar_range.h"
 
 namespace lamina {
@@ -34,13 +33,6 @@ void report_made(const RenderRequest& request, const MeshReport& report, RenderS
 }
 
 }  // namespace
-
-std::shared_ptr<const SceneMesh> load_mesh_data(const RenderRequest& request, RenderStats& stats) {
-    Stage loading("load");
-    auto mesh = std::make_shared<const SceneMesh>(load_mesh(request.scene));
-    stats.stages_ms["load"] = loading.end();
-    return mesh;
-}
 
 void report_mesh(const RenderRequest& request, const SceneMesh& mesh, RenderStats& stats) {
     const MeshFindings& findings = mesh.mesh.findings();

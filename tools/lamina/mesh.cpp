@@ -17,8 +17,9 @@
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
+#include "scene_data.h"
 #include "scene_files.h"
-#include "scene_files/json_reader.h"
+#include "scene_files/scene_document.h"
 #include "verbs.h"
 #include "volume/volume_file.h"
 
@@ -88,22 +89,25 @@ void check(const MeshOptions& options) {
     }
 }
 
-bool is_scene(const std::filesystem::path& path) {
-    return path.extension() == ".json";
-}
-
 MeshTask load(const MeshOptions& options, const MeshOutput& output) {
-    if (!is_scene(options.input)) {
+    const FileKind kind = kind_of_file(options.input);
+    if (kind == FileKind::mesh)
+        fail("{}: is a mesh already, expected a volume (NRRD) or a scene (JSON)", options.input);
+    if (kind == FileKind::volume) {
         expect_different_files(files_of_volume(options.input), output.paths());
         return {read_volume(options.input), {}, {}};
     }
-    const Scene scene = load_scene(options.input);
+    Scene scene = load_scene(options.input);
     expect_different_files(files_of(scene), output.paths());
     if (!options.quiet) {
         for (const std::string& warning : scene.warnings) print_message("lamina: {}\n", warning);
     }
     if (!scene.has_volume()) {
         fail("{}: has no \"volume\", which a mesh could be made from", options.input);
+    }
+    choose_for_volume(scene);
+    if (!options.quiet) {
+        for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
     }
     return {load_volume(scene), scene.mesh_request.value_or(MeshSettings{}),
             scene.transfer_function};
@@ -161,7 +165,7 @@ void add_mesh(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MeshOptions>();
     const MeshSettings defaults;
     verb->add_option("INPUT", options->input,
-                     "volume (.nrrd, .nhdr), or scene (.json): its volume and mesh settings, and "
+                     "volume (NRRD), or scene (JSON): its volume and mesh settings, and "
                      "coarse where its transfer function shows nothing")
         ->required();
     verb->add_option("-o,--output", options->output, "mesh to write (.vtu, or .node with its .ele)")

@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,7 +24,8 @@
 #include "mesh_files/mesh_file.h"
 #include "reference/order_pixels.h"
 #include "scene/scene_mesh.h"
-#include "scene_files/json_reader.h"
+#include "scene_data.h"
+#include "scene_files/scene_document.h"
 #include "verbs.h"
 #include "visibility/order_check.h"
 #include "visibility/visibility_order.h"
@@ -71,16 +71,16 @@ struct Input {
 };
 
 Input load(const std::string& file) {
-    if (is_mesh_file(file)) return {TetMesh(read_mesh(file), file), {}};
-    if (std::filesystem::path(file).extension() != ".json") {
-        fail(
-            "{}: unknown kind of file: expected a mesh (.vtu, .vtk, .node, .ele) or a scene "
-            "(.json)",
-            file);
-    }
-    const Scene scene = load_scene(file);
+    const FileKind kind = kind_of_file(file);
+    if (kind == FileKind::mesh) return {TetMesh(read_mesh(file), file), {}};
+    if (kind == FileKind::volume)
+        fail("{}: is a volume, expected a mesh (.vtu, .vtk, .node, .ele) or a scene (JSON)", file);
+    Scene scene = load_scene(file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
-    return {load_mesh(scene).mesh, scene.camera};
+    scene.method = Method::project;
+    RenderStats ignored;
+    const SceneData data = load_data(scene, {}, ignored);
+    return {data.mesh->mesh, scene.camera};
 }
 
 // Halton's sequence: the digits of `index`, from 1, to the base are mirrored at the point.

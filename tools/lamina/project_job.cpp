@@ -14,15 +14,13 @@ class ProjectMethod : public FrameMethod {
   public:
     explicit ProjectMethod(const RenderRequest& request) : request_(request) {}
 
-    void load(RenderStats& stats) override { mesh_ = load_mesh_data(request_, stats); }
-
     std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) override {
-        return std::make_unique<SceneRenderer>(request_.scene, mesh_, capabilities,
+        return std::make_unique<SceneRenderer>(request_.scene, request_.data.mesh, capabilities,
                                                request_.omissions);
     }
 
     void report_plan(const Plan& /*plan*/, RenderStats& stats) override {
-        report_mesh(request_, *mesh_, stats);
+        report_mesh(request_, *request_.data.mesh, stats);
     }
 
     void report_frame(const Plan& /*plan*/, const FrameRenderer& frames,
@@ -42,7 +40,6 @@ class ProjectMethod : public FrameMethod {
 
   private:
     const RenderRequest request_;
-    std::shared_ptr<const SceneMesh> mesh_;
 };
 
 }  // namespace

@@ -17,15 +17,18 @@
 #include "profile_file.h"
 #include "render/context_choice.h"
 #include "render_job.h"
+#include "scene_data.h"
 #include "scene_files.h"
 #include "scene_options.h"
 #include "verbs.h"
+#include "view_options.h"
 
 namespace lamina {
 namespace {
 
 struct RenderOptions {
     SceneOptions scene;
+    ViewOptions view;
     std::string output, stats, profile;
     std::vector<std::string> kept;
     int frames = 0;
@@ -90,9 +93,10 @@ void run(const RenderOptions& options) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);
     const Stopwatch watch;
-    std::string scene_text;
     Stage reading("scene");
-    const Scene scene = load_scene(options.scene, scene_text);
+    nlohmann::json document;
+    Scene scene = load_scene(options.scene, settings_of(options.view), document);
+    const Wishes wishes = wishes_of(options.view, scene.color_space);
     reading.end();
     expect_different_files(files_of(scene), {options.output, options.stats, options.profile});
     for (const std::string& warning : scene.warnings) message(options, warning);
@@ -105,11 +109,15 @@ void run(const RenderOptions& options) {
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
-    const auto job =
-        make_job({scene, omissions, context, !options.stats.empty(), options.frames > 0, say});
     RenderStats stats;
+    const SceneData data = load_data(scene, wishes, stats);
+    const std::string scene_text = json_text(
+        scene.chosen.empty() ? document : nlohmann::json(document_of(scene, document)), 2);
+    for (const std::string& chosen : scene.chosen) say(chosen);
+    const auto job = make_job(
+        {scene, data, omissions, context, !options.stats.empty(), options.frames > 0, say});
     const Plan plan = job->plan(stats);
-    const std::string explanation = job->explanation(plan);
+    const std::string explanation = chosen_text(scene) + job->explanation(plan);
     if (options.explain) write_result(explanation);
     if (!picture) return;
     job->draw(plan, stats);
@@ -139,8 +147,13 @@ void run(const RenderOptions& options) {
 
 void add_render(CLI::App& app, int&) {
     auto options = std::make_shared<RenderOptions>();
-    CLI::App* const verb = app.add_subcommand("render", "Render a scene to a picture");
-    verb->add_option("SCENE", options->scene.file, "Scene file (JSON)")->required();
+    CLI::App* const verb =
+        app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
+    verb->add_option(
+            "SCENE", options->scene.file,
+            "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .vtk, .node, "
+            ".ele); what a scene leaves open is chosen from the data")
+        ->required();
     verb->add_option("-o,--output", options->output,
                      "Picture to write: .exr, .png, or .npy (trace only)");
     verb->add_option("--method", options->scene.method,
@@ -148,6 +161,7 @@ void add_render(CLI::App& app, int&) {
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
         ->allow_extra_args(false);
+    add_view_options(*verb, options->view);
     verb->add_option("--frames", options->frames,
                      "Time this many frames, the camera turning a little")
         ->check(CLI::Range(1, 1000000));

@@ -11,12 +11,14 @@
 #include "render/context_choice.h"
 #include "render_stats.h"
 #include "scene/camera.h"
+#include "scene_data.h"
 
 namespace lamina {
 
 // What a job of `lamina render` is given; all outlive it.
 struct RenderRequest {
     const Scene& scene;
+    const SceneData& data;
     const OmissionSwitch& omissions;
     ContextChoice context;                            // --context
     bool count_fragments;                             // somebody will read the statistics

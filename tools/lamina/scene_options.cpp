@@ -6,21 +6,24 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/json_text.h"
 #include "base/shortened.h"
 #include "scene_files/json_reader.h"
+#include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
 
-Scene load_scene(const SceneOptions& options, std::string& document_text) {
-    nlohmann::json document = load_json(options.file);
+Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
+                 nlohmann::json& document) {
+    document = scene_document(options.file);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
         set_key(document, key, value);
         keys.push_back(key);
     };
-    for (const std::string& setting : options.settings) {
+    std::vector<std::string> settings = more;
+    settings.insert(settings.end(), options.settings.begin(), options.settings.end());
+    for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) {
             throw UsageError(fmt::format("--set {}: expected KEY=VALUE, as in render.target=fixed8",
@@ -29,7 +32,6 @@ Scene load_scene(const SceneOptions& options, std::string& document_text) {
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }
     if (!options.method.empty()) apply("render.method", options.method);
-    document_text = json_text(document, 2);
     try {
         return read_scene(document, options.file);
     } catch (const KeyError& error) {

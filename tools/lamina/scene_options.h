@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,11 @@ struct SceneOptions {
     std::string method;                 // --method; may be empty
 };
 
-// `document_text`: becomes the scene's JSON with these settings. A mistake in --set or --method is
-// one of usage (UsageError, exit 2), one in the file is not.
-Scene load_scene(const SceneOptions& options, std::string& document_text);
+// The scene that a file is, or the one that draws a data file (scene_files/scene_document.h).
+// `more`: settings that other options stand for. `document`: becomes the scene's JSON with all
+// settings. A mistake in --set, --method or one of `more` is one of usage (UsageError, exit 2), one
+// in the file is not.
+Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
+                 nlohmann::json& document);
 
 }  // namespace lamina

@@ -13,17 +13,15 @@ class SliceMethod : public FrameMethod {
   public:
     explicit SliceMethod(const RenderRequest& request) : request_(request) {}
 
-    void load(RenderStats& stats) override { data_ = load_volume_data(request_, stats); }
-
     std::unique_ptr<SceneRenderer> open(const Capabilities& capabilities) override {
-        auto renderer = std::make_unique<SceneRenderer>(request_.scene, data_, capabilities,
-                                                        request_.omissions);
+        auto renderer = std::make_unique<SceneRenderer>(request_.scene, request_.data.volume,
+                                                        capabilities, request_.omissions);
         if (request_.many_frames) renderer->expect_many_frames();
         return renderer;
     }
 
     void report_plan(const Plan& plan, RenderStats& stats) override {
-        report_volume(request_, *data_, stats);
+        report_volume(request_, *request_.data.volume, stats);
         say_what_is_not_kept(plan.slice);
     }
 
@@ -64,7 +62,6 @@ class SliceMethod : public FrameMethod {
     }
 
     const RenderRequest request_;
-    std::shared_ptr<const VolumeData> data_;
 };
 
 }  // namespace

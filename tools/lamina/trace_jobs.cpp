@@ -7,6 +7,7 @@
 #include "loaded_mesh.h"
 #include "loaded_volume.h"
 #include "reference/scene_tracer.h"
+#include "render/picture_warnings.h"
 #include "render_job.h"
 
 namespace lamina {
@@ -24,11 +25,10 @@ class VolumeTraceJob : public RenderJob {
     explicit VolumeTraceJob(const RenderRequest& request) : request_(request) {}
 
     Plan plan(RenderStats& stats) override {
-        data_ = load_volume_data(request_, stats);
         Stage measuring("facts");
-        facts_ = measure(request_.scene, data_->volume, data_->bricks);
+        facts_ = measure(request_.scene, data_.volume, data_.bricks);
         stats.stages_ms["measure"] += measuring.end();
-        report_volume(request_, *data_, stats);
+        report_volume(request_, data_, stats);
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
@@ -39,6 +39,7 @@ class VolumeTraceJob : public RenderJob {
         frame.count("frame", 0);
         result_.emplace(trace(request_.scene.camera));
         record(frame.end(), result_->error_estimate, stats);
+        warn_of_picture(request_.scene, *request_.data.field(), to_float(result_->image));
     }
 
     void draw_frame(const Camera& camera) override { trace(camera); }
@@ -53,11 +54,11 @@ class VolumeTraceJob : public RenderJob {
         const Stage tracing("trace");
         Scene scene = request_.scene;
         scene.camera = camera;
-        return lamina::trace(scene, data_->volume);
+        return lamina::trace(scene, data_.volume);
     }
 
     const RenderRequest request_;
-    std::shared_ptr<const VolumeData> data_;
+    const VolumeData& data_ = *request_.data.volume;
     Facts facts_;
     std::optional<TraceResult> result_;
 };
@@ -67,13 +68,12 @@ class MeshTraceJob : public RenderJob {
     explicit MeshTraceJob(const RenderRequest& request) : request_(request) {}
 
     Plan plan(RenderStats& stats) override {
-        data_ = load_mesh_data(request_, stats);
         Stage measuring("measure");
-        facts_ = measure(request_.scene, *data_);
+        facts_ = measure(request_.scene, data_);
         stats.stages_ms["measure"] = measuring.end();
-        report_mesh(request_, *data_, stats);
+        report_mesh(request_, data_, stats);
         Stage building("boundary_tree");
-        tree_.emplace(data_->mesh, data_->mesh.open_faces());
+        tree_.emplace(data_.mesh, data_.mesh.open_faces());
         stats.stages_ms["boundary_tree"] = building.end();
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
@@ -85,6 +85,7 @@ class MeshTraceJob : public RenderJob {
         frame.count("frame", 0);
         result_.emplace(trace(request_.scene.camera));
         record(frame.end(), result_->error_estimate, stats);
+        warn_of_picture(request_.scene, *request_.data.field(), to_float(result_->image));
         stats.counts["segments"] = result_->segments;
         stats.counts["overlapping_rays"] = result_->overlapping_rays;
         if (result_->overlapping_rays > 0) {
@@ -107,11 +108,11 @@ class MeshTraceJob : public RenderJob {
         const Stage tracing("trace");
         Scene scene = request_.scene;
         scene.camera = camera;
-        return lamina::trace(scene, *data_, *tree_);
+        return lamina::trace(scene, data_, *tree_);
     }
 
     const RenderRequest request_;
-    std::shared_ptr<const SceneMesh> data_;
+    const SceneMesh& data_ = *request_.data.mesh;
     MeshFacts facts_;
     std::optional<FaceTree> tree_;
     std::optional<MeshTraceResult> result_;

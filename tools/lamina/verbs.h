@@ -16,6 +16,7 @@ void add_mesh(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_integrate(CLI::App& app, int& exit_code);
+void add_scene(CLI::App& app, int& exit_code);
 void add_order(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);

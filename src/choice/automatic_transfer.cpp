@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/automatic_transfer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "choice/changed_transfer.h"
+#include "choice/common_values.h"
+#include "choice/label_colors.h"
+
+namespace lamina {
+namespace {
+
+// Few whole numbers are labels: each has a colour of its own.
+constexpr std::size_t most_labels = 24;
+
+// Colours in linear light, from values next to the common ones to the rarest. They become lighter
+// and change hue, and none has a component of 1, so that no picture is saturated by them.
+constexpr std::array<glm::dvec3, 5> upwards{
+    {{.035, .10, .30}, {.05, .30, .38}, {.55, .22, .07}, {.86, .45, .10}, {.92, .80, .55}}};
+constexpr std::array<glm::dvec3, 3> downwards{{{.05, .12, .35}, {.05, .40, .55}, {.55, .80, .75}}};
+constexpr std::array<glm::dvec3, 3> beyond{{{.45, .12, .04}, {.86, .42, .08}, {.92, .80, .50}}};
+
+glm::dvec3 color_at(std::span<const glm::dvec3> colors, double place) {
+    const double scaled = place * static_cast<double>(colors.size() - 1);
+    const auto first = std::min(static_cast<std::size_t>(scaled), colors.size() - 2);
+    return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
+}
+
+// What is rare shows: values that a share s of those beyond the common ones lie beyond have an
+// extinction of about s^-rarity, up to most_contrast times the least.
+constexpr double rarity = .8;
+constexpr double least_rest = .004;
+// Over this part of its way, extinction rises from 0 at the border of what is common.
+constexpr double rise = .1;
+constexpr int steps = 8;
+// The outermost of a side: there its colours end.
+constexpr double far_share = .998;
+// A side with less than this share of all that is not common shows nothing: it is noise.
+constexpr double least_side = .02;
+// Where common values are no background, they show this share of what lies next to them.
+constexpr double faint = .25;
+
+// The values on one side of the common ones: place 0 at their border, 1 where colours end.
+class Side {
+  public:
+    Side(ValueDistribution values, double border, double end)
+        : values_(std::move(values)), border_(border), end_(end) {}
+    static Side above(const ValueDistribution& all, double border) {
+        const auto values = all.between(std::nextafter(border, INFINITY), all.highest());
+        return {values, border, values.empty() ? border : values.quantile(far_share)};
+    }
+    static Side below(const ValueDistribution& all, double border) {
+        const auto values = all.between(all.lowest(), std::nextafter(border, -INFINITY));
+        return {values, border, values.empty() ? border : values.quantile(1 - far_share)};
+    }
+
+    bool empty() const { return values_.empty() || end_ == border_; }
+    double border() const { return border_; }
+    double end() const { return end_; }
+
+    // The share of the side's values that lie beyond.
+    double rest(double value) const {
+        return end_ > border_ ? 1 - values_.share_up_to(value) : values_.share_below(value);
+    }
+    // Between the place by value and the place by rank: where values gather, colours change faster,
+    // and nowhere do they stand still.
+    double place(double value) const {
+        const double by_value = std::clamp((value - border_) / (end_ - border_), 0.0, 1.0);
+        return (by_value + (1 - rest(value))) / 2;
+    }
+    double value_at(double place_wanted) const {
+        double near = border_, far = end_;
+        for (int i = 0; i < 60; ++i) {
+            const double middle = near + (far - near) / 2;
+            (place(middle) < place_wanted ? near : far) = middle;
+        }
+        return far;
+    }
+    double extinction(double value) const {
+        return std::pow(std::max(rest(value), least_rest), -rarity);
+    }
+
+  private:
+    ValueDistribution values_;
+    double border_, end_;
+};
+
+// Points from the border to the side's end, in that order. `start`: the extinction at the border.
+std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3> colors,
+                                    double start) {
+    std::vector<TransferKnot> points{{side.border(), {colors.front(), start}}};
+    const auto add = [&](double value, double place) {
+        if (value != points.back().value)
+            points.push_back({value, {color_at(colors, place), side.extinction(value)}});
+    };
+    add(side.value_at(rise), 0);
+    for (int i = 1; i < steps; ++i) {
+        const double place = rise + (1 - rise) * i / steps;
+        add(side.value_at(place), static_cast<double>(i) / steps);
+    }
+    add(side.end(), 1);
+    return points;
+}
+
+TransferFunction normalized(std::vector<TransferKnot> points) {
+    double largest = 0;
+    for (const TransferKnot& point : points) largest = std::max(largest, point.optics.extinction);
+    for (TransferKnot& point : points) point.optics.extinction /= largest;
+    return TransferFunction::linear(points);
+}
+
+std::vector<TransferKnot> joined(const Side& down, const Side& up, double start) {
+    const bool both = !down.empty() && !up.empty();
+    std::vector<TransferKnot> points;
+    if (!down.empty()) {
+        points = points_of(down, both ? std::span<const glm::dvec3>(downwards) : upwards, start);
+        std::ranges::reverse(points);
+    }
+    if (!up.empty()) {
+        const auto more =
+            points_of(up, both ? std::span<const glm::dvec3>(beyond) : upwards, start);
+        points.insert(points.end(), more.begin(), more.end());
+    }
+    return points;
+}
+
+AutomaticTransfer one_value(double value) {
+    return {TransferFunction::linear({{value, {upwards[3], 1}}}),
+            fmt::format("all values are {:.6g}, which shows everywhere", value)};
+}
+
+AutomaticTransfer within(const ValueDistribution& values, const ValueRange& range) {
+    const Side side(values.between(range.lo, range.hi), range.lo, range.hi);
+    std::vector<TransferKnot> points{{range.lo, {upwards.front(), 0}},
+                                     {range.hi, {upwards.back(), 1}}};
+    if (!side.empty()) points = points_of(side, upwards, 0);
+    return {normalized(std::move(points)),
+            fmt::format("values from {:.6g} to {:.6g} show, as wished", range.lo, range.hi)};
+}
+
+// What shows beyond common values, on one side of them or both.
+AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonValues& common) {
+    Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
+    const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);
+    if (below < least_side * (below + above)) down = Side({}, common.lo, common.lo);
+    if (above < least_side * (below + above)) up = Side({}, common.hi, common.hi);
+    const auto points = joined(down, up, common.background ? 0 : faint);
+    const std::string hidden = common.background ? "are transparent" : "are faint";
+    std::string shown;
+    if (!down.empty()) shown = fmt::format("down to {:.4g}", down.end());
+    if (!up.empty()) shown += fmt::format("{}up to {:.4g}", shown.empty() ? "" : " and ", up.end());
+    return {
+        normalized(points),
+        fmt::format("values from {:.4g} to {:.4g}, {:.3g} % of the field, {}; beyond, {}, the "
+                    "rarer the denser",
+                    common.lo, common.hi, 100 * values.share(common.lo, common.hi), hidden, shown)};
+}
+
+AutomaticTransfer in_own_colors(const ValueDistribution& values, bool whole_numbers,
+                                const std::optional<ValueRange>& range) {
+    if (range) return within(values, *range);
+    if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
+    if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
+        return label_transfer(values);
+    return beyond_common(values, find_common_values(values, whole_numbers));
+}
+
+}  // namespace
+
+AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
+                                           const TransferWishes& wishes) {
+    AutomaticTransfer chosen = in_own_colors(values, whole_numbers, wishes.range);
+    if (wishes.colormap)
+        chosen.transfer_function = recolored(chosen.transfer_function, *wishes.colormap);
+    return chosen;
+}
+
+}  // namespace lamina

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/choose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "choice/changed_transfer.h"
+#include "image/srgb.h"
+
+namespace lamina {
+namespace {
+
+// The opacity of the median ray, of those through what shows.
+constexpr double median_opacity = .9;
+// Parts of the data with less than this share of the largest extinction do not count as seen when
+// a camera is fitted.
+constexpr double seen_share = 1e-3;
+
+double largest_extinction(const TransferFunction& transfer_function) {
+    double largest = 0;
+    for (const TransferKnot& knot : transfer_function.knots())
+        largest = std::max(largest, knot.optics.extinction);
+    return largest;
+}
+
+std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,
+                                      const Field& field) {
+    std::vector<glm::dvec3> points =
+        field.shown_points(transfer_function, seen_share * largest_extinction(transfer_function));
+    if (!points.empty()) return points;
+    const auto corners = field.corners();
+    return {corners.begin(), corners.end()};
+}
+
+std::string vector_text(const glm::dvec3& v) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z);
+}
+
+// The factor that makes the median ray as opaque as wanted; 1 where no ray meets anything.
+double density_of(const Scene& scene, const Field& field) {
+    std::vector<double> depths = field.optical_depths(scene);
+    std::erase_if(depths, [](double depth) { return !(depth > 0); });
+    if (depths.empty()) return 1;
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::ranges::nth_element(depths, middle);
+    return -std::log1p(-median_opacity) / *middle;
+}
+
+// Its colours as display values.
+TransferFunction displayed(const TransferFunction& transfer_function) {
+    std::vector<TransferKnot> knots(transfer_function.knots().begin(),
+                                    transfer_function.knots().end());
+    for (TransferKnot& knot : knots) {
+        for (int c = 0; c < 3; ++c) knot.optics.color[c] = srgb_from_linear(knot.optics.color[c]);
+    }
+    return TransferFunction::linear(knots);
+}
+
+void change_transfer_function(Scene& scene, const Wishes& wishes) {
+    TransferFunction& changed = scene.transfer_function;
+    if (wishes.transfer.range) changed = stretched(changed, *wishes.transfer.range);
+    if (wishes.transfer.colormap) changed = recolored(changed, *wishes.transfer.colormap);
+}
+
+}  // namespace
+
+Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
+    std::string reason;
+    if (scene.automatic_transfer_function) {
+        AutomaticTransfer chosen =
+            choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer);
+        scene.transfer_function = std::move(chosen.transfer_function);
+        if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
+            scene.transfer_function = displayed(scene.transfer_function);
+        reason = std::move(chosen.reason);
+    } else {
+        change_transfer_function(scene, wishes);
+    }
+    if (scene.automatic_camera) {
+        scene.camera = fitted_camera(points_to_fit(scene.transfer_function, field), field.axes(),
+                                     wishes.turn, scene.width, scene.height);
+    } else {
+        scene.camera = turned(scene.camera, wishes.turn);
+    }
+    if (scene.automatic_transfer_function) {
+        const double density = density_of(scene, field);
+        scene.transfer_function = scene.transfer_function.attenuated(density);
+        scene.chosen.push_back(
+            fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
+                        wishes.density * largest_extinction(scene.transfer_function)));
+    }
+    // As it is read from a file again: without points that rounding has put on straight lines.
+    const TransferFunction dense = scene.transfer_function.attenuated(wishes.density);
+    scene.transfer_function =
+        TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
+    scene.camera = zoomed(scene.camera, wishes.zoom);
+    if (scene.automatic_camera) {
+        scene.chosen.push_back(fmt::format(
+            "camera: from {} to {}, up {}, fov_y {:.4g}", vector_text(scene.camera.eye),
+            vector_text(scene.camera.center), vector_text(scene.camera.up), scene.camera.fov_y));
+    }
+    scene.automatic_transfer_function = scene.automatic_camera = false;
+    return scene;
+}
+
+std::string chosen_text(const Scene& scene) {
+    std::string text;
+    for (const std::string& line : scene.chosen) text += "  " + line + "\n";
+    return text.empty() ? text : "chosen\n" + text;
+}
+
+}  // namespace lamina

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene leaves open, chosen from its data: transfer function and camera.
+#pragma once
+
+#include <string>
+
+#include "choice/automatic_camera.h"
+#include "choice/automatic_transfer.h"
+#include "choice/field.h"
+#include "lamina/scene.h"
+
+namespace lamina {
+
+// What is wanted differently from what the scene says, or from what would be chosen.
+struct Wishes {
+    TransferWishes transfer;
+    double density = 1;  // factor on extinction
+    ViewTurn turn;
+    double zoom = 1;
+
+    bool transfer_function() const { return transfer.colormap || transfer.range || density != 1; }
+    bool camera() const { return turn.azimuth != 0 || turn.elevation != 0 || zoom != 1; }
+};
+
+// The scene with its transfer function and camera chosen, where they are automatic, and changed as
+// wished. Nothing is automatic in the result, and `chosen` says what was. The same data and wishes
+// give the same scene.
+Scene choose(Scene scene, const Field& field, const Wishes& wishes = {});
+
+// What was chosen, as the first lines of an explanation of the plan.
+std::string chosen_text(const Scene& scene);
+
+}  // namespace lamina

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/mesh_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+#include "choice/box_corners.h"
+#include "facts/view_rays.h"
+#include "optics/linear_pieces.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t most_tets = std::size_t{1} << 19;
+
+// Of a tet, four places that stand for a quarter of it each: the points of the quadrature rule that
+// is exact for quadratic functions (Hammer and Stroud 1956).
+constexpr double near_corner = 0.58541019662496845, near_others = 0.13819660112501051;
+
+struct Range {
+    double lo = INFINITY, hi = -INFINITY;
+    bool finite = true;
+};
+
+Range range_of(std::span<const double> values, const Tet& tet) {
+    Range range;
+    for (const std::int32_t corner : tet) {
+        const double value = values[static_cast<std::size_t>(corner)];
+        range.lo = std::min(range.lo, value);
+        range.hi = std::max(range.hi, value);
+        range.finite = range.finite && std::isfinite(value);
+    }
+    return range;
+}
+
+// Six times the volume of a tet, in units of the mesh's diagonal.
+double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
+    const auto at = [&](std::size_t corner) {
+        return mesh.points()[static_cast<std::size_t>(tet[corner])] / diagonal;
+    };
+    const glm::dvec3 origin = at(0);
+    return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
+}
+
+double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run& run) {
+    double sum = 0;
+    for_each_linear_piece(
+        transfer_function.knots(), run.front, run.back, [&](const LinearPiece& piece) {
+            const double mean = (piece.at_from.extinction + piece.at_to.extinction) / 2;
+            sum += run.front == run.back
+                       ? mean
+                       : mean * ((piece.to - piece.from) / (run.back - run.front));
+        });
+    return sum * run.length;
+}
+
+}  // namespace
+
+ValueDistribution MeshField::distribution() const {
+    const auto tets = mesh_.mesh.tets();
+    const TetMesh::Bounds& bounds = mesh_.mesh.bounds();
+    const double diagonal = glm::distance(bounds.min, bounds.max);
+    const std::size_t step = tets.size() / most_tets + 1;
+    std::vector<WeightedValue> values;
+    for (std::size_t i = 0; i < tets.size(); i += step) {
+        const Tet& tet = tets[i];
+        const Range range = range_of(mesh_.scalar.values, tet);
+        if (!range.finite) continue;
+        const double weight = volume_of(mesh_.mesh, tet, diagonal);
+        double sum = 0;
+        for (const std::int32_t corner : tet)
+            sum += mesh_.scalar.values[static_cast<std::size_t>(corner)];
+        for (const std::int32_t corner : tet) {
+            const double value = mesh_.scalar.values[static_cast<std::size_t>(corner)];
+            const double inside = near_others * (sum - value) + near_corner * value;
+            values.push_back({std::clamp(inside, range.lo, range.hi), weight});
+        }
+    }
+    return ValueDistribution(std::move(values));
+}
+
+std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer_function,
+                                                double least) const {
+    const auto points = mesh_.mesh.points();
+    std::vector<char> shown(points.size());
+    for (const Tet& tet : mesh_.mesh.tets()) {
+        const Range range = range_of(mesh_.scalar.values, tet);
+        if (!range.finite || !(transfer_function.max_extinction(range.lo, range.hi) > least))
+            continue;
+        for (const std::int32_t corner : tet) shown[static_cast<std::size_t>(corner)] = 1;
+    }
+    std::vector<glm::dvec3> found;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (shown[i] != 0) found.push_back(points[i]);
+    }
+    return found;
+}
+
+std::array<glm::dvec3, 8> MeshField::corners() const {
+    return corners_of(mesh_.mesh.bounds().min, mesh_.mesh.bounds().max);
+}
+
+std::vector<double> MeshField::optical_depths(const Scene& scene) const {
+    std::vector<double> depths;
+    for (const auto& ray : find_view_rays(scene, mesh_)) {
+        double depth = 0;
+        for (const MeshFacts::Run& run : ray) depth += depth_of(scene.transfer_function, run);
+        depths.push_back(depth);
+    }
+    return depths;
+}
+
+}  // namespace lamina

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "choice/field.h"
+#include "mesh/scalar_range.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// A mesh with its scalar, which must outlive this.
+class MeshField : public Field {
+  public:
+    explicit MeshField(const SceneMesh& mesh) : mesh_(mesh) {}
+
+    WorldAxes axes() const override { return WorldAxes::unnamed; }
+    ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
+    bool whole_numbers() const override { return false; }  // it interpolates between them
+    // Tets count by their volume.
+    ValueDistribution distribution() const override;
+    // Corners of tets.
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
+                                         double least) const override;
+    std::array<glm::dvec3, 8> corners() const override;
+    // From tet to tet, in closed form.
+    std::vector<double> optical_depths(const Scene& scene) const override;
+
+  private:
+    const SceneMesh& mesh_;
+};
+
+}  // namespace lamina

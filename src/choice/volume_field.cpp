@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/volume_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+
+#include "base/parallel.h"
+#include "choice/box_corners.h"
+#include "facts/facts.h"
+
+namespace lamina {
+namespace {
+
+// Enough that a share of 1e-4 of the samples is known to 7 percent.
+constexpr std::int64_t most_float_samples = std::int64_t{1} << 21;
+
+// Integers are all counted, in parts that are added afterwards.
+template <typename T>
+std::vector<WeightedValue> weighted_values(const T* samples, std::int64_t count) {
+    constexpr std::int64_t codes = std::int64_t{1} << (8 * sizeof(T));
+    constexpr std::int64_t lowest = std::numeric_limits<T>::min();
+    constexpr std::int64_t parts = 16;
+    std::vector<std::vector<std::int64_t>> counts(parts);
+    parallel_for(parts, 1, [&](std::int64_t part) {
+        std::vector<std::int64_t>& found = counts[static_cast<std::size_t>(part)];
+        found.resize(static_cast<std::size_t>(codes));
+        const std::int64_t end =
+            count / parts * (part + 1) + (part + 1 == parts ? count % parts : 0);
+        for (std::int64_t i = count / parts * part; i < end; ++i)
+            ++found[static_cast<std::size_t>(std::int64_t{samples[i]} - lowest)];
+    });
+    std::vector<WeightedValue> values;
+    for (std::int64_t code = 0; code < codes; ++code) {
+        std::int64_t sum = 0;
+        for (const auto& found : counts) sum += found[static_cast<std::size_t>(code)];
+        if (sum > 0)
+            values.push_back({static_cast<double>(code + lowest), static_cast<double>(sum)});
+    }
+    return values;
+}
+
+// Every step-th sample. The step has no factor in common with the length of a row, so that all
+// columns take part.
+std::vector<WeightedValue> weighted_values(const float* samples, std::int64_t count,
+                                           std::int64_t row) {
+    std::int64_t step = (count + most_float_samples - 1) / most_float_samples;
+    while (step > 1 && std::gcd(step, row) > 1) ++step;
+    std::vector<WeightedValue> values;
+    for (std::int64_t i = 0; i < count; i += step) {
+        if (std::isfinite(samples[i])) values.push_back({samples[i], 1});
+    }
+    return values;
+}
+
+// Along one axis, the planes between which brick number `brick` lies. The outermost bricks also
+// hold the half voxels beyond the samples of `cell` axes.
+double plane(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, std::int64_t brick) {
+    const int component = static_cast<int>(axis);
+    if (brick == 0) return grid.index_min()[component];
+    if (brick == bricks.count[axis]) return grid.index_max()[component];
+    return static_cast<double>(brick * MinMaxBricks::edge);
+}
+
+}  // namespace
+
+ValueDistribution VolumeField::distribution() const {
+    const std::int64_t count = volume_.grid().sample_count();
+    return ValueDistribution(volume_.visit([&](const auto* samples) {
+        if constexpr (std::is_same_v<decltype(samples), const float*>)
+            return weighted_values(samples, count, volume_.grid().size[0]);
+        else
+            return weighted_values(samples, count);
+    }));
+}
+
+// Of each row of bricks, the first and the last that show something: the hull needs no others.
+std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
+                                                  double least) const {
+    const Grid& grid = volume_.grid();
+    const auto [nx, ny, nz] = bricks_.count;
+    std::vector<glm::dvec3> points;
+    const auto shown = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+        const ValueRange range = bricks_.at(x, y, z);
+        return !range.empty() && transfer_function.max_extinction(range.lo, range.hi) > least;
+    };
+    for (std::int64_t z = 0; z < nz; ++z) {
+        for (std::int64_t y = 0; y < ny; ++y) {
+            std::int64_t first = 0, end = nx;
+            while (first < nx && !shown(first, y, z)) ++first;
+            if (first == nx) continue;
+            while (!shown(end - 1, y, z)) --end;
+            const glm::dvec3 min(plane(grid, bricks_, 0, first), plane(grid, bricks_, 1, y),
+                                 plane(grid, bricks_, 2, z));
+            const glm::dvec3 max(plane(grid, bricks_, 0, end), plane(grid, bricks_, 1, y + 1),
+                                 plane(grid, bricks_, 2, z + 1));
+            for (const glm::dvec3& corner : corners_of(min, max))
+                points.push_back(grid.to_world(corner));
+        }
+    }
+    return points;
+}
+
+std::array<glm::dvec3, 8> VolumeField::corners() const {
+    const Grid& grid = volume_.grid();
+    std::array<glm::dvec3, 8> corners = corners_of(grid.index_min(), grid.index_max());
+    for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
+    return corners;
+}
+
+std::vector<double> VolumeField::optical_depths(const Scene& scene) const {
+    Facts facts;
+    facts.grid = volume_.grid();
+    measure_view(scene, facts);
+    std::vector<double> depths;
+    for (const ScalarRays::Ray& ray : sample_rays(scene, volume_, facts).rays)
+        depths.push_back(ray.optical_depths.back());
+    return depths;
+}
+
+}  // namespace lamina

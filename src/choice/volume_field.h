@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "choice/field.h"
+#include "lamina/volume.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// A volume with its bricks, which must outlive this.
+class VolumeField : public Field {
+  public:
+    VolumeField(const Volume& volume, const MinMaxBricks& bricks)
+        : volume_(volume), bricks_(bricks) {}
+
+    WorldAxes axes() const override { return volume_.grid().axes; }
+    ValueRange range() const override { return bricks_.whole; }
+    bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
+    ValueDistribution distribution() const override;
+    // Corners of min/max bricks.
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
+                                         double least) const override;
+    std::array<glm::dvec3, 8> corners() const override;
+    // By a few steps a voxel.
+    std::vector<double> optical_depths(const Scene& scene) const override;
+
+  private:
+    const Volume& volume_;
+    const MinMaxBricks& bricks_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "facts/mesh_facts.h"
+
+namespace lamina {
+
+// Rays of the scene's view, all over the picture, as runs through tets, nearest first. Rays that
+// meet no tet are left out, and so are tets with values that are not finite.
+std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh);
+
+}  // namespace lamina

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_files/scene_document.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/file_bytes.h"
+#include "base/json_text.h"
+#include "mesh_files/mesh_file.h"
+#include "volume/volume_file.h"
+
+namespace lamina {
+
+FileKind kind_of_file(const std::filesystem::path& file) {
+    if (is_volume_file(file)) return FileKind::volume;
+    if (is_mesh_file(file)) return FileKind::mesh;
+    const std::string beginning = file_beginning(file, 64);
+    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+    // What cannot be read is for the scene's reader to name.
+    const bool scene = file.extension() == ".json" || beginning.empty() ||
+                       (first != std::string::npos && beginning[first] == '{');
+    if (scene) return FileKind::scene;
+    fail(
+        "{}: unknown kind of file: expected a scene (JSON), a volume (NRRD) or a mesh (.vtu, .vtk, "
+        ".node, .ele)",
+        file.string());
+}
+
+nlohmann::json scene_document(const std::filesystem::path& file) {
+    const FileKind kind = kind_of_file(file);
+    if (kind == FileKind::scene) return load_json(file);
+    return {
+        {"version", 1},
+        {kind == FileKind::volume ? "volume" : "mesh", std::filesystem::absolute(file).string()},
+        {"nan", "transparent"}};
+}
+
+}  // namespace lamina

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/automatic_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+#include "scene/camera.h"
+
+namespace lamina {
+namespace {
+
+constexpr int width = 300, height = 200;
+
+// The largest coordinates of the points in the picture, in half widths and half heights.
+struct Reach {
+    double left = INFINITY, right = -INFINITY, down = INFINITY, up = -INFINITY;
+    Reach(const std::vector<glm::dvec3>& points, const Camera& camera) {
+        const View view(camera, width, height);
+        for (const glm::dvec3& point : points) {
+            const glm::dvec3 arm = point - view.eye;
+            const double depth = glm::dot(arm, view.forward) * view.pixel / 2;
+            const double x = glm::dot(arm, view.right) / (depth * width);
+            const double y = glm::dot(arm, view.up) / (depth * height);
+            left = std::min(left, x);
+            right = std::max(right, x);
+            down = std::min(down, y);
+            up = std::max(up, y);
+        }
+    }
+};
+
+std::vector<glm::dvec3> cloud(unsigned seed, const glm::dvec3& size, const glm::dvec3& origin) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    std::vector<glm::dvec3> points;
+    for (int i = 0; i < 100; ++i)
+        points.push_back(origin + size * glm::dvec3(share(random), share(random), share(random)));
+    return points;
+}
+
+// Coordinates in the picture are quotients of sums of a few products, each with a rounding of 1e-16
+// of the cloud's distance from the origin, at most 1e3 times its size: 1e-12 leaves room for 10.
+constexpr double rounding = 1e-12;
+
+TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        const auto points =
+            cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});
+        const ViewTurn turn{37. * seed, 11. * seed};
+        const Reach reach(points, fitted_camera(points, WorldAxes::unnamed, turn, width, height));
+        constexpr double edge = 1 - 1. / 25;
+        EXPECT_LE(std::max({-reach.left, reach.right, -reach.down, reach.up}), edge + rounding);
+        const bool sides =
+            std::abs(reach.left + edge) < rounding && std::abs(reach.right - edge) < rounding;
+        const bool ends =
+            std::abs(reach.down + edge) < rounding && std::abs(reach.up - edge) < rounding;
+        EXPECT_TRUE(sides || ends) << seed;
+        // The other direction is centred.
+        EXPECT_NEAR(sides ? reach.up + reach.down : reach.left + reach.right, 0, rounding) << seed;
+    }
+}
+
+glm::dvec3 toward_eye(WorldAxes axes) {
+    const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 1, 1}};
+    const Camera camera = fitted_camera(points, axes, {}, width, height);
+    return glm::normalize(camera.eye - camera.center);
+}
+
+TEST(FittedCamera, LooksAtPatientsFromInFrontWithTheHeadUp) {
+    // Anterior is -y of LPS, +y of the others; the patient's left is +x of LPS and LAS, -x of RAS.
+    const double degree = std::acos(-1.) / 180;
+    const glm::dvec3 lps(std::sin(30 * degree) * std::cos(20 * degree),
+                         -std::cos(30 * degree) * std::cos(20 * degree), std::sin(20 * degree));
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return glm::distance(a, b) < 1e-14;  // a few roundings of numbers below 1
+    };
+    EXPECT_TRUE(near(toward_eye(WorldAxes::left_posterior_superior), lps));
+    EXPECT_TRUE(near(toward_eye(WorldAxes::right_anterior_superior), {-lps.x, -lps.y, lps.z}));
+    EXPECT_TRUE(near(toward_eye(WorldAxes::left_anterior_superior), {lps.x, -lps.y, lps.z}));
+    EXPECT_TRUE(near(toward_eye(WorldAxes::unnamed), {lps.x, lps.z, -lps.y}));
+}
+
+TEST(TurnedCamera, GoesAroundItsCenter) {
+    Camera camera;
+    camera.eye = {0, 0, 5};
+    camera.center = {0, 0, 1};
+    const Camera right = turned(camera, ViewTurn{90, 0});
+    EXPECT_LT(glm::distance(right.eye, {4, 0, 1}), 1e-15);
+    const Camera above = turned(camera, ViewTurn{0, 90});
+    EXPECT_LT(glm::distance(above.eye, {0, 4, 1}), 1e-15);
+    EXPECT_LT(glm::distance(above.up, {0, 0, -1}), 1e-15);
+    EXPECT_EQ(turned(camera, ViewTurn{}).eye, camera.eye);  // bit for bit
+}
+
+TEST(ZoomedCamera, EnlargesThePicture) {
+    Camera camera;
+    camera.fov_y = 90;
+    EXPECT_NEAR(zoomed(camera, 2).fov_y, 2 * std::atan(.5) * 180 / std::acos(-1.), 1e-13);
+    EXPECT_EQ(zoomed(camera, 2).height, camera.height / 2);
+    EXPECT_EQ(zoomed(camera, 1).fov_y, 90);
+}
+
+}  // namespace
+}  // namespace lamina

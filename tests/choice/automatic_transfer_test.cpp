@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/automatic_transfer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace lamina {
+namespace {
+
+// Half of it is 0; the other half falls off from 1 to 200.
+ValueDistribution scan() {
+    std::vector<WeightedValue> values{{0, 20100}};
+    for (int value = 1; value <= 200; ++value)
+        values.push_back({static_cast<double>(value), 201. - value});
+    return ValueDistribution(values);
+}
+
+double largest(const TransferFunction& function) {
+    double most = 0;
+    for (const TransferKnot& knot : function.knots()) most = std::max(most, knot.optics.extinction);
+    return most;
+}
+
+TEST(AutomaticTransfer, BackgroundIsTransparentAndTheRareIsDense) {
+    const AutomaticTransfer chosen = choose_transfer_function(scan(), true);
+    const TransferFunction& function = chosen.transfer_function;
+    EXPECT_EQ(function.at(0).extinction, 0);
+    EXPECT_EQ(largest(function), 1);
+    double before = 0;
+    for (int value = 0; value <= 200; value += 10) {
+        EXPECT_GE(function.at(value).extinction, before) << value;
+        before = function.at(value).extinction;
+    }
+    EXPECT_GT(function.at(200).extinction, 10 * function.at(40).extinction);
+    EXPECT_NE(chosen.reason.find("transparent"), std::string::npos) << chosen.reason;
+}
+
+TEST(AutomaticTransfer, NoColorIsFull) {
+    for (const bool whole : {true, false}) {
+        const auto chosen = choose_transfer_function(scan(), whole);
+        for (const TransferKnot& knot : chosen.transfer_function.knots()) {
+            for (int c = 0; c < 3; ++c)
+                EXPECT_LT(knot.optics.color[c], .9956);  // 254.5 / 255 of sRGB
+        }
+    }
+}
+
+TEST(AutomaticTransfer, BothSidesOfACommonValueShow) {
+    std::vector<WeightedValue> values{{0, 1000}};
+    for (int i = 1; i <= 100; ++i) {
+        values.push_back({-1. * i, 3});
+        values.push_back({1. * i, 3});
+    }
+    const auto function =
+        choose_transfer_function(ValueDistribution(values), true).transfer_function;
+    EXPECT_EQ(function.at(0).extinction, 0);
+    EXPECT_GT(function.at(-90).extinction, .1);
+    EXPECT_GT(function.at(90).extinction, .1);
+    EXPECT_GT(function.at(-50).color.b, function.at(-50).color.r);  // cool below, warm above
+    EXPECT_GT(function.at(50).color.r, function.at(50).color.b);
+}
+
+TEST(AutomaticTransfer, FewWholeNumbersAreLabels) {
+    const ValueDistribution values({{0, 70}, {1, 10}, {2, 10}, {7, 10}});
+    const auto function = choose_transfer_function(values, true).transfer_function;
+    EXPECT_EQ(function.at(0).extinction, 0);
+    EXPECT_EQ(function.at(1), function.at(1.4));  // one label, one look
+    EXPECT_EQ(function.at(2), function.at(4.4));  // halfway to 7
+    EXPECT_NE(function.at(1).color, function.at(2).color);
+    EXPECT_NE(function.at(2).color, function.at(7).color);
+    // The same numbers of a measured field are no labels.
+    EXPECT_NE(choose_transfer_function(values, false).transfer_function, function);
+}
+
+TEST(AutomaticTransfer, OneValueShowsEverywhere) {
+    const auto function =
+        choose_transfer_function(ValueDistribution({{5, 1}}), false).transfer_function;
+    EXPECT_EQ(function.max_extinction(-1e9, 1e9), 1);
+    EXPECT_TRUE(function.constant(-1e9, 1e9));
+    EXPECT_EQ(choose_transfer_function(ValueDistribution(), false).transfer_function.knots().size(),
+              1u);  // no value at all: not a crash
+}
+
+TEST(AutomaticTransfer, ShowsTheRangeThatIsWished) {
+    const auto function =
+        choose_transfer_function(scan(), true, {.range = ValueRange{50, 150}}).transfer_function;
+    EXPECT_EQ(function.knots().front().value, 50);
+    EXPECT_EQ(function.knots().back().value, 150);
+    EXPECT_EQ(function.at(50).extinction, 0);
+    EXPECT_EQ(function.at(200).extinction, 1);
+    const auto empty = choose_transfer_function(scan(), true, {.range = ValueRange{300, 400}});
+    EXPECT_EQ(empty.transfer_function.at(400).extinction, 1);  // where there is nothing, a ramp
+}
+
+TEST(AutomaticTransfer, TakesTheColorsOfAMap) {
+    const Colormap grey{{{0, {0, 0, 0}}, {1, {.5, .5, .5}}}, {}, false};
+    const auto plain = choose_transfer_function(scan(), true).transfer_function;
+    const auto function =
+        choose_transfer_function(scan(), true, {.colormap = grey}).transfer_function;
+    const double lo = plain.knots().front().value, hi = plain.knots().back().value;
+    EXPECT_EQ(function.at(lo).color, glm::dvec3(0));
+    EXPECT_EQ(function.at(hi).color, glm::dvec3(.5));
+    for (const TransferKnot& knot : plain.knots())
+        EXPECT_EQ(function.at(knot.value).extinction, knot.optics.extinction);
+}
+
+}  // namespace
+}  // namespace lamina

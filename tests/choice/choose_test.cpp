@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/choose.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "choice/mesh_field.h"
+#include "choice/volume_field.h"
+#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
+#include "support/split_box.h"
+#include "support/volume_of.h"
+
+namespace lamina {
+namespace {
+
+Scene open_scene() {
+    Scene scene;
+    scene.width = 64;
+    scene.height = 48;
+    scene.automatic_transfer_function = scene.automatic_camera = true;
+    return scene;
+}
+
+// A ball of values that grow inwards, in air.
+double ball(const glm::dvec3& p, double edge) {
+    const glm::dvec3 arm = p - glm::dvec3(edge / 2);
+    return std::max(0., 1 - 2.5 * std::sqrt(arm.x * arm.x + arm.y * arm.y + arm.z * arm.z) / edge);
+}
+
+struct Ball {
+    Volume volume = test::volume_of<std::uint8_t>(test::grid_of({40, 40, 40}, Centering::node),
+                                                  [](double x, double y, double z) {
+                                                      return std::floor(250 * ball({x, y, z}, 39));
+                                                  });
+    MinMaxBricks bricks = measure_bricks(volume);
+    VolumeField field{volume, bricks};
+};
+
+SceneMesh ball_mesh() {
+    MeshData data = test::kuhn_box({12, 12, 12}, [](const glm::dvec3& p) { return ball(p, 12); });
+    Scene scene;
+    return scene_mesh(scene, std::move(data));
+}
+
+// The median of the rays that meet something is 0.9 opaque. Depths are sums of float32 numbers, up
+// to a few of them per voxel of 70 along the view: 300 roundings of 6e-8 are 2e-5.
+void expect_median_opacity(const Scene& scene, const Field& field) {
+    std::vector<double> depths = field.optical_depths(scene);
+    std::erase(depths, 0);
+    ASSERT_GT(depths.size(), 100u);
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::ranges::nth_element(depths, middle);
+    EXPECT_NEAR(*middle, std::log(10), 2e-5 * std::log(10));
+}
+
+TEST(Choose, TheMedianRayIsNineTenthsOpaque) {
+    const Ball one;
+    const Scene scene = choose(open_scene(), one.field);
+    expect_median_opacity(scene, one.field);
+    EXPECT_FALSE(scene.automatic_transfer_function || scene.automatic_camera);
+    EXPECT_EQ(scene.chosen.size(), 2u);
+    const SceneMesh mesh = ball_mesh();
+    expect_median_opacity(choose(open_scene(), MeshField(mesh)), MeshField(mesh));
+}
+
+TEST(Choose, OnlyWhatIsOpenIsChosen) {
+    const Ball one;
+    Scene scene = open_scene();
+    scene.automatic_camera = false;
+    scene.camera.eye = {100, 20, 30};
+    EXPECT_EQ(choose(scene, one.field).camera.eye, scene.camera.eye);
+    scene = open_scene();
+    scene.automatic_transfer_function = false;
+    const Scene chosen = choose(scene, one.field);
+    EXPECT_EQ(chosen.transfer_function, scene.transfer_function);
+    EXPECT_EQ(chosen.chosen.size(), 1u);  // the camera
+}
+
+TEST(Choose, DoesNotDependOnThreads) {
+    const Ball one;
+    const auto text = [&] { return scene_json(choose(open_scene(), one.field)).dump(); };
+    const std::string with_all = text();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(text(), with_all);
+}
+
+TEST(Choose, IsReadBackAsItWas) {
+    const Ball one;
+    Scene scene = open_scene();
+    scene.volume_file = "ball.nrrd";
+    scene = choose(scene, one.field);
+    const Scene read = read_scene(nlohmann::json(scene_json(scene)), "/scene.json");
+    EXPECT_EQ(read.transfer_function, scene.transfer_function);
+    EXPECT_EQ(read.camera.eye, scene.camera.eye);
+    EXPECT_EQ(read.camera.up, scene.camera.up);
+    EXPECT_FALSE(read.automatic_transfer_function || read.automatic_camera);
+}
+
+TEST(Choose, DoesAsWished) {
+    const Ball one;
+    const Scene plain = choose(open_scene(), one.field);
+    const Scene dense = choose(open_scene(), one.field, {.density = 2});
+    EXPECT_EQ(dense.transfer_function, plain.transfer_function.attenuated(2));
+    // A quarter turn and back: the same direction as no turn.
+    const Scene around = choose(open_scene(), one.field, {.turn = {360, 0}});
+    EXPECT_LT(glm::distance(around.camera.eye, plain.camera.eye), 1e-10);
+    EXPECT_LT(choose(open_scene(), one.field, {.zoom = 3}).camera.fov_y, plain.camera.fov_y / 2);
+}
+
+// What no picture should fail on: every kind of degenerate data has a transfer function and a
+// camera with finite numbers.
+TEST(Choose, OddData) {
+    const auto check = [](const Volume& volume, const std::string& name) {
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
+        const View view(scene.camera, scene.width, scene.height);
+        for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(std::isfinite(view.eye[axis])) << name;
+        EXPECT_TRUE(std::isfinite(scene.transfer_function.max_extinction(-1e9, 1e9))) << name;
+    };
+    const auto one = test::grid_of({1, 1, 1}, Centering::cell);
+    const auto flat = test::grid_of({9, 1, 7}, Centering::cell);
+    const auto small = test::grid_of({3, 2, 2}, Centering::node);
+    const auto cube = test::grid_of({9, 9, 9}, Centering::node);
+    const auto x = [](double i, double, double) { return i; };
+    check(test::volume_of(one, x), "one sample");
+    check(test::volume_of(flat, x), "a sheet");
+    check(test::volume_of(small, x), "a few samples");
+    check(test::volume_of(cube, [](double, double, double) { return 4.5; }), "constant");
+    check(test::volume_of(cube, [](double, double, double) { return NAN; }), "no number");
+    check(test::volume_of(cube, [](double i, double, double) { return i < 1 ? NAN : i; }),
+          "some that are none");
+    check(test::volume_of<std::uint8_t>(
+              cube, [](double i, double j, double) { return i > 3 && j > 3 ? 2
+                                                            : i > 6        ? 1
+                                                                           : 0; }),
+          "labels");
+    check(test::volume_of(cube,
+                          [](double i, double j, double k) { return i + j + k == 9 ? 1e30 : 0; }),
+          "huge");
+    check(
+        test::volume_of(cube, [](double i, double j, double k) { return i + j + k == 24 ? 1 : 0; }),
+        "a single voxel");
+}
+
+}  // namespace
+}  // namespace lamina

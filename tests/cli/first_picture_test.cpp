@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+// A data file in place of a scene, as a new user runs it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/blobs_scene.h"
+#include "cli/lamina_run.h"
+#include "image/exr.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class FirstPicture : public testing::Test {
+  protected:
+    // Runs and expects success. Returns what went to stderr.
+    std::string run(const std::vector<std::string>& arguments) {
+        const ProgramResult result = lamina_run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    }
+    std::string generated(const std::string& name, const std::string& type = "uint8") {
+        const std::string file = folder / (name + "_" + type + ".nrrd");
+        run({"generate", name, "-o", file, "--type", type, "--size", "24,24,24"});
+        return file;
+    }
+    std::string render(const std::string& input, const std::string& output,
+                       std::vector<std::string> more = {}) {
+        std::vector<std::string> arguments{"render",    input, "-o",     folder / output,
+                                           "--context", "cpu", "--size", "160x120"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    void expect_same(const std::string& a, const std::string& b) {
+        const ProgramResult result =
+            lamina_run({"compare", folder / a, folder / b, "--max-linf", "0"});
+        EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    }
+    bool same(const std::string& a, const std::string& b) {
+        return lamina_run({"compare", folder / a, folder / b, "--max-linf", "0"}).exit_code == 0;
+    }
+    json document(const std::string& name) { return json::parse(read_bytes_of(folder / name)); }
+
+    TemporaryFolder folder;
+};
+
+// What a picture shows, as shares.
+struct Look {
+    double covered = 0;     // of all pixels: opacity of 8 / 255 or more
+    double saturated = 0;   // of those
+    std::size_t kinds = 0;  // hues, or greys where there is no hue, that a hundredth of them has
+
+    explicit Look(const Image& picture) {
+        std::map<int, double> found;
+        for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
+            const float* const p = &picture.rgba[i];
+            if (p[3] < 8.F / 255) continue;
+            covered += 1;
+            const float most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
+            saturated += most >= .9956F;
+            const auto light = static_cast<int>(8 * std::sqrt(std::min(most, 1.F)));
+            ++found[most - least > most / 4 ? 100 * (1 + hue(p, most, most - least)) : light];
+        }
+        for (const auto& [kind, count] : found) kinds += count >= covered / 100;
+        saturated /= std::max(covered, 1.);
+        covered /= static_cast<double>(picture.rgba.size()) / 4;
+    }
+    static int hue(const float* p, float most, float chroma) {  // in twelfths
+        const float sixth = most == p[0]   ? (p[1] - p[2]) / chroma + 6
+                            : most == p[1] ? (p[2] - p[0]) / chroma + 2
+                                           : (p[0] - p[1]) / chroma + 4;
+        return static_cast<int>(2 * sixth) % 12;
+    }
+};
+
+void expect_good(const Image& picture, const std::string& what) {
+    const Look look(picture);
+    EXPECT_GE(look.covered, .1) << what;
+    EXPECT_LE(look.covered, .9) << what;
+    EXPECT_LT(look.saturated, .05) << what;
+    EXPECT_GE(look.kinds, 3u) << what;
+}
+
+TEST_F(FirstPicture, OfEveryGeneratedVolume) {
+    for (const std::string name : {"constant", "marschner-lobb", "gaussians", "sheets", "mixing"}) {
+        for (const std::string type : {"uint8", "uint16", "float"}) {
+            const std::string said = render(generated(name, type), "p.exr");
+            EXPECT_NE(said.find("lamina: transfer function: "), std::string::npos) << said;
+            EXPECT_NE(said.find("lamina: camera: "), std::string::npos) << said;
+            EXPECT_EQ(said.find("warning"), std::string::npos) << said;
+            expect_good(read_exr(folder / "p.exr"), name + " " + type);
+        }
+    }
+}
+
+TEST_F(FirstPicture, OfRealData) {
+    const char* const data = std::getenv("LAMINA_DATA");
+    if (data == nullptr) GTEST_SKIP() << "LAMINA_DATA is not set";
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(data)) {
+        const std::string suffix = entry.path().extension();
+        if (suffix != ".nrrd" && suffix != ".vtu") continue;
+        render(entry.path(), "p.exr");
+        expect_good(read_exr(folder / "p.exr"), entry.path());
+        ++count;
+    }
+    EXPECT_GT(count, 0);
+}
+
+TEST_F(FirstPicture, TheSceneThatIsWrittenDrawsTheSamePicture) {
+    const std::string volume = generated("gaussians");
+    run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
+    for (const std::string& file : {volume, (folder / "m.vtu").string()}) {
+        const std::vector<std::string> look{"--azimuth",  "40",     "--density", "1.5",
+                                            "--zoom",     "1.25",   "--range",   "30,220",
+                                            "--colormap", "viridis"};
+        render(file, "a.exr", look);
+        std::vector<std::string> arguments{"scene",           file,     "-o",
+                                           folder / "s.json", "--size", "160x120"};
+        arguments.insert(arguments.end(), look.begin(), look.end());
+        run(arguments);
+        render(folder / "s.json", "b.exr");
+        expect_same("a.exr", "b.exr");
+        const json scene = document("s.json");
+        EXPECT_GT(scene["transfer_function"]["points"].size(), 3u);
+        EXPECT_TRUE(scene["camera"].contains("eye"));
+        EXPECT_EQ(scene["image"]["width"], 160);
+    }
+}
+
+TEST_F(FirstPicture, AFileIsKnownByItsContent) {
+    const std::string volume = generated("gaussians");
+    render(volume, "a.exr");
+    for (const std::string name : {"volume", "volume.vtu", "volume.json"}) {
+        std::filesystem::copy_file(volume, folder / name);
+        render(folder / name, "b.exr");
+        expect_same("a.exr", "b.exr");
+    }
+    run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
+    render(folder / "m.vtu", "a.exr");
+    std::filesystem::copy_file(folder / "m.vtu", folder / "mesh.dat");
+    render(folder / "mesh.dat", "b.exr");
+    expect_same("a.exr", "b.exr");
+    write_bytes_to(folder / "letter.txt", "Dear reader");
+    const ProgramResult result =
+        lamina_run({"render", folder / "letter.txt", "-o", folder / "x.png"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("letter.txt: unknown kind of file: expected a scene"),
+              std::string::npos)
+        << result.err;
+}
+
+TEST_F(FirstPicture, ShortcutsWorkForScenesToo) {
+    write_bytes_to(folder / "s.json", gaussians_scene(16, 160, 120, 32).dump());
+    const std::string scene = folder / "s.json";
+    render(scene, "plain.exr");
+    render(scene, "same.exr", {"--azimuth", "0", "--zoom", "1", "--density", "1"});
+    expect_same("plain.exr", "same.exr");
+    const std::vector<std::vector<std::string>> changes{
+        {"--azimuth", "30"}, {"--elevation", "-20"},    {"--zoom", "2"},
+        {"--density", ".5"}, {"--colormap", "inferno"}, {"--range", "100,200"}};
+    for (const auto& change : changes) {
+        render(scene, "other.exr", change);
+        EXPECT_FALSE(same("plain.exr", "other.exr")) << change[0];
+    }
+    // By definition the same as what they stand for.
+    render(scene, "a.exr", {"--range", "100,200"});
+    render(scene, "b.exr",
+           {"--set", "transfer_function.points.0.value=100", "--set",
+            "transfer_function.points.1.value=200"});
+    expect_same("a.exr", "b.exr");
+    render(scene, "a.exr", {"--density", "2"});
+    render(scene, "b.exr", {"--set", "transfer_function.points.1.extinction=16"});
+    expect_same("a.exr", "b.exr");
+    render(scene, "a.png", {"--background", "white"});
+    render(scene, "b.png", {"--set", "image.background=[1, 1, 1]"});
+    expect_same("a.png", "b.png");
+}
+
+TEST_F(FirstPicture, AMissingMethodIsWhatTheSceneHas) {
+    const std::string volume = generated("gaussians");
+    run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
+    write_bytes_to(folder / "s.json",
+                   json{{"version", 1}, {"mesh", (folder / "m.vtu").string()}}.dump());
+    render(folder / "s.json", "a.exr");
+    render(folder / "s.json", "b.exr", {"--method", "project"});
+    expect_same("a.exr", "b.exr");
+}
+
+TEST_F(FirstPicture, MistakesInShortcutsAreNamed) {
+    const std::string volume = generated("gaussians");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
+        {{"--range", "3"}, "--range 3: expected LO,HI"},
+        {{"--range", "5,2"}, "--range 5,2: expected LO,HI"},
+        {{"--size", "800"}, "--size 800: expected WxH"},
+        {{"--size", "0x5"}, "image.width: found 0"},
+        {{"--zoom", "0"}, "--zoom 0: expected"},
+        {{"--density", "-1"}, "--density -1: expected"},
+        {{"--background", "blurple"}, "image.background"},
+        {{"--azimuth", "nan"}, "--azimuth nan: expected"}};
+    for (const auto& [mistake, message] : mistakes) {
+        std::vector<std::string> arguments{"render", volume, "-o", folder / "x.png"};
+        arguments.insert(arguments.end(), mistake.begin(), mistake.end());
+        const ProgramResult result = lamina_run(arguments);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+    }
+}
+
+TEST_F(FirstPicture, OddDataGiveAPictureOrOneLine) {
+    const auto nrrd = [&](const std::string& sizes, const std::string& values) {
+        write_bytes_to(folder / "v.nrrd", "NRRD0004\ntype: float\ndimension: 3\nsizes: " + sizes +
+                                              "\nencoding: ascii\n\n" + values + "\n");
+        return (folder / "v.nrrd").string();
+    };
+    for (const std::string method : {"slice", "trace"}) {
+        render(nrrd("2 2 2", "3 3 3 3 3 3 3 3"), "p.exr", {"--method", method});
+        render(nrrd("1 1 1", "7"), "p.exr", {"--method", method});
+        render(nrrd("3 1 2", "0 1 2 3 4 5"), "p.exr", {"--method", method});
+        EXPECT_NE(
+            render(nrrd("3 2 2", "nan 1 2 3 4 5 6 7 8 9 10 inf"), "p.exr", {"--method", method})
+                .find("2 samples are NaN or infinite"),
+            std::string::npos);
+        const ProgramResult result = lamina_run(
+            {"render", nrrd("2 1 1", "nan nan"), "-o", folder / "x.exr", "--method", method});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_NE(result.err.find("all 2 samples are NaN or infinite"), std::string::npos)
+            << result.err;
+    }
+}
+
+TEST_F(FirstPicture, APictureThatShowsNothingSaysWhy) {
+    auto scene = gaussians_scene(16, 40, 30, 32);
+    scene["mesh"] = {{"kuhn", true}};
+    const auto warnings = [&](const json& changed, const std::string& method) {
+        write_bytes_to(folder / "s.json", changed.dump());
+        return run({"render", folder / "s.json", "-o", folder / "p.exr", "--method", method,
+                    "--context", "cpu", "--set", "render.trace.tolerance=.01"});
+    };
+    const auto expect = [&](const json& changed, const std::string& message) {
+        for (const std::string method : {"slice", "project", "trace"}) {
+            const std::string said = warnings(changed, method);
+            EXPECT_NE(said.find("lamina: warning: "), std::string::npos) << said;
+            EXPECT_NE(said.find(message), std::string::npos) << said;
+            EXPECT_EQ(said.find("warning"), said.rfind("warning")) << said;  // one
+        }
+    };
+    EXPECT_EQ(warnings(scene, "slice").find("warning"), std::string::npos);
+    json bad = scene;
+    bad["transfer_function"]["points"][0]["value"] = 300;
+    bad["transfer_function"]["points"][1]["value"] = 400;
+    expect(bad, "the transfer function shows values above 300, and the data have 0 to 255");
+    bad = scene;
+    bad["camera"]["center"] = {3, -3, 3};
+    expect(bad, "the camera looks away from the data");
+    bad = scene;
+    bad["camera"]["center"] = {1.7, 3, 1.3};
+    expect(bad, "the camera looks past the data");
+    bad = scene;
+    bad["transfer_function"]["points"][1]["extinction"] = 1e-6;
+    expect(bad, "the largest opacity is");
+}
+
+TEST_F(FirstPicture, ASaturatedPictureIsSaid) {
+    auto scene = gaussians_scene(16, 40, 30, 32);
+    scene["transfer_function"]["points"] = {{{"value", 0}, {"extinction", 1000}}};
+    write_bytes_to(folder / "s.json", scene.dump());
+    for (const std::string method : {"slice", "trace"}) {
+        const std::string said = run({"render", folder / "s.json", "-o", folder / "p.exr",
+                                      "--method", method, "--context", "cpu"});
+        EXPECT_NE(said.find("% of the pixels that show something are saturated"), std::string::npos)
+            << said;
+    }
+}
+
+TEST_F(FirstPicture, ColorsBesideTheDataAreSaid) {
+    auto scene = gaussians_scene(16, 40, 30, 32);
+    scene["transfer_function"] = {
+        {"colormap", "viridis"},
+        {"colormap_range", {1000, 2000}},
+        {"points", {{{"value", 0}, {"extinction", 0}}, {{"value", 255}, {"extinction", 5}}}}};
+    write_bytes_to(folder / "s.json", scene.dump());
+    const std::string said =
+        run({"render", folder / "s.json", "-o", folder / "p.exr", "--context", "cpu"});
+    EXPECT_NE(said.find("colours change from 1000 to 2000, and the data have 0 to 255"),
+              std::string::npos)
+        << said;
+}
+
+TEST_F(FirstPicture, OtherVerbsTakeDataFilesAndOpenScenes) {
+    const std::string volume = generated("gaussians");
+    run({"mesh", volume, "--kuhn", "-o", folder / "m.vtu", "--quiet"});
+    write_bytes_to(folder / "s.json",
+                   json{{"version", 1}, {"volume", volume}, {"mesh", {{"kuhn", true}}}}.dump());
+    const std::string said = run({"mesh", folder / "s.json", "-o", folder / "n.vtu"});
+    EXPECT_NE(said.find("transfer function: "), std::string::npos) << said;
+    run({"order", folder / "s.json", "--eyes", "1", "--size", "16x16", "--quiet"});
+    run({"crosscheck", volume, "-o", folder / "cross", "--set", "image.width=32", "--set",
+         "image.height=24", "--set", "mesh={\"kuhn\": true}", "--samples", "16", "--quiet"});
+    EXPECT_TRUE(std::filesystem::exists(folder / "cross" / "report.html"));
+    const ProgramResult result =
+        lamina_run({"crosscheck", folder / "m.vtu", "-o", folder / "none"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("volume: is missing"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace lamina

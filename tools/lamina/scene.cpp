@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/atomic_file.h"
+#include "base/json_text.h"
+#include "base/progress.h"
+#include "base/standard_streams.h"
+#include "different_files.h"
+#include "scene_data.h"
+#include "scene_files.h"
+#include "scene_options.h"
+#include "verbs.h"
+#include "view_options.h"
+
+namespace lamina {
+namespace {
+
+struct SceneVerbOptions {
+    SceneOptions scene;
+    ViewOptions view;
+    std::string output;
+    bool quiet = false;
+};
+
+void run(const SceneVerbOptions& options) {
+    nlohmann::json document;
+    Scene scene = load_scene(options.scene, settings_of(options.view), document);
+    const Wishes wishes = wishes_of(options.view, scene.color_space);
+    expect_different_files(files_of(scene), {options.output});
+    AtomicFile output(options.output);
+    RenderStats ignored;
+    load_data(scene, wishes, ignored);
+    output.write(json_text(document_of(scene, document), 2) + "\n");
+    output.commit();
+    if (options.quiet) return;
+    for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
+    print_message("lamina: wrote {}\n", options.output);
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, int&) {
+    const auto options = std::make_shared<SceneVerbOptions>();
+    CLI::App* const verb = app.add_subcommand(
+        "scene", "Write the scene that render would draw of a file, to be edited");
+    verb->add_option("FILE", options->scene.file,
+                     "Volume (NRRD), mesh (.vtu, .vtk, .node, .ele), or scene (JSON) that leaves "
+                     "something open")
+        ->required();
+    verb->add_option("-o,--output", options->output, "Scene file to write (JSON)")->required();
+    verb->add_option("--method", options->scene.method,
+                     "slice, project or trace; as --set render.method=...");
+    verb->add_option("--set", options->scene.settings,
+                     "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
+        ->allow_extra_args(false);
+    add_view_options(*verb, options->view);
+    verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
+    verb->callback([options] {
+        Progress::set_quiet(options->quiet);
+        run(*options);
+    });
+}
+
+}  // namespace lamina

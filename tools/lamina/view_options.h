@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "choice/choose.h"
+
+namespace lamina {
+
+// The options that change the look of a picture without a word of JSON.
+struct ViewOptions {
+    ViewTurn turn;
+    double zoom = 1, density = 1;
+    std::string size, colormap, range, background;
+};
+
+void add_view_options(CLI::App& verb, ViewOptions& options);
+
+// What is to be changed in the scene, which --colormap may have to read. Throws UsageError.
+Wishes wishes_of(const ViewOptions& options, ImageColorSpace space);
+
+// The others, as values of --set: "image.width=800".
+std::vector<std::string> settings_of(const ViewOptions& options);
+
+}  // namespace lamina
