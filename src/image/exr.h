@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/image.h"
 
 namespace lamina {
@@ -13,7 +13,7 @@ namespace lamina {
 // Writes channels R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings.
 // There is no time stamp: equal images make equal files. Throws Error where a component is not
 // finite or the disk is full. The caller commits the file.
-void write_exr(AtomicFile& file, const Image& image,
+void write_exr(OutputFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes);
 
 // Reads the data window of the first part, which must be flat, with any pixel type. A missing A

@@ -2,14 +2,19 @@
 #include "image/picture.h"
 
 #include "image/exr.h"
+#include "image/npy.h"
 #include "image/png.h"
 
 namespace lamina {
 
-std::size_t write_picture(AtomicFile& file, const Image& image, const glm::dvec3& background,
+std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
                           const std::map<std::string, std::string>& attributes) {
-    if (file.path().extension() == ".png") return write_png(file, image, background);
-    write_exr(file, image, attributes);
+    const std::filesystem::path suffix = file.path().extension();
+    if (suffix == ".png") return write_png(file, image, background);
+    if (suffix == ".npy")
+        write_npy(file, image);
+    else
+        write_exr(file, image, attributes);
     return 0;
 }
 

@@ -42,15 +42,6 @@ Json transfer_function_json(const TransferFunction& transfer_function) {
     return {{"points", points}};
 }
 
-Json camera_json(const Camera& camera) {
-    return {{"projection", name_of(camera.projection)},
-            {"eye", vector_json(camera.eye)},
-            {"center", vector_json(camera.center)},
-            {"up", vector_json(camera.up)},
-            {"fov_y", camera.fov_y},
-            {"height", camera.height}};
-}
-
 Json emulate_json(const Emulation& emulation) {
     return {{"bits", emulation.bits},
             {"alpha", name_of(emulation.alpha)},
@@ -118,6 +109,15 @@ Json render_json(const Scene& scene) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json camera_json(const Camera& camera) {
+    return {{"projection", name_of(camera.projection)},
+            {"eye", vector_json(camera.eye)},
+            {"center", vector_json(camera.center)},
+            {"up", vector_json(camera.up)},
+            {"fov_y", camera.fov_y},
+            {"height", camera.height}};
+}
 
 Json scene_json(const Scene& scene) {
     Json json{{"version", 1}};

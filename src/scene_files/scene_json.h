@@ -12,4 +12,7 @@ namespace lamina {
 // whatever they were made from. save_scene() writes it.
 nlohmann::ordered_json scene_json(const Scene& scene);
 
+// Its key "camera".
+nlohmann::ordered_json camera_json(const Camera& camera);
+
 }  // namespace lamina

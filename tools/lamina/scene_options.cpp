@@ -6,15 +6,19 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_stdin.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
+#include "picture_format.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_reader.h"
 
 namespace lamina {
 
 Scene load_scene(const SceneOptions& options, std::string& document_text) {
-    nlohmann::json document = load_json(options.file);
+    const bool piped = options.file == standard_stream;
+    const std::string file = piped ? stdin_name : options.file;
+    nlohmann::json document = piped ? load_json_from_stdin() : load_json(file);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
         set_key(document, key, value);
@@ -31,7 +35,7 @@ Scene load_scene(const SceneOptions& options, std::string& document_text) {
     if (!options.method.empty()) apply("render.method", options.method);
     document_text = json_text(document, 2);
     try {
-        return read_scene(document, options.file);
+        return read_scene(document, file);
     } catch (const KeyError& error) {
         for (const std::string& key : keys) {
             if (error.key == key || key.starts_with(error.key + ".") ||
