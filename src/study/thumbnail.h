@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures for a page.
+// Pictures for a page.
 #pragma once
 
 #include <string>
@@ -9,6 +9,9 @@
 #include "lamina/image.h"
 
 namespace lamina::study {
+
+// The picture as write_png shows it on black: 8-bit sRGB codes, three channels.
+CodedImage shown(const Image& image);
 
 // The divisor of the sides after which neither has more than `largest` pixels.
 int reduction(int width, int height, int largest = 256);
@@ -20,5 +23,7 @@ Difference reduced(const Difference& difference, int step);
 
 // An RGB picture of 8 bits as "data:image/png;base64,...".
 std::string data_uri(const CodedImage& image);
+// Bytes of that media type as "data:...;base64,...".
+std::string data_uri(const std::string& type, const std::string& bytes);
 
 }  // namespace lamina::study
