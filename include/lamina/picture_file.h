@@ -12,9 +12,9 @@
 namespace lamina {
 
 // Writes a picture that appears under its name only when it is complete. By the suffix: .png is for
-// looking at (over `background`; 8 bits, sRGB); .exr keeps every number as 32-bit float. `space`:
-// of picture and background, as in the scene (Scene::color_space). Throws Error for other suffixes
-// and where the file cannot be written.
+// looking at (over `background`; 8 bits, sRGB); .exr and .npy (NumPy's, of shape (height, width, 4))
+// keep every number as 32-bit float. `space`: of picture and background, as in the scene
+// (Scene::color_space). Throws Error for other suffixes and where the file cannot be written.
 LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
                              const glm::dvec3& background = glm::dvec3(0),
                              ImageColorSpace space = ImageColorSpace::linear);

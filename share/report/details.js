@@ -1,35 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a row of the table opens: pictures and figures of one run.
 
-// image/false_color.cpp's colours from -scale to scale, at equal steps.
-const falseColors = ["rgb(5,48,97)", "rgb(33,102,172)", "rgb(67,147,195)", "rgb(146,197,222)", "rgb(209,229,240)",
-                     "rgb(255,255,255)", "rgb(253,219,199)", "rgb(244,165,130)", "rgb(214,96,77)", "rgb(178,24,43)",
-                     "rgb(103,0,31)"];
-
-function colorBar(scale) {
-  const text = scale ? numberText(scale) : "0";
-  return element("div", { class: "color-bar" },
-    element("div", { class: "colors", style: `background: linear-gradient(to right, ${falseColors.join(", ")})` }),
-    element("div", { class: "color-ends" }, element("span", null, `${scale ? minus : ""}${text}`),
-      element("span", null, "0"), element("span", null, `${scale ? "+" : ""}${text} /255`)));
-}
-
-function pictureFigure(source, caption, size, ...more) {
-  const image = picture(source, caption, size);
-  return image && element("figure", { class: "picture" }, image, element("figcaption", null, caption), ...more);
-}
-
-// Small pictures are shown in whole multiples of their size, so that each of their pixels is a square.
-function shownSize(width, height) {
-  const times = Math.max(1, Math.floor(256 / width));
-  return { width: times * width, height: times * height };
-}
-
-// When a picture is loaded that comes without its size.
-function enlarge({ target }) {
-  fill(target, shownSize(target.naturalWidth, target.naturalHeight), []);
-}
-
 function smallTable(className, heads, rows) {
   return element("table", { class: `small ${className}` },
     element("thead", null, element("tr", null, heads.map((head) => element("th", { scope: "col" }, head)))),
@@ -59,14 +30,16 @@ function stageTable(run) {
 
 function runDetails(run, comparison) {
   const reference = (comparison.references ?? []).find(({ id }) => id === run.reference);
-  const size = reference ? shownSize(reference.width, reference.height) : { load: enlarge };
+  const size = reference ? shownSize(reference.width, reference.height) : { load: setShownSize };
   const own = reference ? ` of the ${reference.of}; own error ${numberText(reference.error_estimate)}/255` : "";
   return element("div", { class: "details" },
     element("div", { class: "pictures" },
-      pictureFigure(run.image, "this run", size),
-      reference && pictureFigure(reference.image, `reference ${reference.id}${own}`, size),
-      pictureFigure(run.difference, "this run − reference; of each pixel the channel that differs most", size,
-        colorBar(comparison.difference_scale))),
+      pictureFigure(run.image, `${comparison.scene}, drawn by the run ${run.name}`, "this run", size),
+      reference && pictureFigure(reference.image, `${comparison.scene}, traced from the ${reference.of}`,
+        `reference ${reference.id}${own}`, size),
+      pictureFigure(run.difference, `${comparison.scene}: the run ${run.name} less the reference, in false colour`,
+        "this run − reference; of each pixel the channel that differs most", size,
+        colorBar(comparison.difference_scale, run.linf))),
     element("div", { class: "figures" }, channelTable(run), timeTable(run), stageTable(run),
       factList([["run", run.id], ["context", run.context],
                 ["first picture", isMissing(run.first_ms) ? null

@@ -143,7 +143,8 @@ class Scatter {
       ...(isMissing(run.first_ms) ? [] : [element("div", null, `first picture: ${numberText(run.first_ms)} ms`)]),
       element("div", null, errors),
       ...Object.entries(run.keys ?? {}).map(([key, value]) => element("div", null, `${key}: ${valueText(value)}`)),
-      element("div", { class: "pair" }, picture(run.image, ""), picture(run.difference, "")),
+      element("div", { class: "pair" }, picture(run.image, `picture of ${run.name}`),
+        picture(run.difference, `difference of ${run.name} from the reference`)),
     ];
   }
 }

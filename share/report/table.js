@@ -102,6 +102,7 @@ class RunTable {
   }
 
   nameCell(run, baseline) {
+    // The name is beside it.
     const thumbnail = picture(run.image, "", { class: "thumbnail", loading: "lazy", width: 32, height: 32 });
     const name = [run.name, baseline ? " (baseline)" : null, run.near_reference ? " †" : null];
     const content = run.failed ? element("span", { class: "opens" }, name)

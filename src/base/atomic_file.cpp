@@ -65,7 +65,7 @@ std::string descriptor_path(int descriptor) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(without_links(std::move(path))) {
+AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(std::move(path))) {
     std::error_code ignored;
     const auto status = std::filesystem::status(path_, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
@@ -122,10 +122,6 @@ void AtomicFile::open_stream() {
     give_up(error);
 }
 
-void AtomicFile::write(const void* bytes, std::size_t count) {
-    if (count > 0 && std::fwrite(bytes, 1, count, stream_) != count) give_up(errno);
-}
-
 void AtomicFile::close_stream() {
     if (stream_ == nullptr) return;
     std::FILE* const stream = stream_;
@@ -161,10 +157,6 @@ void AtomicFile::commit() {
     std::filesystem::rename(temporary_, path_, error);
     if (error) give_up(error.value());
     temporary_.clear();
-}
-
-void AtomicFile::give_up(int error) const {
-    throw WriteError(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(error)));
 }
 
 }  // namespace lamina

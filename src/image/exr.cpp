@@ -26,10 +26,10 @@ constexpr const char* space_attribute = "color_space";
 constexpr const char* rgba_names[4] = {"R", "G", "B", "A"};
 constexpr std::size_t pixel_bytes = 4 * sizeof(float);
 
-// Lets OpenEXR write through an AtomicFile.
+// Lets OpenEXR write through an OutputFile.
 class FileStream : public Imf::OStream {
   public:
-    explicit FileStream(AtomicFile& file) : OStream(file.path().c_str()), file_(file) {}
+    explicit FileStream(OutputFile& file) : OStream(file.path().c_str()), file_(file) {}
 
     void write(const char bytes[], int count) override {
         try {
@@ -55,7 +55,7 @@ class FileStream : public Imf::OStream {
         fail("{}: cannot write: {}", file_.path().string(), std::strerror(errno));
     }
 
-    AtomicFile& file_;
+    OutputFile& file_;
     bool broken_ = false;
 };
 
@@ -163,7 +163,7 @@ auto read_with(const std::filesystem::path& path, const Read& read) {
 
 }  // namespace
 
-void write_exr(AtomicFile& file, const Image& image,
+void write_exr(OutputFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes, ImageColorSpace space) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);

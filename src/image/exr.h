@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
 
@@ -16,7 +16,7 @@ namespace lamina {
 // light.
 // There is no time stamp: equal images make equal files. Throws Error where a component is not
 // finite or the disk is full. The caller commits the file.
-void write_exr(AtomicFile& file, const Image& image,
+void write_exr(OutputFile& file, const Image& image,
                const std::map<std::string, std::string>& attributes,
                ImageColorSpace space = ImageColorSpace::linear);
 

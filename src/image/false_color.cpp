@@ -26,20 +26,20 @@ constexpr std::array<Rgb, 6> reds = {{{255, 255, 255},
                                       {178, 24, 43},
                                       {103, 0, 31}}};
 
-Rgb color_of(double share) {  // -1..1
+}  // namespace
+
+std::array<std::uint16_t, 3> false_color_of(double share) {
     const std::array<Rgb, 6>& steps = share < 0 ? blues : reds;
     const double position = 5 * std::abs(share);
     const std::size_t lower = std::min<std::size_t>(static_cast<std::size_t>(position), 4);
     const double between = position - static_cast<double>(lower);
-    Rgb mixed{};
+    std::array<std::uint16_t, 3> mixed{};
     for (std::size_t i = 0; i < 3; ++i) {
-        mixed[i] = static_cast<int>(
+        mixed[i] = static_cast<std::uint16_t>(
             std::lround((1 - between) * steps[lower][i] + between * steps[lower + 1][i]));
     }
     return mixed;
 }
-
-}  // namespace
 
 CodedImage false_color(const Difference& difference, double scale) {
     CodedImage picture(difference.width, difference.height, 3, 8);
@@ -49,7 +49,7 @@ CodedImage false_color(const Difference& difference, double scale) {
         const double largest = *std::max_element(
             e, e + channels, [](double a, double b) { return std::abs(a) < std::abs(b); });
         const double share = largest == 0 ? 0 : std::clamp(largest / scale, -1.0, 1.0);
-        for (const int component : color_of(share)) *code++ = static_cast<std::uint16_t>(component);
+        for (const std::uint16_t component : false_color_of(share)) *code++ = component;
     }
     return picture;
 }

@@ -95,6 +95,24 @@ class HeaderText {
     std::string_view text_;
 };
 
+template <typename Real>
+void write_numbers(OutputFile& file, const RgbaImage<Real>& image) {
+    const std::string name = file.path().string();
+    check_image_size(name, image.width, image.height);
+    require_finite(name, image);
+    std::string header =
+        fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}, {}, 4), }}",
+                    sizeof(Real), image.height, image.width);
+    const std::size_t preamble = magic.size() + 4;  // version and header length
+    while ((preamble + header.size() + 1) % alignment != 0) header += ' ';
+    header += '\n';
+    const auto length = static_cast<std::uint16_t>(header.size());
+    file.write(std::string(magic) + '\x01' + '\x00');
+    file.write(&length, sizeof length);
+    file.write(header);
+    file.write(image.rgba.data(), image.rgba.size() * sizeof(Real));
+}
+
 void read_bytes(std::ifstream& stream, const std::string& name, void* bytes, std::size_t count) {
     stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
     if (!stream) fail("{}: cannot read as NPY: the file ends too early", name);
@@ -140,21 +158,12 @@ void read_pixels(std::ifstream& stream, const std::string& name, std::int64_t ch
 
 }  // namespace
 
-void write_npy(AtomicFile& file, const PreciseImage& image) {
-    const std::string name = file.path().string();
-    check_image_size(name, image.width, image.height);
-    require_finite(name, image);
-    std::string header =
-        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 4), }}",
-                    image.height, image.width);
-    const std::size_t preamble = magic.size() + 4;  // version and header length
-    while ((preamble + header.size() + 1) % alignment != 0) header += ' ';
-    header += '\n';
-    const auto length = static_cast<std::uint16_t>(header.size());
-    file.write(std::string(magic) + '\x01' + '\x00');
-    file.write(&length, sizeof length);
-    file.write(header);
-    file.write(image.rgba.data(), image.rgba.size() * sizeof(double));
+void write_npy(OutputFile& file, const Image& image) {
+    write_numbers(file, image);
+}
+
+void write_npy(OutputFile& file, const PreciseImage& image) {
+    write_numbers(file, image);
 }
 
 PreciseImage read_npy(const std::filesystem::path& path) {

@@ -109,7 +109,7 @@ void expand(Reader& reader) {
 
 }  // namespace
 
-std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background,
+std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
                       ImageColorSpace space) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
@@ -131,7 +131,7 @@ std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& ba
     return clamped_pixels;
 }
 
-void write_png(AtomicFile& file, const CodedImage& image) {
+void write_png(OutputFile& file, const CodedImage& image) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);
     Writer writer;

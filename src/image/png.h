@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "image/coded_image.h"
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
@@ -18,11 +18,11 @@ namespace lamina {
 // nearest 8-bit code, as RGB with an sRGB chunk and no time stamp. Returns how many pixels were
 // clamped by more than 1/510 in some channel; less is the rounding of a low-precision target.
 // Throws Error as write_exr does. The caller commits the file.
-std::size_t write_png(AtomicFile& file, const Image& image, const glm::dvec3& background,
+std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
                       ImageColorSpace space = ImageColorSpace::linear);
 
 // Writes the codes unchanged, marked as sRGB.
-void write_png(AtomicFile& file, const CodedImage& image);
+void write_png(OutputFile& file, const CodedImage& image);
 
 // The bytes of a PNG file with an RGB picture of 8 bits.
 std::string encode_png(const CodedImage& image);

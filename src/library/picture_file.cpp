@@ -10,8 +10,8 @@ namespace lamina {
 void save_picture(const Image& picture, const std::filesystem::path& file,
                   const glm::dvec3& background, ImageColorSpace space) {
     const std::string suffix = file.extension().string();
-    if (suffix != ".png" && suffix != ".exr")
-        fail("{}: found the suffix \"{}\", expected .png or .exr", file.string(), suffix);
+    if (suffix != ".png" && suffix != ".exr" && suffix != ".npy")
+        fail("{}: found the suffix \"{}\", expected .png, .exr or .npy", file.string(), suffix);
     AtomicFile output(file);
     write_picture(output, picture, background, {}, space);
     output.commit();

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "papers/compared_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/progress.h"
 #include "image/false_color.h"
-#include "study/picture_sheet.h"
+#include "papers/panels.h"
 #include "study/text_file.h"
+#include "study/thumbnail.h"
 
 namespace lamina::papers {
 namespace {
@@ -149,19 +152,28 @@ double shown_scale(const Difference& difference) {
     return *at;
 }
 
-void write_picture_sheet(const std::filesystem::path& path, const std::vector<Image>& pictures,
-                         const Image& exact, const std::vector<Difference>& differences,
-                         const Inset& inset, double scale) {
+// The pictures in the manner of the paper's figures; the exact one last.
+Json panels_of(const std::string& name, const std::vector<Variant>& variants,
+               const std::vector<Image>& pictures, const Image& exact,
+               const std::vector<Difference>& differences, const Inset& inset, double scale) {
     const double gain = gain_of(exact, inset);
-    std::vector<std::vector<CodedImage>> rows(3);
-    const auto add = [&](const Image& picture) {
-        rows[0].push_back(framed(study::shown(picture), inset));
-        rows[1].push_back(magnified(picture, inset, gain));
-    };
-    for (const Image& picture : pictures) add(picture);
-    add(exact);
-    for (const Difference& e : differences) rows[2].push_back(framed(false_color(e, scale), inset));
-    study::write_sheet(path, rows);
+    Panels panels;
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        panels.add(name, variants[i].name, framed(study::shown(pictures[i]), inset));
+    panels.add(name, "exact", framed(study::shown(exact), inset));
+    const std::string insets = fmt::format(
+        "{}: the frame {} times as large, with {:.3g} times the "
+        "contrast about its mean",
+        name, magnification, gain);
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        panels.add(insets, variants[i].name, magnified(pictures[i], inset, gain));
+    panels.add(insets, "exact", magnified(exact, inset, gain));
+    const std::string group = name + ": difference from the exact picture";
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        panels.add_difference(group, variants[i].name, differences[i], scale,
+                              framed(false_color(differences[i], scale), inset));
+    }
+    return panels.json();
 }
 
 }  // namespace
@@ -198,7 +210,7 @@ std::vector<VariantErrors> variant_errors(const std::string& label, KrausSubject
 }
 
 std::vector<std::string> compared_picture_files(const std::string& name) {
-    return {name + ".png", name + ".csv"};
+    return {name + ".csv"};
 }
 
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
@@ -223,15 +235,15 @@ ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
     const Image exact_picture = to_float(exact);
     const Inset inset = worst_inset(pictures.front(), exact_picture);
     const double scale = shown_scale(differences.front());
-    write_picture_sheet(folder / (name + ".png"), pictures, exact_picture, differences, inset,
-                        scale);
     study::write_text(folder / (name + ".csv"), study::csv_of_rows(rows));
-    made.values = {{"files", compared_picture_files(name)},
-                   {"mesh", subject.name},
-                   {"pixels", {scene.width, scene.height}},
-                   {"inset", {inset.column, inset.row, inset.width, inset.height}},
-                   {"difference_scale", scale},
-                   {"rows", rows}};
+    made.values = {
+        {"files", compared_picture_files(name)},
+        {"mesh", subject.name},
+        {"pixels", {scene.width, scene.height}},
+        {"inset", {inset.column, inset.row, inset.width, inset.height}},
+        {"difference_scale", scale},
+        {"rows", rows},
+        {"panels", panels_of(name, variants, pictures, exact_picture, differences, inset, scale)}};
     return made;
 }
 

@@ -37,18 +37,18 @@ nlohmann::ordered_json error_row(const KrausSubject& subject, const VariantError
 // The result of write_compared_pictures().
 struct ComparedPictures {
     std::vector<VariantErrors> errors;  // one for each variant
-    nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows
+    nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows, panels
 };
 
-// The files that write_compared_pictures() writes: NAME.png and NAME.csv.
+// The files that write_compared_pictures() writes: NAME.csv.
 std::vector<std::string> compared_picture_files(const std::string& name);
 
-// Writes NAME.png in the manner of the paper's figures, and NAME.csv with the errors. The first row
-// has the variants' pictures side by side and the exact picture last. Below each picture is its
-// inset, magnified and with more contrast: each about its own mean, all with one gain, which
-// follows the exact picture. Below that is the signed difference from the exact picture
-// (image/false_color.h). The inset lies where the first variant's error varies most in that
-// contrast. All scenes must have one camera, size and transfer function.
+// Writes NAME.csv with the errors, and makes panels in the manner of the paper's figures: the
+// variants' pictures and the exact picture; of each its inset, magnified and with more contrast:
+// each about its own mean, all with one gain, which follows the exact picture; and the signed
+// differences from the exact picture (image/false_color.h). The inset lies where the first
+// variant's error varies most in that contrast. All scenes must have one camera, size and transfer
+// function.
 ComparedPictures write_compared_pictures(const std::filesystem::path& folder,
                                          const std::string& name, KrausSubject& subject,
                                          const std::vector<Variant>& variants,

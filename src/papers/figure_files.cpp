@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/atomic_file.h"
-#include "image/png.h"
+#include "papers/panels.h"
 #include "study/error_json.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
@@ -43,37 +42,29 @@ std::string svg_of(const std::string& title, const std::vector<NamedCurve>& curv
     return plot.svg();
 }
 
-// Draws strips 32 pixels high, one above the other, with white between them. The values are the
-// codes themselves.
-CodedImage strips_of(const std::vector<NamedCurve>& curves) {
-    constexpr int strip = 32, gap = 4;
-    const int count = static_cast<int>(curves.size());
-    CodedImage image(ramp_width, count * (strip + gap) - gap, 1, 8);
-    std::fill(image.codes.begin(), image.codes.end(), std::uint16_t{255});
-    for (int i = 0; i < count; ++i) {
-        const Curve& curve = curves[static_cast<std::size_t>(i)].curve;
-        for (int row = i * (strip + gap); row < i * (strip + gap) + strip; ++row) {
-            std::transform(curve.begin(), curve.end(), image.codes.begin() + row * ramp_width,
-                           [](double v) { return static_cast<std::uint16_t>(std::lround(v)); });
-        }
-    }
+// A grey strip, 32 pixels high. The values are the codes themselves.
+CodedImage strip_of(const Curve& curve) {
+    constexpr int high = 32;
+    CodedImage image(ramp_width, high, 3, 8);
+    for (std::size_t i = 0; i < image.codes.size(); ++i)
+        image.codes[i] = static_cast<std::uint16_t>(std::lround(curve[i / 3 % ramp_width]));
     return image;
 }
 
 }  // namespace
 
 std::vector<std::string> ramp_figure_files(const std::string& name) {
-    return {name + ".csv", name + ".svg", name + ".png"};
+    return {name + ".csv", name + ".svg"};
 }
 
 Json write_ramp_figure(const std::filesystem::path& folder, const std::string& name,
                        const std::string& title, const std::vector<NamedCurve>& curves) {
     study::write_text(folder / (name + ".csv"), csv_of(curves));
     study::write_text(folder / (name + ".svg"), svg_of(title, curves));
-    AtomicFile png(folder / (name + ".png"));
-    write_png(png, strips_of(curves));
-    png.commit();
+    Panels panels;
+    for (const NamedCurve& named : curves) panels.add("", named.name, strip_of(named.curve));
     Json values;
+    values["panels"] = panels.json();
     values["files"] = ramp_figure_files(name);
     for (const NamedCurve& named : curves) values["curves"][named.name] = named.curve;
     for (std::size_t i = 1; i < curves.size(); ++i) {

@@ -21,7 +21,7 @@ constexpr double right_linf = 1;
 
 Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
     Findings findings;
-    Json files{"orders.csv"}, rows = Json::array();
+    Json files{"orders.csv"}, rows = Json::array(), panels = Json::array();
     int right = 0, meshes = 0;
     std::string williams;
     for (KrausSubject* subject : stage.subjects()) {
@@ -35,6 +35,7 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
                                     stage.capabilities());
         for (const Json& file : made.values["files"]) files.push_back(file);
         for (const Json& row : made.values["rows"]) rows.push_back(row);
+        for (const Json& panel : made.values["panels"]) panels.push_back(panel);
         const ErrorNorms& mpvo = made.errors[2].all;
         right += mpvo.linf <= right_linf;
         ++meshes;
@@ -59,7 +60,8 @@ Json draw_kraus_orders(const std::filesystem::path& folder, KrausStage& stage) {
     return with_data_note(
         findings.result({{"files", files},
                          {"pixels", {stage.sizes().width, stage.sizes().height}},
-                         {"rows", rows}},
+                         {"rows", rows},
+                         {"panels", panels}},
                         nullptr, "Total opacity up to .95, default integration, float32."),
         stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
 }

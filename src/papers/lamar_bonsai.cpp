@@ -7,7 +7,7 @@
 #include "papers/findings.h"
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
-#include "study/picture_sheet.h"
+#include "papers/panels.h"
 #include "study/text_file.h"
 #include "volume/volume_file.h"
 
@@ -59,12 +59,15 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     const auto bonsai = std::make_shared<const VolumeData>(read_volume(file));
     const Scene scene = bonsai_scene();
     const Image exact = SceneRenderer(scene, bonsai, stage.capabilities()).draw_picture();
-    std::vector<Image> pictures{exact};
+    Panels panels;
+    panels.add("", "software", exact);
     Json rows = Json::array();
     std::vector<ErrorNorms> errors;
     const auto add = [&](const char* name, const Scene& approximate) {
-        pictures.push_back(SceneRenderer(approximate, bonsai, stage.capabilities()).draw_picture());
-        const ErrorNorms e = image_error(pictures.back(), exact).all;
+        const Image picture =
+            SceneRenderer(approximate, bonsai, stage.capabilities()).draw_picture();
+        panels.add("", name, picture);
+        const ErrorNorms e = image_error(picture, exact).all;
         errors.push_back(e);
         rows.push_back({{"picture", name}, {"linf", e.linf}, {"l1", e.l1}, {"l2", e.l2}});
     };
@@ -76,7 +79,6 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
     tree.target = Target::fixed8;
     tree.slice.tree = TreeSettings{.factors = {16, 32}};
     add("8-bit tree 16x32 of shader nodes", tree);
-    study::write_pictures(folder / "figure1.png", pictures);
     study::write_text(folder / "figure1.csv", study::csv_of_rows(rows));
     Findings findings;
     findings.add(says, errors[1].l2 < errors[0].l2 && errors[1].linf < errors[0].linf,
@@ -86,8 +88,8 @@ Json draw_figure1(const std::filesystem::path& folder, LamarStage& stage) {
                              errors[0].l2, errors[1].l2, errors[0].linf, errors[1].linf,
                              errors[2].l2, errors[2].linf));
     return findings.result(
-        {{"files", {"figure1.png", "figure1.csv"}}, {"samples", 512}, {"rows", rows}}, nullptr,
-        "Transfer function and view are ours; colour is dithered too, period 11.");
+        {{"files", {"figure1.csv"}}, {"samples", 512}, {"rows", rows}, {"panels", panels.json()}},
+        nullptr, "Transfer function and view are ours; colour is dithered too, period 11.");
 }
 
 }  // namespace lamina::papers

@@ -11,7 +11,7 @@
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
 #include "papers/mixing_scene.h"
-#include "study/picture_sheet.h"
+#include "papers/panels.h"
 #include "study/text_file.h"
 
 namespace lamina::papers {
@@ -92,7 +92,8 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
         return stage.draw_mixing(scene);
     };
     const Image exact = draw(white), colored_exact = draw(colored);
-    std::vector<Image> pictures{exact};
+    Panels panels;
+    panels.add("", "software", exact);
     Json rows = Json::array();
     Errors truncated, nearest;
     for (const Tree& tree : trees) {
@@ -102,29 +103,23 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
             const ErrorNorms e = channel_error(image, exact, 3);
             (paper ? truncated : nearest)[tree.name] = e;
             rows.push_back(row_of("white", "fixed", tree.name, name_of(rounding), e));
-            if (paper && tree.shown) pictures.push_back(image);
+            if (paper && tree.shown) panels.add("", tree.name, image);
         }
     }
     Image ours;
     rows.push_back(row_of("white", "shader", "32x32", "minimax",
                           shader_tree_error(stage, white, exact, ours)));
-    pictures.push_back(colored_exact);
+    panels.add("", "coloured software", colored_exact);
     rows.push_back(row_of("green to red", "shader", "32x32", "minimax",
                           shader_tree_error(stage, colored, colored_exact, ours)));
-    pictures.push_back(ours);
-    study::write_pictures(folder / "figure10.png", pictures);
+    panels.add("", "coloured 32x32 of shader nodes", ours);
     study::write_text(folder / "figure10.csv", study::csv_of_rows(rows));
     Findings findings;
     judge(findings, truncated, nearest);
-    Json values{{"files", {"figure10.png", "figure10.csv"}}, {"pixels", stage.pixels()}};
-    values["pictures"] = {"software",
-                          "straight",
-                          "4x256",
-                          "8x8x16",
-                          "2^10",
-                          "coloured software",
-                          "coloured 32x32 of shader nodes"};
-    values["rows"] = rows;
+    Json values{{"files", {"figure10.csv"}},
+                {"pixels", stage.pixels()},
+                {"rows", rows},
+                {"panels", panels.json()}};
     return findings.result(values, {{"tree", "2^10"}, {"linf", 2}, {"l2", 0.81}},
                            "`mixing` is another volume than the paper's.");
 }

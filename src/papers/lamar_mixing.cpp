@@ -11,7 +11,7 @@
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
 #include "papers/mixing_scene.h"
-#include "study/picture_sheet.h"
+#include "papers/panels.h"
 #include "study/text_file.h"
 
 namespace lamina::papers {
@@ -168,17 +168,15 @@ Json draw_table4(const std::filesystem::path& folder, LamarStage& stage) {
                            printed, data_note);
 }
 
-Json draw_figure6(const std::filesystem::path& folder, LamarStage& stage) {
+Json draw_figure6(const std::filesystem::path& /*folder*/, LamarStage& stage) {
     const DitheredMixing& mixing = stage.dithered_mixing();
-    std::vector<Image> pictures{mixing.exact};
-    pictures.insert(pictures.end(), mixing.dithered.begin(), mixing.dithered.end());
-    study::write_pictures(folder / "figure6.png", pictures);
+    Panels panels;
+    panels.add("", "software", mixing.exact);
+    for (std::size_t i = 0; i < mixing.periods.size(); ++i)
+        panels.add("", fmt::format("dithered, period {}", mixing.periods[i]), mixing.dithered[i]);
     Findings findings;
     judge_figure6(findings, mixing);
-    Json values{{"files", {"figure6.png"}}, {"pixels", stage.pixels()}};
-    values["pictures"] = {"software"};
-    for (const int period : mixing.periods)
-        values["pictures"].push_back(fmt::format("dithered, period {}", period));
+    Json values{{"files", Json::array()}, {"pixels", stage.pixels()}, {"panels", panels.json()}};
     values["largest_exact"] = {{"red", largest(mixing.exact, 0)},
                                {"green", largest(mixing.exact, 1)}};
     return findings.result(values, nullptr, data_note);

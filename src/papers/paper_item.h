@@ -9,9 +9,10 @@
 namespace lamina::papers {
 
 // One table or figure of a paper: `reproduce`, or `draw` where it needs OpenGL. Either writes its
-// CSV and pictures, some of `files`, into `folder`, which exists, and returns {values, paper,
-// agrees, note, ...} (see Findings::result). Errors in units of 1/255. A `Stage`, made from the
-// capabilities of the current context, holds what the items that draw share.
+// CSV and plots, some of `files`, into `folder`, which exists, and returns {values, paper, agrees,
+// note, ...} (see Findings::result), with panels in `values` (papers/panels.h). Errors in units of
+// 1/255. A `Stage`, made from the capabilities of the current context, holds what the items that
+// draw share.
 template <typename Stage>
 struct PaperItem {
     std::string name;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/printable.h"
 #include "base/unreachable.h"
 #include "compositing/tree_shape.h"
@@ -70,11 +72,13 @@ std::string text_of_codes(const CompositingPlan& plan) {
 template <typename Row>
 void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
     const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
-    row("slab depth",
-        fmt::format("{:.3g}, {:.3g}, {:.3g} at most in half, nine tenths, all of "
-                    "the bricks",
-                    length * facts.extinction_quantiles[0], length * facts.extinction_quantiles[1],
-                    length * facts.extinction_quantiles[2]));
+    const auto percent = [&](double extinction) { return -100 * std::expm1(-length * extinction); };
+    row("slab opacity",
+        fmt::format("at most {:.3g} % in half of the volume's bricks of {}^3 cells, {:.3g} % in "
+                    "nine tenths of them, {:.3g} % in all, straight ahead",
+                    percent(facts.extinction_quantiles[0]), MinMaxBricks::edge,
+                    percent(facts.extinction_quantiles[1]),
+                    percent(facts.extinction_quantiles[2])));
     if (slice.emulation) row("codes", text_of_codes(slice));
     if (slice.dither) {
         row("dither", fmt::format("period {}, seed {}, increment {}{}", slice.dither->period,
@@ -161,8 +165,9 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         const SlicePlan& slice = plan.slice;
         row("context", capabilities.renderer);
         row("slabs",
-            fmt::format("{} from depth {:.6g} to {:.6g}, {:.3g} voxels each", slice.slabs,
-                        facts.near_depth, facts.far_depth, facts.voxels_along_view / slice.slabs));
+            fmt::format("{} from {:.6g} to {:.6g} in front of the eye, {:.3g} voxels thick",
+                        slice.slabs, facts.near_depth, facts.far_depth,
+                        facts.voxels_along_view / slice.slabs));
         if (slice.slab_trial) {
             row("slab error", fmt::format("{:.2g} / 255 found on {} rays, {} of them traced",
                                           slice.slab_trial->error, slice.slab_trial->rays,

@@ -8,7 +8,6 @@
 #include "image/false_color.h"
 #include "study/error_json.h"
 #include "study/pareto.h"
-#include "study/picture_sheet.h"
 #include "study/thumbnail.h"
 
 namespace lamina::study {
@@ -118,6 +117,13 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                          const CodedImage& picture) {
         pictures.push_back({{"title", title}, {"caption", caption}, {"image", data_uri(picture)}});
     };
+    // With its colour bar, which says what it does not show.
+    const auto add_difference = [&](const std::string& title, const std::string& caption,
+                                    const Difference& e, double largest) {
+        add(title, caption, false_color(reduced(e, step), scale));
+        pictures.back()["scale"] = scale;
+        pictures.back()["largest"] = largest;
+    };
     const FourPictures& four = crosscheck.pictures;
     for (const auto& [title, image] : {std::pair("traced volume", &four.traced_volume),
                                        {"traced mesh", &four.traced_mesh},
@@ -125,12 +131,10 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                                        {"projected mesh", &four.projected}})
         add(title, "", shown(reduced(*image, step), four.space));
     for (const ErrorBudget::Part& part : budget.parts) {
-        add(part.name,
-            fmt::format("{:.1f} % of PT - slicing; darkest at {:.3g}/255", 100 * part.share, scale),
-            false_color(reduced(part.e, step), scale));
+        add_difference(part.name, fmt::format("{:.1f} % of PT - slicing", 100 * part.share), part.e,
+                       part.error.all.linf);
     }
-    add("PT - slicing", fmt::format("darkest at {:.3g}/255", scale),
-        false_color(reduced(budget.raw, step), scale));
+    add_difference("PT - slicing", "", budget.raw, budget.raw_error.all.linf);
     return pictures;
 }
 

@@ -179,10 +179,16 @@ RunList list_runs(const StudyFile& file) {
         fail("{}: sweep: found {} runs, expected at most {}", file.file.string(), run_count(file),
              most_runs);
     }
-    RunList list{file.title, {}, swept_keys(file), {}, {}, {}, file.rounds, file.frames, {}};
+    RunList list;
+    list.title = file.title;
+    list.base = file.base;
+    list.swept = swept_keys(file);
+    list.rounds = file.rounds;
+    list.frames = file.frames;
     Lister lister(file, list);
     for (std::size_t scene = 0; scene < file.scenes.size(); ++scene) {
         list.scenes.push_back(file.scenes[scene].name);
+        list.own.push_back(file.scenes[scene].own);
         for (const SweepGrid& grid : file.sweep) {
             for (std::uint64_t n = 0; n < grid.count(); ++n) lister.add(scene, grid.settings(n));
         }

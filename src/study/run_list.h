@@ -39,6 +39,8 @@ struct RunList {
 
     std::string title;
     std::vector<std::string> scenes;
+    Settings base;                       // keys that all runs have
+    std::vector<Settings> own;           // keys that all runs of a scene have, scene by scene
     std::vector<std::string> swept;      // keys
     std::vector<StudyRun> runs;          // scene by scene
     std::vector<std::size_t> baselines;  // for each scene an index into runs
@@ -78,6 +80,9 @@ std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
 // `other_of`: where the lists come from, for the message.
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of);
+
+// {key: value, ...} in the order of the settings.
+nlohmann::ordered_json settings_json(const Settings& settings);
 
 nlohmann::ordered_json to_json(const RunList& list);
 RunList run_list_from(const nlohmann::json& document, const std::filesystem::path& file);

@@ -9,13 +9,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json settings_to_json(const Settings& settings) {
+Settings settings_from(const nlohmann::json& json) {
+    Settings settings;
+    for (const auto& [key, value] : json.items()) settings.emplace_back(key, value);
+    return settings;
+}
+
+// Reads what all runs share. A list of an earlier version does not say it.
+void read_shared_settings(const nlohmann::json& document, RunList& list) {
+    list.base = settings_from(document.value("base", nlohmann::json::object()));
+    for (const nlohmann::json& each : document.value("own", nlohmann::json::array()))
+        list.own.push_back(settings_from(each));
+    list.own.resize(list.scenes.size());
+}
+
+}  // namespace
+
+nlohmann::ordered_json settings_json(const Settings& settings) {
     Json json = Json::object();
     for (const auto& [key, value] : settings) json[key] = value;
     return json;
 }
-
-}  // namespace
 
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of) {
@@ -36,10 +50,13 @@ void match_data(RunList& list, const std::string& list_of, const RunList& other,
 }
 
 nlohmann::ordered_json to_json(const RunList& list) {
-    Json json{{"study", list.id()},       {"title", list.title},         {"rounds", list.rounds},
-              {"frames", list.frames},    {"scenes", list.scenes},       {"swept", list.swept},
-              {"dropped", Json::array()}, {"baselines", list.baselines}, {"data", Json::array()},
-              {"runs", Json::array()}};
+    Json json{{"study", list.id()},       {"title", list.title},
+              {"rounds", list.rounds},    {"frames", list.frames},
+              {"scenes", list.scenes},    {"swept", list.swept},
+              {"dropped", Json::array()}, {"baselines", list.baselines},
+              {"data", Json::array()},    {"base", settings_json(list.base)},
+              {"own", Json::array()},     {"runs", Json::array()}};
+    for (const Settings& own : list.own) json["own"].push_back(settings_json(own));
     for (const RunList::Data& data : list.data)
         json["data"].push_back({{"name", data.name}, {"content", data.content}});
     for (const RunList::Dropped& dropped : list.dropped)
@@ -48,7 +65,7 @@ nlohmann::ordered_json to_json(const RunList& list) {
         json["runs"].push_back({{"id", run.id},
                                 {"name", run.name},
                                 {"scene", run.scene},
-                                {"settings", settings_to_json(run.settings)}});
+                                {"settings", settings_json(run.settings)}});
     }
     return json;
 }
@@ -66,6 +83,7 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
         document.at("rounds").get_to(list.rounds);
         document.at("frames").get_to(list.frames);
         document.at("scenes").get_to(list.scenes);
+        read_shared_settings(document, list);
         document.at("swept").get_to(list.swept);
         document.at("baselines").get_to(list.baselines);
         for (const nlohmann::json& each : document.at("dropped"))
@@ -73,9 +91,8 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
         for (const nlohmann::json& each : document.at("data"))
             list.data.push_back({each.at("name"), each.at("content")});
         for (const nlohmann::json& each : document.at("runs")) {
-            StudyRun run{each.at("id"), each.at("name"), each.at("scene"), {}};
-            for (const auto& [key, value] : each.at("settings").items())
-                run.settings.emplace_back(key, value);
+            StudyRun run{each.at("id"), each.at("name"), each.at("scene"),
+                         settings_from(each.at("settings"))};
             if (run.scene >= list.scenes.size()) fail("a run names scene {}", run.scene);
             list.runs.push_back(std::move(run));
         }

@@ -35,14 +35,14 @@ StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
     StudyFile::SceneEntry scene;
     scene.file = reader.path_of("scene");
     scene.name = reader.has("name") ? reader.text("name") : scene.file.stem().string();
-    const Settings own = read_settings(reader, "set");
+    scene.own = read_settings(reader, "set");
     reader.close();
     try {
         scene.document = load_json(scene.file);
         if (!scene.document.is_object())
             fail("{}: found no object, expected a scene {{...}}", scene.file.string());
         apply_settings(base, scene.document);
-        apply_settings(own, scene.document);
+        apply_settings(scene.own, scene.document);
     } catch (const Error& error) {
         study.fail_at(at, error.what());
     }
@@ -136,7 +136,8 @@ StudyFile load_study(const std::filesystem::path& path) {
     JsonReader study(document, file.file);
     study.whole("version", 1, 1);
     file.title = study.has("title") ? study.text("title") : path.stem().string();
-    Settings base = read_settings(study, "base");
+    file.base = read_settings(study, "base");
+    Settings base = file.base;
     if (const nlohmann::json* const context = find_setting(base, "context")) {
         file.context = setting_text(*context);
         std::erase_if(base, [](const auto& setting) { return setting.first == "context"; });

@@ -18,6 +18,7 @@ struct StudyFile {
         std::string name;
         std::filesystem::path file;
         nlohmann::json document;  // the scene file with `base` and the entry's own `set` applied
+        Settings own;             // `set`
     };
     // Runs are left out where all axes have one of these values.
     struct Drop {
@@ -28,6 +29,7 @@ struct StudyFile {
     std::filesystem::path file;
     std::string title;
     std::vector<SceneEntry> scenes;
+    Settings base;                 // keys that all runs have, as the file gives them
     std::string context = "auto";  // used where no axis sets it
     std::vector<SweepGrid> sweep;
     std::vector<Drop> drops;

@@ -8,7 +8,6 @@
 #include "image/exr.h"
 #include "image/false_color.h"
 #include "study/error_json.h"
-#include "study/picture_sheet.h"
 #include "study/study_findings.h"
 #include "study/thumbnail.h"
 #include "study/tree_plots.h"
@@ -23,15 +22,9 @@ Json times_to_json(const std::vector<double>& times) {
     return {{"median", median(times)}, {"min", *least}, {"max", *most}, {"n", times.size()}};
 }
 
-Json keys_of(const StudyRun& run) {
-    Json keys = Json::object();
-    for (const auto& [key, value] : run.settings) keys[key] = value;
-    return keys;
-}
-
 Json run_to_json(const RunList& list, const RunResult& result) {
     const StudyRun& run = list.runs[result.run];
-    Json json{{"id", run.id}, {"name", run.name}, {"keys", keys_of(run)}};
+    Json json{{"id", run.id}, {"name", run.name}, {"keys", settings_json(run.settings)}};
     if (!result.failed.empty()) {
         json["failed"] = result.failed;
         return json;
@@ -69,6 +62,7 @@ Json comparison_of(const StudyResults& results, std::size_t scene) {
         if (results.list.runs[result.run].scene == scene) runs.push_back(&result);
     }
     Json json{{"scene", results.list.scenes[scene]},
+              {"set", settings_json(results.list.own[scene])},
               {"baseline", results.list.runs[results.list.baselines[scene]].id},
               {"difference_scale", difference_scale(runs)},
               {"references", Json::array()},
@@ -124,6 +118,7 @@ nlohmann::ordered_json report_of(const StudyResults& results) {
               {"kind", "study"},
               {"findings", study_findings(results)},
               {"environment", results.environment},
+              {"base", settings_json(results.list.base)},
               {"swept", results.list.swept},
               {"comparisons", Json::array()},
               {"dropped", Json::array()}};

@@ -38,7 +38,8 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
       done_(list.runs.size(), Done{std::vector<char>(static_cast<std::size_t>(list.rounds)),
                                    std::vector<char>(static_cast<std::size_t>(list.rounds))}),
       data_(std::move(data)),
-      references_(folder.references(), std::move(say)),
+      say_(std::move(say)),
+      references_(folder.references(), say_),
       contexts_([this] { drop_opengl(); }) {
     try {
         take_over(journal_.found());
@@ -132,13 +133,32 @@ void StudyRunner::run_scene(std::size_t scene, Progress& progress) {
     for (int round = 0; round < list_.rounds; ++round) {
         for (const std::size_t run : runs) {
             check_interrupt();
+            const Stopwatch watch;
+            timing_ms_ = 0;
             if (!done_[run].failed) visit(run, round);
+            if (round == 0)
+                time_left_.add_first(watch.seconds(), timing_ms_ / 1000);
+            else
+                time_left_.add_later(watch.seconds());
             progress.advance();
         }
+        if (round == 0 && !runs.empty()) say_time_left(scene, runs.size());
     }
     frames_.clear();
     references_.clear();
     data_.clear();
+}
+
+// `runs`: of the scene whose first round is done.
+void StudyRunner::say_time_left(std::size_t scene, std::size_t runs) const {
+    std::size_t unseen = 0;  // runs of later scenes
+    for (std::size_t run = 0; run < list_.runs.size(); ++run)
+        unseen += list_.runs[run].scene > scene && is_wanted(run) && !is_finished(run) ? 1 : 0;
+    const auto later_rounds = static_cast<std::size_t>(list_.rounds - 1);
+    const double seconds = time_left_.of(unseen, later_rounds * (runs + unseen));
+    if (unseen + later_rounds > 0)
+        say_(fmt::format("{}: first round of {} runs done: about {} left of all",
+                         list_.scenes[scene], runs, duration_text(seconds)));
 }
 
 // An error in one run does not stop the others. A failure to write does.
@@ -216,8 +236,8 @@ void StudyRunner::measure_picture(std::size_t run, StudyFrames& frames, Measured
     measured.records.push_back({{"run", list_.runs[run].id}, {"drawn", drawn}});
 }
 
-nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round,
-                                               StudyFrames& frames) const {
+nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round, StudyFrames& frames) {
+    const Stopwatch all;
     const auto timed = [](const auto& draw) {
         const Stopwatch watch;
         draw();
@@ -228,6 +248,7 @@ nlohmann::ordered_json StudyRunner::time_round(std::size_t run, int round,
     for (int i = 0; i < list_.frames; ++i) still.push_back(timed([&] { frames.draw(); }));
     for (int i = 1; i <= list_.frames; ++i)
         moving.push_back(timed([&] { frames.draw_turned(degrees_per_frame * i); }));
+    timing_ms_ = all.milliseconds();
     return {{"run", list_.runs[run].id},
             {"session", session_},
             {"round", round},

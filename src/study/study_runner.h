@@ -14,6 +14,7 @@
 #include "study/run_list.h"
 #include "study/study_folder.h"
 #include "study/study_frames.h"
+#include "study/time_left.h"
 
 namespace lamina::study {
 
@@ -43,8 +44,9 @@ struct Shard {
 class StudyRunner {
   public:
     // `begin`: a record of where and how this process runs. `data`: may already hold data of the
-    // first scene. `say`: gets messages about work that is done again. Throws Error where the
-    // journal cannot be written, or another process writes it.
+    // first scene. `say`: gets messages about work that is done again, and how long the rest takes
+    // after the first round of each scene. Throws Error where the journal cannot be written, or
+    // another process writes it.
     StudyRunner(const RunList& list, const StudyFile& file, const StudyFolder& folder, Shard shard,
                 const nlohmann::ordered_json& begin, DataStore data, ReferenceStore::Say say);
 
@@ -77,9 +79,10 @@ class StudyRunner {
     std::vector<std::size_t> runs_of(std::size_t scene) const;
     void run_scene(std::size_t scene, Progress& progress);
     void visit(std::size_t run, int round);
+    void say_time_left(std::size_t scene, std::size_t runs) const;
     StudyFrames& frames_of(std::size_t run);
     void measure_picture(std::size_t run, StudyFrames& frames, Measured& measured);
-    nlohmann::ordered_json time_round(std::size_t run, int round, StudyFrames& frames) const;
+    nlohmann::ordered_json time_round(std::size_t run, int round, StudyFrames& frames);
     void record(std::size_t run, int round, const Measured& measured);
     void give_up(std::size_t run, const std::string& why);
     void drop_if_full(std::size_t run);
@@ -93,10 +96,13 @@ class StudyRunner {
     std::int64_t session_ = 0;
     std::vector<Done> done_;
     DataStore data_;
+    ReferenceStore::Say say_;
     ReferenceStore references_;
     std::map<std::string, bool> kept_references_;  // whether each was intact, by id
     std::map<std::size_t, StudyFrames> frames_;    // frames that are kept for the next round
     DrawContexts contexts_;
+    TimeLeft time_left_;
+    double timing_ms_ = 0;  // of the last run that was timed
 };
 
 }  // namespace lamina::study

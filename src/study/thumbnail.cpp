@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "image/png.h"
+#include "image/srgb.h"
 
 namespace lamina::study {
 namespace {
@@ -38,6 +39,13 @@ int squares(int pixels, int step) {
 }
 
 }  // namespace
+
+CodedImage shown(const Image& image, ImageColorSpace space) {
+    CodedImage coded(image.width, image.height, 3, 8);
+    for (std::size_t i = 0; i < coded.codes.size(); ++i)
+        coded.codes[i] = display_code(static_cast<double>(image.rgba[i / 3 * 4 + i % 3]), space);
+    return coded;
+}
 
 int reduction(int width, int height, int largest) {
     return squares(std::max(width, height), largest);
@@ -86,7 +94,11 @@ Difference reduced(const Difference& difference, int step) {
 }
 
 std::string data_uri(const CodedImage& image) {
-    return "data:image/png;base64," + base64(encode_png(image));
+    return data_uri("image/png", encode_png(image));
+}
+
+std::string data_uri(const std::string& type, const std::string& bytes) {
+    return "data:" + type + ";base64," + base64(bytes);
 }
 
 }  // namespace lamina::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures for a page.
+// Pictures for a page.
 #pragma once
 
 #include <string>
@@ -7,8 +7,12 @@
 #include "image/coded_image.h"
 #include "image/difference.h"
 #include "lamina/image.h"
+#include "lamina/image_color_space.h"
 
 namespace lamina::study {
+
+// The picture as write_png shows it on black: 8-bit sRGB codes, three channels.
+CodedImage shown(const Image& image, ImageColorSpace space = ImageColorSpace::linear);
 
 // The divisor of the sides after which neither has more than `largest` pixels.
 int reduction(int width, int height, int largest = 256);
@@ -20,5 +24,7 @@ Difference reduced(const Difference& difference, int step);
 
 // An RGB picture of 8 bits as "data:image/png;base64,...".
 std::string data_uri(const CodedImage& image);
+// Bytes of that media type as "data:...;base64,...".
+std::string data_uri(const std::string& type, const std::string& bytes);
 
 }  // namespace lamina::study

@@ -62,13 +62,27 @@ Centering centering_of(const NrrdAxisInfo& axis) {
 }
 
 // Returns the distance of samples along an axis without a direction: its spacing, else what its
-// mins and maxs imply, else 1.
-double spacing_of(const NrrdAxisInfo& axis) {
+// mins and maxs imply, else NaN.
+double known_spacing_of(const NrrdAxisInfo& axis) {
     if (!std::isnan(axis.spacing)) return axis.spacing;
     const bool cell = centering_of(axis) == Centering::cell;
     const double intervals = static_cast<double>(axis.size) - (cell ? 0 : 1);
-    if (std::isnan(axis.min) || std::isnan(axis.max) || intervals == 0) return 1;
+    if (intervals == 0) return 1;
     return (axis.max - axis.min) / intervals;
+}
+
+// The same, or 1 where the file does not say.
+double spacing_of(const NrrdAxisInfo& axis) {
+    const double known = known_spacing_of(axis);
+    return std::isnan(known) ? 1 : known;
+}
+
+// A field `spacings` gives the spacing of every axis that has no mins and maxs.
+void expect_spacings(const std::string& file, const Nrrd& nrrd, const std::vector<unsigned>& axes) {
+    for (const unsigned axis : axes) {
+        if (std::isnan(known_spacing_of(nrrd.axis[axis])))
+            fail("{}: spacings: found nan for axis {}, expected a number above 0", file, axis);
+    }
 }
 
 // Returns the position of the first sample along an axis without a direction. The min of an axis of
@@ -141,7 +155,7 @@ void check_steps(const std::string& file, const Grid& grid) {
 
 }  // namespace
 
-Grid nrrd_grid(const std::string& file, const Nrrd& nrrd) {
+Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     const std::vector<unsigned> axes = volume_axes(file, nrrd);
     Grid grid;
     grid.axes = axes_of(nrrd.space);
@@ -152,10 +166,12 @@ Grid nrrd_grid(const std::string& file, const Nrrd& nrrd) {
     }
     const bool directed = std::any_of(axes.begin(), axes.end(),
                                       [&](unsigned axis) { return has_direction(nrrd, axis); });
-    if (directed)
+    if (directed) {
         set_steps_by_directions(file, nrrd, axes, grid);
-    else
+    } else {
+        if (has_spacings) expect_spacings(file, nrrd, axes);
         set_steps_by_spacings(nrrd, axes, grid);
+    }
     if (nrrd.spaceDim == 3 && !std::isnan(nrrd.spaceOrigin[0])) {
         grid.origin = {nrrd.spaceOrigin[0], nrrd.spaceOrigin[1], nrrd.spaceOrigin[2]};
     }

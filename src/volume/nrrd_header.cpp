@@ -7,7 +7,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -111,6 +113,19 @@ void check_sizes(const std::string& path, int line, const Field& field) {
         fail_at(path, line, field, "at most 2^62 samples in all");
 }
 
+// teem calls neither the field nor the number by its name. NaN: the axis has none, or its mins and
+// maxs tell it (nrrd_grid.cpp).
+void check_spacings(const std::string& path, int line, const Field& field) {
+    std::istringstream words(field.value);
+    for (std::string word; words >> word;) {
+        const char* const start = word.c_str();
+        char* end = nullptr;
+        const double spacing = std::strtod(start, &end);
+        if (end == start || *end != '\0' || spacing <= 0 || std::isinf(spacing))
+            fail_at(path, line, field, "finite numbers above 0");
+    }
+}
+
 // Checks the fields that are one number each. teem takes them modulo 2^32, ignores what follows
 // them, and treats what it does not understand as missing.
 void check_number(const std::string& path, int line, const Field& field) {
@@ -167,6 +182,7 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
         if (field) {
             header.fields.insert(field->name);
             if (field->name == "sizes") check_sizes(path, number, *field);
+            if (field->name == "spacings") check_spacings(path, number, *field);
             check_number(path, number, *field);
         }
         if (field && (field->name == "data file" || field->name == "datafile")) {
@@ -267,7 +283,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path) {
     header.path = path;
     header.type = sample_type_of(name, nrrd->type);
     header.encoding = encoding_of(name, state->encoding);
-    header.grid = nrrd_grid(name, *nrrd);
+    header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
     const int native = std::endian::native == std::endian::little ? airEndianLittle : airEndianBig;
     header.swap_bytes = header.encoding != NrrdEncoding::ascii && bytes_of(header.type) > 1 &&
                         state->endian != native;

@@ -105,16 +105,32 @@ TEST_F(Compare, DiffShowsSignAndPlace) {
     EXPECT_EQ(result.exit_code, 0);
     expect_one_line(result.err, {"d.png", "63.75"});
     const CodedImage picture = read_png(folder / "d.png");
-    ASSERT_EQ(picture.width, 4);
-    ASSERT_EQ(picture.height, 3);
+    ASSERT_GT(picture.width, 4);  // as wide as the colour bar, which is below
+    ASSERT_GT(picture.height, 3 + 10);
     for (std::size_t pixel = 0; pixel < 12; ++pixel) {
-        const std::uint16_t* const rgb = &picture.codes[3 * pixel];
+        const std::size_t place = pixel / 4 * static_cast<std::size_t>(picture.width) + pixel % 4;
+        const std::uint16_t* const rgb = &picture.codes[3 * place];
         if (pixel == 1 * 4 + 2) {
             EXPECT_LT(rgb[0], rgb[2]);  // A < B: blue
         } else {
             EXPECT_EQ(rgb[0] + rgb[1] + rgb[2], 3 * 255);
         }
     }
+}
+
+// Twice the range, half the colour; half the range, and the message says what is beyond it.
+TEST_F(Compare, RangeSetsTheColours) {
+    const auto blue_of = [&](const std::string& range, const char* says) {
+        const ProgramResult result =
+            compare("a.exr", "b.exr", {"--diff", folder / "r.png", "--range", range});
+        EXPECT_EQ(result.exit_code, 0);
+        expect_one_line(result.err, {"-" + range, says});
+        const CodedImage picture = read_png(folder / "r.png");
+        return picture.codes[static_cast<std::size_t>(3 * (1 * picture.width + 2))];
+    };
+    EXPECT_EQ(blue_of("63.75", "(dark blue) over"), 5);
+    EXPECT_EQ(blue_of("31.875", "(dark blue) and beyond over"), 5);
+    EXPECT_EQ(blue_of("127.5", "(dark blue) over"), (146 + 67 + 1) / 2);  // between steps 2 and 3
 }
 
 TEST_F(Compare, BadInputIsOneLineAndExit1AndNothingWritten) {
@@ -148,13 +164,18 @@ TEST_F(Compare, BadUsageIsExit2) {
     EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "-1"}).exit_code, 2);
     EXPECT_EQ(compare("a.exr", "b.exr", {"--max-linf", "nan"}).exit_code, 2);
     EXPECT_EQ(compare("a.exr", "b.exr", {"--diff", folder / "d.jpg"}).exit_code, 2);
+    EXPECT_EQ(compare("a.exr", "b.exr", {"--range", "3"}).exit_code, 2);
+    for (const char* range : {"0", "-1", "nan", "inf", "much"}) {
+        EXPECT_EQ(
+            compare("a.exr", "b.exr", {"--diff", folder / "d.png", "--range", range}).exit_code, 2);
+    }
 }
 
 TEST_F(Compare, HelpGoesToStdout) {
     const ProgramResult result = run_program({LAMINA_BINARY, "compare", "--help"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(result.err, "");
-    for (const char* word : {"--json", "--diff", "--max-linf"}) {
+    for (const char* word : {"--json", "--diff", "--range", "--max-linf"}) {
         EXPECT_NE(result.out.find(word), std::string::npos) << word;
     }
 }

@@ -241,6 +241,16 @@ TEST_F(Crosschecks, AMeshOfAFileIsTheOnlyStep) {
     EXPECT_GT(budget["ladder"]["projection"][0]["tets"], 100);
 }
 
+// With commas, as the help shows them, and each of them drawn.
+TEST_F(Crosschecks, HelpSaysHowListsAreWritten) {
+    const std::string help = lamina_run({"crosscheck", "--help"}).out;
+    EXPECT_NE(help.find("--tolerances T,T,..."), std::string::npos) << help;
+    EXPECT_NE(help.find("--samples N,N,..."), std::string::npos) << help;
+    EXPECT_NE(help.find("--set KEY=VALUE"), std::string::npos) << help;
+    const json budget = run_well({}, ".3,.25,.2", "8,16");
+    EXPECT_EQ(budget["ladder"]["projection"].size(), 4u);  // and the scene's own
+}
+
 TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {
     const auto expect_refused = [&](int code, const std::vector<std::string>& options,
                                     const std::string& part) {
@@ -265,7 +275,12 @@ TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {
     scene.erase("volume");
     scene["mesh"] = "absent.vtu";
     scene["render"]["method"] = "project";
-    expect_refused(1, {}, "volume");
+    expect_refused(1, {}, "volume: is missing, expected the volume that both methods show");
+    // A mesh that is given, or made without a tolerance, has no ladder.
+    scene["volume"] = kept["volume"];
+    expect_refused(2, {"--tolerances", ".1"}, "--tolerances: the scene's mesh file has none");
+    scene["mesh"] = {{"kuhn", true}};
+    expect_refused(2, {"--tolerances", ".1"}, "--tolerances: the scene's mesh.kuhn has none");
     scene = kept;
     scene["render"]["slise"] = 1;
     expect_refused(1, {}, "did you mean \"slice\"");

@@ -152,11 +152,11 @@ TEST_F(Folders, WhatAStudyDidNotWriteIsNotReplaced) {
 }
 
 TEST_F(Folders, WhatAReproductionDidNotWriteIsNotReplaced) {
-    for (const char* name : {"table3.csv", "lamar.json"})
+    for (const char* name : {"table3.csv", "lamar.json", "lamar.html"})
         expect_own({"reproduce", "lamar", "table3", "-o", out}, name);
-    write_bytes_to(out / "figure2.png", "mine");  // of an item that is not asked for
+    write_bytes_to(out / "figure2.svg", "mine");  // of an item that is not asked for
     make({"reproduce", "lamar", "table3", "-o", out});
-    expect_one_line(lamina_run({"reproduce", "lamar", "figure2", "-o", out}), 1, {"figure2.png"});
+    expect_one_line(lamina_run({"reproduce", "lamar", "figure2", "-o", out}), 1, {"figure2.svg"});
 }
 
 TEST_F(Folders, WhatASelftestDidNotWriteIsNotReplaced) {

@@ -149,7 +149,6 @@ TEST_F(Render, MistakesOfUsageAreExitTwo) {
         {"-o", folder / "a.exr", "--stats", folder / "." / "a.exr"},
         {"-o", folder / "a.exr", "--stats", folder / "scene.json"},
         {"-o", folder / "a.jpeg"},
-        {"-o", folder / "a.npy"},
         {},
         {"--bogus"},
     };

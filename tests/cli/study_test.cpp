@@ -46,6 +46,14 @@ TEST_F(Study, WritesARowARunAndAReport) {
     const ProgramResult result = run_well("out");
     EXPECT_NE(result.err.find("2 runs left out: the ramp has no tets"), std::string::npos);
     EXPECT_NE(result.out.find("Pareto front"), std::string::npos);
+    // How much there is to do, before anything runs, and how long it takes once a round is done.
+    const std::size_t count =
+        result.err.find("study.json: 6 runs of 2 scenes, each timed in 2 rounds of 6 frames");
+    const std::size_t ramps = result.err.find("ramp: first round of 2 runs done: about ");
+    const std::size_t blobs = result.err.find("blobs: first round of 4 runs done: about ");
+    EXPECT_LT(count, ramps) << result.err;
+    EXPECT_LT(ramps, blobs) << result.err;
+    EXPECT_NE(blobs, std::string::npos) << result.err;
     const std::vector<CsvRow> rows = results("out");
     ASSERT_EQ(rows.size(), 6u);
     const std::string text = read_bytes_of(folder / "out" / "results.csv");
@@ -59,6 +67,8 @@ TEST_F(Study, WritesARowARunAndAReport) {
     EXPECT_EQ(report["kind"], "study");
     EXPECT_EQ(report["title"], "tiny");
     EXPECT_EQ(report["swept"], json({"render.method", "render.target"}));
+    EXPECT_EQ(report["base"], study["base"]);
+    EXPECT_EQ(report["comparisons"][1]["set"], json::object());
     for (const char* key : {"machine", "processors", "drivers", "version", "commit", "command"})
         EXPECT_FALSE(report["environment"][key].get<std::string>().empty()) << key;
     ASSERT_EQ(report["comparisons"].size(), 2u);

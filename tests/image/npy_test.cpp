@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/atomic_file.h"
 #include "cli/run_program.h"
 #include "image/test_images.h"
 #include "support/expect_error.h"
@@ -23,7 +24,8 @@ PreciseImage precise_image(int width, int height) {
     return precise;
 }
 
-void write(const std::filesystem::path& path, const PreciseImage& image) {
+template <typename Real>
+void write(const std::filesystem::path& path, const RgbaImage<Real>& image) {
     AtomicFile file(path);
     write_npy(file, image);
     file.commit();
@@ -54,6 +56,18 @@ TEST(Npy, KeepsEveryBit) {
     ASSERT_EQ(back.width, 7);
     ASSERT_EQ(back.height, 5);
     EXPECT_EQ(back.rgba, image.rgba);
+}
+
+TEST(Npy, SinglePrecisionStaysSingle) {
+    const TemporaryFolder folder;
+    const Image image = random_image(7, 5);
+    write(folder / "a.npy", image);
+    EXPECT_EQ((read_bytes_of(folder / "a.npy").size() - 7 * 5 * 4 * sizeof(float)) % 64, 0u);
+    const PreciseImage back = read_npy(folder / "a.npy");
+    ASSERT_EQ(back.width, 7);
+    ASSERT_EQ(back.height, 5);
+    for (std::size_t i = 0; i < back.rgba.size(); ++i)
+        EXPECT_EQ(back.rgba[i], static_cast<double>(image.rgba[i]));
 }
 
 TEST(Npy, NumpyReadsWhatWeWrite) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image/png.h"
 #include "study/line_plot.h"
 #include "study/text_file.h"
+#include "study/thumbnail.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {
@@ -22,7 +22,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
     return found;
 }
 
-TEST(RampFigure, WritesTheCurvesThreeTimes) {
+TEST(RampFigure, ShowsTheCurvesThreeTimes) {
     const TemporaryFolder folder;
     Curve high = exact_ramp(1);
     high[7] += 2;
@@ -34,13 +34,12 @@ TEST(RampFigure, WritesTheCurvesThreeTimes) {
     EXPECT_EQ(csv.substr(0, 13), "x,exact,high\n");
     EXPECT_NE(csv.find("\n7,7,9\n"), std::string::npos);
     EXPECT_EQ(count_of(csv, "\n"), 257u);
-    const CodedImage png = read_png(folder / "f.png");
-    ASSERT_EQ(png.width, 256);
-    ASSERT_EQ(png.height, 32 + 4 + 32);
-    ASSERT_EQ(png.channels, 1);
-    EXPECT_EQ(png.codes[7], 7);
-    EXPECT_EQ(png.codes[33 * 256 + 7], 255);  // between the strips
-    EXPECT_EQ(png.codes[40 * 256 + 7], 9);
+    ASSERT_EQ(values["panels"].size(), 2u);
+    EXPECT_EQ(values["panels"][1]["title"], "high");
+    CodedImage strip(256, 32, 3, 8);
+    for (std::size_t i = 0; i < strip.codes.size(); ++i)
+        strip.codes[i] = static_cast<std::uint16_t>(i / 3 % 256 == 7 ? 9 : i / 3 % 256);
+    EXPECT_EQ(values["panels"][1]["image"], study::data_uri(strip));
     EXPECT_EQ(count_of(read_bytes_of(folder / "f.svg"), "<polyline"), 2u);
 }
 

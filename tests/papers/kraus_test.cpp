@@ -8,12 +8,11 @@
 
 #include "gl/gl_fixture.h"
 #include "image/metrics.h"
-#include "image/png.h"
 #include "mesh/mesh_shape.h"
 #include "papers/grid_mesh.h"
 #include "papers/kraus_stage.h"
 #include "papers/kraus_variants.h"
-#include "study/picture_sheet.h"
+#include "papers/panels.h"
 #include "support/temporary_folder.h"
 
 namespace lamina::papers {
@@ -72,24 +71,37 @@ TEST(GridMesh, GradedHasTheRatioAskedFor) {
     }
 }
 
-TEST(PictureSheet, LaysPicturesOutInRows) {
-    const TemporaryFolder folder;
-    Image light(3, 2), dark(3, 2);
+TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
+    Panels first, second;
+    first.add("", "dark", Image(3, 2));
+    Image light(3, 2);
     std::fill(light.rgba.begin(), light.rgba.end(), 2.0f);  // clamped
-    study::write_sheet(folder / "sheet.png",
-                       {{study::shown(dark), study::shown(light)}, {study::shown(dark)}});
-    const CodedImage sheet = read_png(folder / "sheet.png");
-    ASSERT_EQ(sheet.width, 3 + 4 + 3);
-    ASSERT_EQ(sheet.height, 2 + 4 + 2);
-    const auto red = [&](int column, int row) {
-        return sheet.codes[static_cast<std::size_t>(3 * (row * sheet.width + column))];
-    };
-    EXPECT_EQ(red(2, 1), 0);
-    EXPECT_EQ(red(3, 1), 255);  // between
-    EXPECT_EQ(red(7, 0), 255);  // the light picture
-    EXPECT_EQ(red(0, 3), 255);  // between rows
-    EXPECT_EQ(red(0, 6), 0);
-    EXPECT_EQ(red(9, 7), 255);  // nothing there
+    second.add("group", "light", light);
+    const Difference e{1, 2, {"Y"}, {-3, 2}};
+    second.add_difference("group", "e", e, 2, CodedImage(1, 2, 3, 8));
+    Json result{{"values", {{"panels", first.json()}, {"meshes", {{{"panels", second.json()}}}}}},
+                {"note", "Agrees."},
+                {"checks", Json::array()}};
+    const Json panels = take_panels(result);
+    ASSERT_EQ(panels.size(), 3u);
+    EXPECT_EQ(panels[0]["title"], "dark");
+    EXPECT_EQ(panels[1]["group"], "group");
+    EXPECT_NE(panels[0]["image"], panels[1]["image"]);
+    EXPECT_EQ(panels[2]["scale"], 2);
+    EXPECT_EQ(panels[2]["largest"], 3);
+    EXPECT_EQ(result["values"], Json::parse(R"({"meshes": [{}]})"));
+    // The plots among the files come after the panels; errors of curves are the table.
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "f.svg", "<svg/>");
+    result["values"] = {{"files", {"f.csv", "f.svg"}},
+                        {"errors", {{"high", {{"linf", 2}, {"l1", 1}, {"l2", 1.5}}}}}};
+    const Json section = page_section("figure", result, panels, folder.path());
+    ASSERT_EQ(section["pictures"].size(), 4u);
+    EXPECT_EQ(section["pictures"][3]["title"], "f");
+    EXPECT_EQ(section["pictures"][3]["image"], "data:image/svg+xml;base64,PHN2Zy8+");
+    EXPECT_EQ(section["rows"],
+              Json::parse(R"([{"curve": "high", "linf": 2, "l1": 1, "l2": 1.5}])"));
+    EXPECT_EQ(section["note"], "Agrees.");
 }
 
 // The keys of a result without data sets, and its files.

@@ -180,13 +180,14 @@ TEST(CompositingPlan, AutomaticTreesCountVisibleSlabs) {
 }
 
 TEST(CompositingPlan, ExplainSaysHowSlabsAreComposited) {
-    expect_parts(explained(scene_with({{"target", "emulated"},
-                                       {"emulate", {{"bits", 12}, {"alpha", "nearest"}}},
-                                       {"slice",
-                                        {{"dither", {{"period", "auto"}, {"increment", 3}}},
-                                         {"tree", {{"factors", {4, 4}}, {"nodes", "fixed"}}}}}})),
-                 {"12 bits, alpha nearest, over separate", "texture barriers", "slab depth",
-                  "period 40, seed 1, increment 3", "4x4x3, nodes fixed"});
+    expect_parts(
+        explained(scene_with({{"target", "emulated"},
+                              {"emulate", {{"bits", 12}, {"alpha", "nearest"}}},
+                              {"slice",
+                               {{"dither", {{"period", "auto"}, {"increment", 3}}},
+                                {"tree", {{"factors", {4, 4}}, {"nodes", "fixed"}}}}}})),
+        {"12 bits, alpha nearest, over separate", "texture barriers", "in front of the eye",
+         "slab opacity", "period 40, seed 1, increment 3", "4x4x3, nodes fixed"});
     expect_parts(explained(rendered("fixed8", {{"dither", nlohmann::json::object()},
                                                {"tree", {{"factors", "8x5"}, {"code", "phi"}}}})),
                  {"8x5, nodes shader, code phi, alpha 8 bits", "dither", "nothing to dither"});

@@ -64,7 +64,8 @@ def comparison(scene, count):
                        "y": {"label": "L2", "log": True},
                        "series": [{"name": name, "points": [[8, 0, runs[0]["id"]], [16, 0.25, runs[1]["id"]]]}
                                   for name in ("fixed8", "float32")]}],
-            "pictures": [{"title": "PT - slicing", "caption": "signed", "image": png(128)}]}
+            "pictures": [{"title": "PT - slicing", "caption": "signed", "image": png(128), "scale": 1.5, "largest": 3}],
+            "set": {"volume.size": [64, 64, 64], "image.note": HOSTILE}}
 
 
 def made_up_report(count):
@@ -82,6 +83,7 @@ def made_up_report(count):
     first["runs"].insert(2, failed)
     return {"title": HOSTILE, "kind": "study", "findings": ["the first", HOSTILE],
             "environment": {"machine": HOSTILE, "processors": 2, "drivers": ["native engine", "Mesa"]},
+            "base": {"image.width": 128, "render.method": "slice", "render.target": "float16"},
             "swept": ["render.target", "render.slice.samples", "render.slice.tree.factors"],
             "comparisons": [first, second], "dropped": [{"because": HOSTILE, "runs": 12}]}
 

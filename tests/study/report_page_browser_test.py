@@ -23,7 +23,7 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 sys.dont_write_bytecode = True
-from made_up_report import HOSTILE, first_ms, front, made_up_report, measured  # noqa: E402
+from made_up_report import HOSTILE, first_ms, front, made_up_report, measured, png  # noqa: E402
 
 NUMERIC = {  # column: its value of a run
     "key.render.slice.samples": lambda run: run["keys"]["render.slice.samples"],
@@ -308,6 +308,135 @@ class ReportPage(unittest.TestCase):
         self.assertIn("detail", below)
         button.send_keys(Keys.ENTER)
         self.assertEqual(self.all(".detail", section), [])
+
+    def test_keys_of_all_runs_are_shown(self):
+        shown = self.all("#environment")[0].text
+        self.assertIn("image.width = 128; render.method = slice", shown)
+        self.assertNotIn("float16", shown)  # which the sweep replaces
+        own = self.all(".facts", self.section(1))[0].get_attribute("textContent")
+        self.assertIn("volume.size = 64x64x64", own)
+        self.assertIn(HOSTILE, own)
+        self.assertIsNone(self.browser.execute_script("return window.wasRun ?? null"))
+
+    def test_norms_are_explained_in_a_line(self):
+        norms = self.all("#norms")[0].text
+        for norm in ("L∞", "L1", "L2", "1/255"):
+            self.assertIn(norm, norms)
+
+    def test_clipped_colour_bars_say_so(self):
+        report = made_up_report(12)
+        runs = measured(report["comparisons"][0])
+        runs[1]["linf"], runs[2]["linf"] = 5, 2  # the scale is 2
+        self.open(self.write_page("clipped", report))
+        section = self.section(0)
+        for run, clipped in ((runs[1], True), (runs[2], False)):
+            self.click(self.all(f'tr[data-run="{run["id"]}"] button', section)[0])
+            bar = self.all(f'tr[data-run="{run["id"]}"] + tr .color-bar', section)[0].text
+            self.assertEqual("clipped: up to 5.00/255" in bar, clipped, bar)
+            self.assertEqual("≥ +2.00" in bar and "≤ −2.00" in bar, clipped, bar)
+            self.assertIn("+2.00 /255", bar)
+        picture = self.all(":scope > .pictures .color-bar", section)[0].text
+        self.assertIn("≥ +1.50", picture)
+        self.assertIn("up to 3.00/255", picture)
+
+    def test_pictures_enlarge(self):
+        section = self.section(0)
+        dialog = self.all("#enlarged")[0]
+        self.assertFalse(dialog.is_displayed())
+        button = self.all(":scope > .pictures button.enlarges", section)[0]
+        self.browser.execute_async_script(
+            "arguments[0].querySelector('img').decode().then(arguments[1])", button)
+        button.send_keys(Keys.ENTER)
+        self.assertTrue(dialog.is_displayed())
+        image = self.all("img", dialog)[0]
+        self.assertEqual(image.get_attribute("src"), self.report["comparisons"][0]["pictures"][0]["image"])
+        self.assertIn("PT - slicing", dialog.text)
+        # A whole multiple of its 8 pixels that fits the window, and larger than before.
+        self.assertEqual(image.size["width"] % 8, 0)
+        self.assertEqual(image.size["width"], image.size["height"])
+        self.assertGreater(image.size["width"], 256)
+        inner = self.browser.execute_script("return [window.innerWidth, window.innerHeight]")
+        box = dialog.rect
+        self.assertLessEqual(box["width"], inner[0])
+        self.assertLessEqual(box["height"], inner[1])
+        self.browser.switch_to.active_element.send_keys(Keys.ESCAPE)
+        self.assertFalse(dialog.is_displayed())
+        self.click(button)
+        self.click(self.all("img", dialog)[0])
+        self.assertFalse(dialog.is_displayed())
+
+    def test_pictures_have_alternative_text(self):
+        section = self.section(0)
+        run = measured(self.report["comparisons"][0])[0]
+        self.click(self.all(f'tr[data-run="{run["id"]}"] button', section)[0])
+        described = self.collect(section, "img:not(.thumbnail)", "node.alt")
+        self.assertEqual(len(described), 4)  # of the comparison, and three of the run
+        for text in described:
+            self.assertIn("ramp", text)
+        self.assertEqual(len(set(described)), 4)
+        self.assertEqual([text for text in described if run["name"] in text], described[1:2] + described[3:])
+
+    def test_dark_mode_is_legible_and_paper_stays_white(self):
+        def luminance(color):  # WCAG 2.1, "relative luminance"
+            channels = [int(part) / 255 for part in color[color.index("(") + 1:-1].split(",")[:3]]
+            linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+            return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+        def contrast(a, b):
+            high, low = sorted((luminance(a), luminance(b)), reverse=True)
+            return (high + 0.05) / (low + 0.05)
+
+        def style(selector, name):
+            return self.browser.execute_script(
+                "return getComputedStyle(document.querySelector(arguments[0]))[arguments[1]]", selector, name)
+
+        dark = [{"name": "prefers-color-scheme", "value": "dark"}]
+        try:
+            for features, shade in (([], 255), (dark, 27)):
+                self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "screen", "features": features})
+                paper = style("body", "backgroundColor")
+                self.assertEqual(paper, f"rgb({shade}, {shade}, {shade})")
+                # Level AA: 4.5 for text, 3 for graphics.
+                for selector in ("h1", "figcaption", ".note", ".facts dt", "nav a", ".runs td", "select"):
+                    self.assertGreaterEqual(contrast(style(selector, "color"), paper), 4.5, selector)
+                for selector in (".chart text", ".chart .tick-text"):
+                    self.assertGreaterEqual(contrast(style(selector, "fill"), paper), 4.5, selector)
+                for selector in (".front", ".baseline-ring", ".frame"):
+                    self.assertGreaterEqual(contrast(style(selector, "stroke"), paper), 3, selector)
+                for selector in ("#controls", "#hint", "#enlarged", ".runs tbody th"):
+                    self.assertEqual(style(selector, "backgroundColor"), paper, selector)
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print", "features": dark})
+            self.assertEqual(style("body", "backgroundColor"), "rgb(255, 255, 255)")
+            self.assertEqual(style("h1", "color"), "rgb(0, 0, 0)")
+        finally:
+            self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "", "features": []})
+
+    def test_a_reproduction_has_labelled_panels(self):
+        panels = [{"group": group, "title": title, "caption": "", "image": png(40 * i)}
+                  for i, (group, title) in enumerate((("", "software"), ("", HOSTILE), ("inset", "software")))]
+        panels[2].update(scale=1, largest=2)
+        report = {"title": "A paper", "kind": "reproduction", "findings": ["figure1: Agrees."], "environment": {},
+                  "comparisons": [
+                      {"scene": "figure1", "note": "Agrees.", "runs": [], "pictures": panels, "rows": [],
+                       "checks": [{"says": HOSTILE, "holds": True, "measured": "3"},
+                                  {"says": "b", "holds": False, "measured": "4"}]},
+                      {"scene": "table1", "note": "Disagrees.", "runs": [], "pictures": [], "checks": [],
+                       "rows": [{"tree": "32x32", "linf": 0.25, "n": None}, {"tree": [2, 4], "linf": 3, "n": 7}]}]}
+        self.open(self.write_page("paper", report))
+        self.assertEqual(self.messages(), [])
+        figure, table = self.section(0), self.section(1)
+        labels = self.collect(figure, ".picture figcaption b", "node.textContent")
+        self.assertEqual(labels, ["software", HOSTILE, "software"])
+        self.assertEqual(self.collect(figure, "h3", "node.textContent"), ["inset"])
+        self.assertEqual(self.collect(figure, "img", "node.alt"),
+                         ["figure1, software", f"figure1, {HOSTILE}", "figure1, inset, software"])
+        self.assertEqual(len(self.all(".clipped", figure)), 1)
+        checks = self.collect(figure, ".checks tbody tr", "[...node.children].map((cell) => cell.textContent)")
+        self.assertEqual(checks, [[HOSTILE, "yes", "3"], ["b", "no", "4"]])
+        rows = self.collect(table, ".numbers tr", "[...node.children].map((cell) => cell.textContent)")
+        self.assertEqual(rows, [["tree", "linf", "n"], ["32x32", "0.250", "–"], ["2x4", "3.00", "7.00"]])
+        self.assertEqual(self.collect(self.all("nav")[0], "a", "node.textContent"), ["figure1", "table1"])
+        self.assertEqual(self.all("#controls") + self.all(".runs"), [])
 
     def test_points_tell_of_their_run_by_keyboard(self):
         section = self.section(0)

@@ -5,39 +5,87 @@
 
 #include <array>
 #include <limits>
+#include <memory>
+#include <vector>
 
 namespace lamina {
 namespace {
 
 using Rgb = std::array<int, 3>;
 
+constexpr int room = 8, titles = 20;  // pixels around slices, and of the line above
+
 Rgb pixel(const CodedImage& image, int column, int row) {
     const std::size_t at = static_cast<std::size_t>(3 * (row * image.width + column));
     return {image.codes[at], image.codes[at + 1], image.codes[at + 2]};
 }
 
-TEST(MiddleSlices, ShowEveryPlaneWithItsSecondAxisUp) {
-    Grid grid;
+Rgb grey(int code) {
+    return {code, code, code};
+}
+
+// The value of sample (x, y, z) is x + 3 y + 6 z, but for one that is NaN.
+Volume counted(Grid grid) {
     grid.size = {3, 2, 4};
     const auto values = std::make_shared<std::vector<float>>();
     for (int z = 0; z < 4; ++z)
         for (int y = 0; y < 2; ++y)
             for (int x = 0; x < 3; ++x) values->push_back(static_cast<float>(x + 3 * y + 6 * z));
     values->at(2 + 3 * 1 + 6 * 2) = std::numeric_limits<float>::quiet_NaN();
-    const Volume volume(grid, SampleType::float32,
-                        std::shared_ptr<const void>(values, values->data()));
-    const CodedImage image = middle_slices(volume, {0, 25.5});  // code = 10 * value
-    EXPECT_EQ(image.width, 3 + 8 + 3 + 8 + 2);
-    EXPECT_EQ(image.height, 4);
-    const auto grey = [](int code) { return Rgb{code, code, code}; };
-    EXPECT_EQ(pixel(image, 0, 3), grey(120));           // x 0, y 0, z 2
-    EXPECT_EQ(pixel(image, 1, 2), grey(160));           // x 1, y 1, z 2
-    EXPECT_EQ(pixel(image, 11, 3), grey(30));           // x 0, y 1, z 0
-    EXPECT_EQ(pixel(image, 11 + 2, 0), grey(230));      // x 2, y 1, z 3
-    EXPECT_EQ(pixel(image, 22, 0), grey(190));          // x 1, y 0, z 3
-    EXPECT_EQ(pixel(image, 23, 3), grey(40));           // x 1, y 1, z 0
-    EXPECT_EQ(pixel(image, 2, 2), pixel(image, 5, 0));  // NaN looks like the room between
-    EXPECT_NE(pixel(image, 2, 2)[0], pixel(image, 2, 2)[2]);
+    return {grid, SampleType::float32, std::shared_ptr<const void>(values, values->data())};
+}
+
+// Four samples along z are to be at least 256 pixels: a sample is 64 x 64 pixels. The titles are
+// narrower than the slices.
+TEST(MiddleSlices, ShowEveryPlaneWithItsSecondAxisUp) {
+    constexpr int edge = 64;
+    const CodedImage image = middle_slices(counted({}), {0, 25.5});  // code = 10 * value
+    EXPECT_EQ(image.width, 4 * room + (3 + 3 + 2) * edge);
+    EXPECT_EQ(image.height, 2 * room + titles + 4 * edge);
+    const int bottom = image.height - room - edge / 2;  // in the middle of the lowest samples
+    const auto at = [&](int left, int u, int v) {
+        return pixel(image, left + u * edge + edge / 2, bottom - v * edge);
+    };
+    const int first = room, second = first + 3 * edge + room, third = second + 3 * edge + room;
+    EXPECT_EQ(at(first, 0, 0), grey(120));           // x 0, y 0, z 2
+    EXPECT_EQ(at(first, 1, 1), grey(160));           // x 1, y 1, z 2
+    EXPECT_EQ(at(second, 0, 0), grey(30));           // x 0, y 1, z 0
+    EXPECT_EQ(at(second, 2, 3), grey(230));          // x 2, y 1, z 3
+    EXPECT_EQ(at(third, 0, 3), grey(190));           // x 1, y 0, z 3
+    EXPECT_EQ(at(third, 1, 0), grey(40));            // x 1, y 1, z 0
+    EXPECT_EQ(at(first, 2, 1), (Rgb{20, 40, 160}));  // NaN
+    EXPECT_EQ(at(first, 0, 3), grey(255));           // beside the slice
+    // Samples are as wide as they are high, to the pixel.
+    EXPECT_EQ(pixel(image, first + edge - 1, image.height - room - 1), grey(120));
+    EXPECT_EQ(pixel(image, first + edge, image.height - room - 1), grey(130));
+    EXPECT_EQ(pixel(image, first, image.height - room - edge), grey(120));
+    EXPECT_EQ(pixel(image, first, image.height - room - edge - 1), grey(150));
+}
+
+// With a spacing of 0.5, 1 and 2 the lengths are 1.5, 2 and 8: z has 16 samples' lengths of x, each
+// 16 pixels.
+TEST(MiddleSlices, HaveTheAspectOfTheWorld) {
+    Grid grid;
+    grid.step = {glm::dvec3(0.5, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 2)};
+    const CodedImage image = middle_slices(counted(grid), {0, 25.5});
+    EXPECT_EQ(image.height, 2 * room + titles + 256);
+    const int bottom = image.height - room - 1;
+    EXPECT_EQ(pixel(image, room + 15, bottom), grey(120));
+    EXPECT_EQ(pixel(image, room + 16, bottom), grey(130));
+    EXPECT_EQ(pixel(image, room, bottom - 31), grey(120));
+    EXPECT_EQ(pixel(image, room, bottom - 32), grey(150));
+    EXPECT_EQ(pixel(image, room, bottom - 64), grey(255));
+}
+
+TEST(MiddleSlices, LongVolumesFitThePicture) {
+    Grid grid;
+    grid.size = {5000, 1, 2};
+    const auto bytes = std::make_shared<std::vector<std::uint8_t>>(10000, 7);
+    const Volume volume(grid, SampleType::uint8, std::shared_ptr<const void>(bytes, bytes->data()));
+    const CodedImage image = middle_slices(volume, {7, 7});
+    EXPECT_EQ(image.height, 2 * room + titles + 1);  // 2 / 5000 of 1024 pixels, but not less than 1
+    EXPECT_EQ(pixel(image, room + 1023, image.height - room - 1), grey(128));
+    EXPECT_EQ(pixel(image, room + 1024, image.height - room - 1), grey(255));
 }
 
 }  // namespace

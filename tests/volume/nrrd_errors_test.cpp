@@ -59,7 +59,14 @@ TEST_F(NrrdErrors, MissingAndBadFields) {
             error_of(write("a.nrrd", with("sizes", "sizes: " + sizes + "\n") + "\n" + data)),
             {"a.nrrd", "line 4", "sizes: found '" + sizes + "'", "whole numbers"});
     }
-    expect_says(error_of(write("a.nrrd", good + "spacings: 1 0 1\n\n" + data)), {"a.nrrd"});
+    for (const std::string spacings : {"1 0 1", "1 1 -2", "1 1 inf", "1 1 -0", "1 1 one"}) {
+        expect_says(error_of(write("a.nrrd", good + "spacings: " + spacings + "\n\n" + data)),
+                    {"a.nrrd", "line 6", "spacings: found '" + spacings + "'", "above 0"});
+    }
+    for (const std::string spacings : {"1 1 nan", "NaN NaN NaN"}) {
+        expect_says(error_of(write("a.nrrd", good + "spacings: " + spacings + "\n\n" + data)),
+                    {"a.nrrd", "spacings: found nan for axis", "above 0"});
+    }
     expect_says(error_of(write("a.nrrd", good + "type: uint8\n\n" + data)), {"type"});
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,7 +12,7 @@
 #include "base/json_text.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
-#include "image/false_color.h"
+#include "image/difference_picture.h"
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
@@ -25,7 +26,7 @@ struct CompareOptions {
     std::string a, b;
     bool json = false;
     std::string diff;
-    std::optional<double> max_linf;
+    std::optional<double> max_linf, range;
 };
 
 std::string table_row(const std::string& label, const ErrorNorms& norms) {
@@ -49,6 +50,9 @@ void check(const CompareOptions& options) {
     if (options.max_linf && !(*options.max_linf >= 0)) {
         throw UsageError(fmt::format("--max-linf {}: expected 0 or more", *options.max_linf));
     }
+    if (options.range && !(*options.range > 0 && std::isfinite(*options.range)))
+        throw UsageError(fmt::format("--range {}: expected a number above 0", *options.range));
+    if (options.range && options.diff.empty()) throw UsageError("--range: expected --diff, too");
     if (!options.diff.empty() && std::filesystem::path(options.diff).extension() != ".png") {
         throw UsageError(fmt::format("--diff {}: expected a name that ends in .png", options.diff));
     }
@@ -62,11 +66,13 @@ int compare(const CompareOptions& options) {
     const Difference e = difference(load_image(options.a), load_image(options.b));
     const ImageError error = measure(e);
     if (diff) {
-        write_png(*diff, false_color(e, error.all.linf));
+        const double range = options.range.value_or(error.all.linf);
+        write_png(*diff, difference_picture(e, range));
         diff->commit();
+        const char* const beyond = range < error.all.linf ? " and beyond" : "";
         print_message(
-            "{}: A-B from -{:.6g} (dark blue) over 0 (white) to +{:.6g} (dark red), in 1/255\n",
-            options.diff, error.all.linf, error.all.linf);
+            "{}: A-B from -{:.6g} (dark blue){} over 0 (white) to +{:.6g} (dark red){}, in 1/255\n",
+            options.diff, range, beyond, range, beyond);
     }
     write_result(options.json ? json_text(study::to_json(error), 2) + "\n" : table_text(error));
     if (options.max_linf && error.all.linf > *options.max_linf) {
@@ -86,7 +92,11 @@ void add_compare(CLI::App& app, int& exit_code) {
     verb->add_option("A", options->a, "picture (.exr, .npy, or .png against .png)")->required();
     verb->add_option("B", options->b, "picture to measure against, of the same size")->required();
     verb->add_flag("--json", options->json, "print JSON instead of a table");
-    verb->add_option("--diff", options->diff, "write the signed difference in false colour (.png)");
+    verb->add_option("--diff", options->diff,
+                     "write the signed difference in false colour, with its colour bar (.png)");
+    verb->add_option(
+        "--range", options->range,
+        "with --diff: darkest at this difference, in 1/255, instead of at the largest");
     verb->add_option("--max-linf", options->max_linf,
                      "exit with code 3 when Linf over all is larger")
         ->check([](const std::string& text) { return text.empty() ? "expected a number" : ""; });

@@ -82,13 +82,25 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
         print_result("{}\n", printable(finding));
 }
 
+// Before anything is made: what is compared is a volume, and a mesh of it.
+void check_scene(const Scene& scene, const CrosscheckOptions& options) {
+    if (!scene.has_volume())
+        fail("{}: volume: is missing, expected the volume that both methods show",
+             scene.file.string());
+    const bool one_mesh =
+        !scene.mesh_file.empty() || (scene.mesh_request && scene.mesh_request->kuhn);
+    if (one_mesh && !options.settings.stop_when_agreed) {
+        throw UsageError(fmt::format(
+            "--tolerances: the scene's {} has none, expected a mesh that is made with a tolerance",
+            scene.mesh_file.empty() ? "mesh.kuhn" : "mesh file"));
+    }
+}
+
 void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
     Scene scene = load_scene(options.scene, {}, ignored);
-    if (!scene.has_volume())
-        fail("{}: volume: is missing, expected the volume that both methods show",
-             options.scene.file);
+    check_scene(scene, options);
     const std::filesystem::path folder = options.output;
     expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
     choose_for_volume(scene);
@@ -118,23 +130,30 @@ void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
         crosscheck_name, "Slice a volume and project its mesh, and say where they differ, and why");
-    verb->add_option("SCENE", options->scene.file,
-                     "Scene file (JSON) with a volume, or a volume (NRRD)")
+    verb->add_option(
+            "SCENE", options->scene.file,
+            "Scene file (JSON) with a volume, or a volume (NRRD); - reads a scene from stdin")
         ->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();
     verb->add_option("--set", options->scene.settings,
-                     "Set a key of the scene: KEY=VALUE, as in render.max_error=0.5")
+                     "Set a key of the scene, as in render.max_error=0.5")
+        ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
     const CLI::Option* const tolerances =
         verb->add_option(
                 "--tolerances", options->settings.tolerances,
-                "Of the meshes to compare, beside the scene's own; by default .1,.05,.02,.01,"
-                ".005,.002,.001, until both methods agree within render.max_error")
+                "Of the meshes to compare, beside the scene's own, with commas between: all of "
+                "them are drawn; by default .1,.05,.02,.01,.005,.002,.001, until both methods "
+                "agree "
+                "within render.max_error")
+            ->option_text("T,T,...")
             ->delimiter(',')
             ->allow_extra_args(false);
     verb->add_option("--samples", options->settings.samples,
-                     "Slabs to compare, beside the scene's own: 64,128,256,512,1024")
+                     "Slabs to compare, beside the scene's own, with commas between; by default "
+                     "64,128,256,512,1024")
+        ->option_text("N,N,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,

@@ -71,6 +71,19 @@ void FrameJob::draw_frame(const Camera& camera) {
     frames_->draw();
 }
 
+void FrameJob::draw_view(const Camera& camera, const Plan& plan, RenderStats& stats) {
+    frames_->set_camera(camera);
+    if (!image_) return draw(plan, stats);
+    Stage frame("frame");
+    frame.count("frame", static_cast<double>(stats.frames_ms.size()));
+    frames_->draw();
+    stats.frames_ms.push_back(frame.end());
+    frames_->read(*image_);
+    RenderStats view;
+    method_->report_frame(plan, frames_->renderer(), view);
+    keep_largest(view.counts, stats.counts);
+}
+
 std::size_t FrameJob::write(PictureFile& picture, const PictureAttributes& attributes) {
     return picture.write(*image_, request_.scene.background, attributes,
                          request_.scene.color_space);

@@ -32,6 +32,7 @@ class FrameJob : public RenderJob {
     std::string explanation(const Plan& plan) const override;
     void draw(const Plan& plan, RenderStats& stats) override;
     void draw_frame(const Camera& camera) override;
+    void draw_view(const Camera& camera, const Plan& plan, RenderStats& stats) override;
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override;
 
   private:

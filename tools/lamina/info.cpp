@@ -14,6 +14,7 @@
 #include "file_report.h"
 #include "mesh_files/mesh_file.h"
 #include "scene_files.h"
+#include "statistics_report.h"
 #include "verbs.h"
 #include "volume/volume_file.h"
 
@@ -27,12 +28,19 @@ struct InfoOptions {
     bool json = false;
 };
 
+std::string text_of(const std::string& key, const Json& value) {
+    if (value.is_string()) return printable(value.get<std::string>());
+    if (key == "percentiles" && !value.is_null()) return percentiles_text(value);
+    return printable(json_text(value));
+}
+
 std::string table_text(const Json& info) {
     std::string text;
     for (const auto& [key, value] : info.items()) {
-        text +=
-            fmt::format("{:<17} {}\n", key,
-                        printable(value.is_string() ? value.get<std::string>() : json_text(value)));
+        if (key == "histogram" && !value.is_null())
+            text += fmt::format("{:<17} {}", key, histogram_text(value));
+        else
+            text += fmt::format("{:<17} {}\n", key, text_of(key, value));
     }
     return text;
 }
@@ -68,7 +76,7 @@ void add_info(CLI::App& app, int& exit_code) {
     verb->add_option(
         "--png", options->png,
         "write a picture (.png): a volume's three middle slices, a mesh's boundary and "
-        "three cuts");
+        "three cuts; and the histogram below");
     verb->callback([options] { run(*options); });
 }
 

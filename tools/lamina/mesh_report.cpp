@@ -10,6 +10,9 @@
 #include "mesh/mesh_shape.h"
 #include "mesh/scalar_range.h"
 #include "mesh_files/mesh_file.h"
+#include "statistics_report.h"
+#include "volume/histogram_picture.h"
+#include "volume/value_statistics.h"
 
 namespace lamina {
 namespace {
@@ -30,7 +33,7 @@ Json describe(std::span<const MeshScalar> scalars) {
     return list;
 }
 
-Json describe(const TetMesh& mesh) {
+Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     const MeshFindings& findings = mesh.findings();
     const double ratio = edge_lengths(mesh).ratio();
     Json info;
@@ -55,13 +58,21 @@ Json describe(const TetMesh& mesh) {
     info["split_cells"] = findings.cells.split;
     info["skipped_cells"] = findings.cells.skipped;
     info["straightened_cells"] = findings.cells.straightened;
+    add_statistics(statistics, info);
     return info;
 }
 
-CodedImage picture_of(const TetMesh& mesh) {
-    if (mesh.point_scalars().empty()) return mesh_picture(mesh, {}, {0, 0}, panel_side);
-    const std::vector<double>& values = mesh.point_scalars().front().values;
-    return mesh_picture(mesh, values, measure_range(values).range, panel_side);
+// Of the first scalar at points; none where there is none.
+std::span<const double> first_scalar(const TetMesh& mesh) {
+    if (mesh.point_scalars().empty()) return {};
+    return mesh.point_scalars().front().values;
+}
+
+CodedImage picture_of(const TetMesh& mesh, const ValueStatistics& statistics) {
+    const std::span<const double> values = first_scalar(mesh);
+    const ValueRange range = values.empty() ? ValueRange{0, 0} : measure_range(values).range;
+    return above_one_another(mesh_picture(mesh, values, range, panel_side),
+                             [&](int width) { return histogram_picture(statistics, width); });
 }
 
 }  // namespace
@@ -70,11 +81,12 @@ nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
     const TetMesh mesh(read_mesh(file), file);
+    const ValueStatistics statistics = measure_values(first_scalar(mesh));
     if (picture) {
-        write_png(*picture, picture_of(mesh));
+        write_png(*picture, picture_of(mesh, statistics));
         picture->commit();
     }
-    return describe(mesh);
+    return describe(mesh, statistics);
 }
 
 }  // namespace lamina

@@ -1,45 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_file.h"
 
+#include <unistd.h>
+
+#include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/piped_file.h"
+#include "image/exr.h"
 #include "image/npy.h"
-#include "image/picture.h"
+#include "image/png.h"
 
 namespace lamina {
 namespace {
 
-std::string checked_suffix(const std::filesystem::path& path, bool precise) {
-    const std::string suffix = path.extension().string();
-    if (suffix == ".npy" && !precise) {
-        throw UsageError(fmt::format(
-            "-o {}: .npy holds double precision, which only the method trace gives; expected "
-            ".exr or .png",
-            path.string()));
-    }
-    if (suffix != ".exr" && suffix != ".png" && suffix != ".npy") {
-        throw UsageError(fmt::format("-o {}: found the suffix \"{}\", expected .exr, .png or .npy",
-                                     path.string(), suffix));
-    }
-    return suffix;
+std::unique_ptr<OutputFile> open_file(const std::string& output) {
+    if (output != standard_stream) return std::make_unique<AtomicFile>(output);
+    if (isatty(STDOUT_FILENO) != 0)
+        throw UsageError("-o -: stdout is a terminal, expected a pipe or a file");
+    return std::make_unique<PipedFile>();
 }
 
 }  // namespace
 
-PictureFile::PictureFile(const std::filesystem::path& path, bool precise)
-    : suffix_(checked_suffix(path, precise)), file_(path) {}
+PictureFile::PictureFile(const std::string& output, PictureFormat format)
+    : format_(format), file_(open_file(output)) {}
 
 std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
                                const PictureAttributes& attributes, ImageColorSpace space) {
-    const std::size_t clamped = write_picture(file_, image, background, attributes, space);
-    file_.commit();
+    std::size_t clamped = 0;
+    switch (format_) {
+        case PictureFormat::exr:
+            write_exr(*file_, image, attributes, space);
+            break;
+        case PictureFormat::png:
+            clamped = write_png(*file_, image, background, space);
+            break;
+        case PictureFormat::npy:
+            write_npy(*file_, image);
+            break;
+    }
+    file_->commit();
     return clamped;
 }
 
 std::size_t PictureFile::write(const PreciseImage& image, const glm::dvec3& background,
                                const PictureAttributes& attributes, ImageColorSpace space) {
-    if (suffix_ != ".npy") return write(to_float(image), background, attributes, space);
-    write_npy(file_, image);
-    file_.commit();
+    if (format_ != PictureFormat::npy) return write(to_float(image), background, attributes, space);
+    write_npy(*file_, image);
+    file_->commit();
     return 0;
 }
 

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "lamina/image.h"
 #include "lamina/image_color_space.h"
+#include "picture_format.h"
 
 namespace lamina {
 
 using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
 
-// The picture that `render -o` writes: .exr, .png or .npy by the file's suffix. Made before
-// rendering begins, so that a path that cannot be written fails at once.
+// A picture that `render -o` writes: a file, or stdout for "-". Made before rendering begins, so
+// that a path that cannot be written fails at once.
 class PictureFile {
   public:
-    // `precise`: a double-precision image will come, which .npy needs. Throws UsageError for a bad
-    // suffix.
-    PictureFile(const std::filesystem::path& path, bool precise);
+    // Throws Error, and UsageError where stdout is a terminal.
+    PictureFile(const std::string& output, PictureFormat format);
 
     // `space`: of image and background. Returns how many pixels had to be clamped (PNG).
     std::size_t write(const Image& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
+    // The same; NPY keeps the double precision.
     std::size_t write(const PreciseImage& image, const glm::dvec3& background,
                       const PictureAttributes& attributes, ImageColorSpace space);
 
   private:
-    std::string suffix_;
-    AtomicFile file_;
+    PictureFormat format_;
+    std::unique_ptr<OutputFile> file_;
 };
 
 }  // namespace lamina

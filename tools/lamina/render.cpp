@@ -5,20 +5,19 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/json_text.h"
 #include "base/progress.h"
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
-#include "different_files.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
 #include "render_job.h"
+#include "render_output.h"
 #include "scene_data.h"
-#include "scene_files.h"
 #include "scene_options.h"
 #include "verbs.h"
 #include "view_options.h"
@@ -29,9 +28,9 @@ namespace {
 struct RenderOptions {
     SceneOptions scene;
     ViewOptions view;
-    std::string output, stats, profile;
+    OutputOptions output;
+    std::string stats, profile;
     std::vector<std::string> kept;
-    int frames = 0;
     std::string context = "auto";
     bool explain = false, quiet = false;
 };
@@ -56,24 +55,6 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-// Draws the frames of --frames: `draw(camera)` for the scene's camera, turned a little further each
-// time.
-template <typename Draw>
-void time_frames(const Scene& scene, int frames, RenderStats& stats, const Draw& draw) {
-    if (frames == 0) return;
-    stats.frames_ms.clear();  // the scene's own frame was the warm-up
-    Progress progress("timing frames", frames);
-    for (int i = 1; i <= frames; ++i) {
-        check_interrupt();
-        const Camera camera = turned(scene.camera, degrees_per_frame * i);
-        Stage frame("frame");
-        frame.count("frame", i);
-        draw(camera);
-        stats.frames_ms.push_back(frame.end());
-        progress.advance();
-    }
-}
-
 std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
     if (request.scene.method == Method::slice) return make_slice_job(request);
     if (request.scene.method == Method::project) return make_project_job(request);
@@ -88,6 +69,13 @@ void write_profile(ProfileFile& profile, const RenderOptions& options, const Ren
                                      Profile::most_spans, left_out));
 }
 
+// The explanation goes to stdout; to stderr, line by line, where the picture goes to stdout.
+void print_explanation(const RenderOptions& options, const std::string& explanation) {
+    if (!options.output.piped()) return write_result(explanation);
+    std::istringstream lines(explanation);
+    for (std::string line; std::getline(lines, line);) write_message(line + "\n");
+}
+
 // Does one `lamina render`, from the files to the picture and the statistics.
 void run(const RenderOptions& options) {
     std::optional<ProfileFile> profile;
@@ -98,13 +86,12 @@ void run(const RenderOptions& options) {
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
     const Wishes wishes = wishes_of(options.view, scene.color_space);
     reading.end();
-    expect_different_files(files_of(scene), {options.output, options.stats, options.profile});
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
     restrict_instructions_as_asked();
-    std::optional<PictureFile> picture;
-    if (!options.output.empty()) picture.emplace(options.output, scene.method == Method::trace);
+    const auto output =
+        open_output(options.output, {scene, omissions, watch}, {options.stats, options.profile});
     std::optional<AtomicFile> stats_file;
     if (!options.stats.empty()) stats_file.emplace(options.stats);
 
@@ -114,33 +101,27 @@ void run(const RenderOptions& options) {
     const std::string scene_text = json_text(
         scene.chosen.empty() ? document : nlohmann::json(document_of(scene, document)), 2);
     for (const std::string& chosen : scene.chosen) say(chosen);
-    const auto job = make_job(
-        {scene, data, omissions, context, !options.stats.empty(), options.frames > 0, say});
+    const bool many_frames = options.output.frames > 0 || options.output.views > 0;
+    const auto job =
+        make_job({scene, data, omissions, context, !options.stats.empty(), many_frames, say});
     const Plan plan = job->plan(stats);
     const std::string explanation = chosen_text(scene) + job->explanation(plan);
-    if (options.explain) write_result(explanation);
-    if (!picture) return;
-    job->draw(plan, stats);
-    stats.first_picture_ms = watch.milliseconds();
-    time_frames(scene, options.frames, stats,
-                [&](const Camera& turned) { job->draw_frame(turned); });
-
-    Stage writing("write");
-    const std::size_t clamped = job->write(*picture, {{"scene", scene_text},
-                                                      {"plan", explanation},
-                                                      {"renderer", stats.renderer},
-                                                      {"software", "lamina " LAMINA_VERSION}});
-    stats.stages_ms["write"] = writing.end();
-    stats.first_picture_ms += stats.stages_ms["write"];  // the picture of the first frame
-    stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
+    if (options.explain) print_explanation(options, explanation);
+    if (!output) return;
+    const std::string written = output->draw(
+        *job, plan, stats,
+        {{"scene", scene_text}, {"plan", explanation}, {"software", "lamina " LAMINA_VERSION}});
+    const std::int64_t clamped = stats.counts["clamped_pixels"];
     if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
     if (stats_file) {
         stats_file->write(json_text(to_json(stats, plan), 2) + "\n");
         stats_file->commit();
     }
     if (profile) write_profile(*profile, options, stats);
-    say(fmt::format("wrote {} ({} x {}, {}, {:.4g} ms a frame)", options.output, scene.width,
-                    scene.height, stats.context, stats.frames_ms.back()));
+    const std::string took =
+        stats.frames_ms.empty() ? "" : fmt::format(", {:.4g} ms a frame", stats.frames_ms.back());
+    say(fmt::format("wrote {} ({} x {}, {}{})", written, scene.width, scene.height, stats.context,
+                    took));
 }
 
 }  // namespace
@@ -152,19 +133,16 @@ void add_render(CLI::App& app, int&) {
     verb->add_option(
             "SCENE", options->scene.file,
             "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .vtk, .node, "
-            ".ele); what a scene leaves open is chosen from the data")
+            ".ele); what a scene leaves open is chosen from the data. - reads a scene from stdin")
         ->required();
-    verb->add_option("-o,--output", options->output,
-                     "Picture to write: .exr, .png, or .npy (trace only)");
+    add_output_options(*verb, options->output);
     verb->add_option("--method", options->scene.method,
                      "slice, project or trace; as --set render.method=...");
     verb->add_option("--set", options->scene.settings,
-                     "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
+                     "Set a key of the scene, as in render.slice.samples=512")
+        ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
     add_view_options(*verb, options->view);
-    verb->add_option("--frames", options->frames,
-                     "Time this many frames, the camera turning a little")
-        ->check(CLI::Range(1, 1000000));
     verb->add_option("--stats", options->stats,
                      "Write times, counts and the plan to this JSON file");
     verb->add_option(
@@ -181,10 +159,11 @@ void add_render(CLI::App& app, int&) {
         "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
-        if (options->output.empty() && !options->explain) {
+        if (options->output.output.empty() && !options->explain) {
             throw UsageError("render: expected -o FILE (only --explain works without a picture)");
         }
-        if (options->output.empty() && !options->profile.empty())
+        options->output.check();
+        if (options->output.output.empty() && !options->profile.empty())
             throw UsageError("--profile: expected -o FILE, too");
         Progress::set_quiet(options->quiet);
         run(*options);

@@ -26,8 +26,8 @@ struct RenderRequest {
     std::function<void(const std::string&)> message;  // to stderr, unless --quiet
 };
 
-// One method of drawing a scene. Called in this order: plan(), draw(), draw_frame() any number of
-// times, write().
+// One method of drawing a scene. Called in this order: plan(), then draw(), draw_frame() any number
+// of times, write(); or, for each view of a series, draw_view(), write().
 class RenderJob {
   public:
     virtual ~RenderJob() = default;
@@ -39,6 +39,9 @@ class RenderJob {
     virtual void draw(const Plan& plan, RenderStats& stats) = 0;
     // The same from elsewhere, to be timed; the picture of draw() stays.
     virtual void draw_frame(const Camera& camera) = 0;
+    // The same from elsewhere, to be written. Its time is added to stats.frames_ms; the rest of the
+    // statistics is that of the first view, but for the counts and errors, which are the largest.
+    virtual void draw_view(const Camera& camera, const Plan& plan, RenderStats& stats) = 0;
     // Returns the number of pixels that were clamped.
     virtual std::size_t write(PictureFile& picture, const PictureAttributes& attributes) = 0;
 };

@@ -136,16 +136,29 @@ Json plan_to_json(const Plan& plan) {
     unreachable_enum();
 }
 
+// Views that an earlier run drew may be all that there are.
+Json times_to_json(const std::vector<double>& frames) {
+    if (frames.empty()) return {{"median", nullptr}, {"min", nullptr}, {"max", nullptr}, {"n", 0}};
+    return {{"median", median(frames)},
+            {"min", *std::min_element(frames.begin(), frames.end())},
+            {"max", *std::max_element(frames.begin(), frames.end())},
+            {"n", frames.size()}};
+}
+
 }  // namespace
 
+void keep_largest(const std::map<std::string, std::int64_t>& counts,
+                  std::map<std::string, std::int64_t>& largest) {
+    for (const auto& [name, count] : counts) {
+        const auto place = largest.emplace(name, count).first;
+        place->second = std::max(place->second, count);
+    }
+}
+
 nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
-    const auto& frames = stats.frames_ms;
     Json json;
     json["first_picture_ms"] = stats.first_picture_ms;
-    json["frame_ms"] = {{"median", median(frames)},
-                        {"min", *std::min_element(frames.begin(), frames.end())},
-                        {"max", *std::max_element(frames.begin(), frames.end())},
-                        {"n", frames.size()}};
+    json["frame_ms"] = times_to_json(stats.frames_ms);
     json["stages"] = stats.stages_ms;
     json["samples"] = stats.samples;
     json["fragments"] = stats.fragments;

@@ -31,6 +31,10 @@ struct RenderStats {
     std::map<std::string, std::int64_t> counts;  // what was clamped, dropped, ...
 };
 
+// Raises each of `largest` to what `counts` has of its name.
+void keep_largest(const std::map<std::string, std::int64_t>& counts,
+                  std::map<std::string, std::int64_t>& largest);
+
 nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan);
 
 }  // namespace lamina

@@ -3,13 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <functional>
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/folder.h"
@@ -17,14 +17,19 @@
 #include "base/own_files.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
+#include "command_line.h"
+#include "git_commit.h"
 #include "output_folder.h"
 #include "papers/kraus.h"
 #include "papers/kraus_stage.h"
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
+#include "papers/panels.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "scene_files.h"
+#include "study/machine.h"
+#include "study/report_page.h"
 #include "verbs.h"
 #include "volume/volume_file.h"
 
@@ -55,11 +60,11 @@ std::vector<papers::PaperItem<Stage>> chosen_items(
                                  options.item, names_of(items)));
 }
 
-// Returns the files that items may write, and the report on them.
+// Returns the files that items may write, the report on them and its page.
 template <typename Stage>
 std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& items,
-                                  const std::string& report) {
-    std::vector<std::string> files{report};
+                                  const std::string& paper) {
+    std::vector<std::string> files{paper + ".json", paper + ".html"};
     for (const papers::PaperItem<Stage>& item : items)
         files.insert(files.end(), item.files.begin(), item.files.end());
     return files;
@@ -99,18 +104,32 @@ class Stagehand {
     std::optional<Stage> stage_;
 };
 
+nlohmann::ordered_json empty_page(const ReproduceOptions& options) {
+    const bool lamar = options.paper == "lamar";
+    nlohmann::ordered_json environment = study::describe_machine();
+    environment["version"] = LAMINA_VERSION;
+    environment["commit"] = git_commit;
+    environment["command"] = command_line();
+    return {{"title", lamar ? "LaMar 2004, reproduced" : "Kraus, Qiao and Ebert 2004, reproduced"},
+            {"kind", "reproduction"},
+            {"findings", nlohmann::ordered_json::array()},
+            {"environment", environment},
+            {"comparisons", nlohmann::ordered_json::array()}};
+}
+
 template <typename Stage>
 void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const ReproduceOptions& options,
                typename Stagehand<Stage>::MakeContext make_context) {
     Stagehand<Stage> stagehand(std::move(make_context));
     const std::vector<papers::PaperItem<Stage>> items = chosen_items(all, options);
     const std::filesystem::path folder = options.output;
-    const std::string report_name = options.paper + ".json", verb = "reproduce " + options.paper;
-    expect_own_folder(folder, verb, files_of(items, report_name), data_files(), options.force);
+    const std::string report_name = options.paper + ".json", page_name = options.paper + ".html";
+    const std::string verb = "reproduce " + options.paper;
+    expect_own_folder(folder, verb, files_of(items, options.paper), data_files(), options.force);
     const OwnFiles own(folder, verb);
     make_folder(folder);
-    AtomicFile file(folder / report_name);
-    nlohmann::ordered_json report;
+    AtomicFile file(folder / report_name), page_file(folder / page_name);
+    nlohmann::ordered_json report, page = empty_page(options);
     for (const papers::PaperItem<Stage>& item : items) {
         nlohmann::ordered_json result;
         own.add(item.files);
@@ -121,11 +140,16 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
                                           item.name, report.size(), items.size(), folder.string()));
         }
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
+        const nlohmann::ordered_json panels = papers::take_panels(result);
+        page["findings"].push_back(item.name + ": " + result["note"].get<std::string>());
+        page["comparisons"].push_back(papers::page_section(item.name, result, panels, folder));
         report[item.name] = result;
     }
-    own.add({report_name});
+    own.add({report_name, page_name});
     file.write(json_text(report, 1) + "\n");
+    page_file.write(study::report_page(page));
     file.commit();
+    page_file.commit();
 }
 
 void run(const ReproduceOptions& options) {

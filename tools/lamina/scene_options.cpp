@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_stdin.h"
 #include "base/shortened.h"
+#include "picture_format.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"
@@ -15,7 +17,9 @@ namespace lamina {
 
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
                  nlohmann::json& document) {
-    document = scene_document(options.file);
+    const bool piped = options.file == standard_stream;
+    const std::string file = piped ? stdin_name : options.file;
+    document = piped ? load_json_from_stdin() : scene_document(file);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
         set_key(document, key, value);
@@ -33,7 +37,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     }
     if (!options.method.empty()) apply("render.method", options.method);
     try {
-        return read_scene(document, options.file);
+        return read_scene(document, file);
     } catch (const KeyError& error) {
         for (const std::string& key : keys) {
             if (error.key == key || key.starts_with(error.key + ".") ||

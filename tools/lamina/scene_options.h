@@ -11,7 +11,7 @@ namespace lamina {
 
 // A scene as the command line names it.
 struct SceneOptions {
-    std::string file;
+    std::string file;                   // "-": stdin
     std::vector<std::string> settings;  // --set KEY=VALUE
     std::string method;                 // --method; may be empty
 };

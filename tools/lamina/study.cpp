@@ -93,6 +93,13 @@ void say_what_is_left_out(const study::RunList& list, const StudyOptions& option
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
+// Before anything runs: how much work the file means.
+void say_what_it_makes(const study::RunList& list, const StudyOptions& options) {
+    say(options,
+        fmt::format("{}: {} runs of {} scenes, each timed in {} rounds of {} frames", options.study,
+                    list.runs.size(), list.scenes.size(), list.rounds, 2 * list.frames));
+}
+
 void write_results(const study::StudyFolder& folder, const StudyOptions& options) {
     const study::StudySummary summary = study::write_study_output(folder);
     for (const std::string& finding : summary.findings) print_result("{}\n", printable(finding));
@@ -135,6 +142,7 @@ void run_study(const StudyOptions& options) {
     if (there) study::match_data(list, "now", *there, folder.run_list().string());
     folder.make();
     study::write_run_list(folder, list);
+    say_what_it_makes(list, options);
     say_what_is_left_out(list, options);
     study::StudyRunner runner(list, file, folder, shard, begin_record(), std::move(store),
                               [&](const std::string& text) { say(options, text); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "base/stage.h"
@@ -14,10 +15,10 @@ namespace lamina {
 namespace {
 
 void record(double milliseconds, double error_estimate, RenderStats& stats) {
-    stats.frames_ms = {milliseconds};
-    stats.stages_ms["trace"] = milliseconds;
+    stats.frames_ms.push_back(milliseconds);
+    stats.stages_ms.emplace("trace", milliseconds);
     stats.renderer = stats.context = "reference tracer";
-    stats.error_estimate = error_estimate;
+    stats.error_estimate = std::max(error_estimate, stats.error_estimate.value_or(0));
 }
 
 class VolumeTraceJob : public RenderJob {
@@ -34,10 +35,14 @@ class VolumeTraceJob : public RenderJob {
 
     std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 
-    void draw(const Plan&, RenderStats& stats) override {
+    void draw(const Plan& plan, RenderStats& stats) override {
+        draw_view(request_.scene.camera, plan, stats);
+    }
+
+    void draw_view(const Camera& camera, const Plan&, RenderStats& stats) override {
         Stage frame("frame");
-        frame.count("frame", 0);
-        result_.emplace(trace(request_.scene.camera));
+        frame.count("frame", static_cast<double>(stats.frames_ms.size()));
+        result_.emplace(trace(camera));
         record(frame.end(), result_->error_estimate, stats);
         warn_of_picture(request_.scene, *request_.data.field(), to_float(result_->image));
     }
@@ -80,14 +85,19 @@ class MeshTraceJob : public RenderJob {
 
     std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 
-    void draw(const Plan&, RenderStats& stats) override {
+    void draw(const Plan& plan, RenderStats& stats) override {
+        draw_view(request_.scene.camera, plan, stats);
+    }
+
+    void draw_view(const Camera& camera, const Plan&, RenderStats& stats) override {
         Stage frame("frame");
-        frame.count("frame", 0);
-        result_.emplace(trace(request_.scene.camera));
+        frame.count("frame", static_cast<double>(stats.frames_ms.size()));
+        result_.emplace(trace(camera));
         record(frame.end(), result_->error_estimate, stats);
         warn_of_picture(request_.scene, *request_.data.field(), to_float(result_->image));
-        stats.counts["segments"] = result_->segments;
-        stats.counts["overlapping_rays"] = result_->overlapping_rays;
+        keep_largest(
+            {{"segments", result_->segments}, {"overlapping_rays", result_->overlapping_rays}},
+            stats.counts);
         if (result_->overlapping_rays > 0) {
             request_.message(fmt::format(
                 "the mesh overlaps itself on the rays of {} pixels: its tets are composited there "

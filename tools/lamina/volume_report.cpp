@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "base/atomic_file.h"
 #include "file_report.h"
 #include "image/png.h"
 #include "json_vector.h"
+#include "statistics_report.h"
+#include "volume/histogram_picture.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
+#include "volume/value_statistics.h"
 #include "volume/volume_file.h"
 
 namespace lamina {
@@ -21,7 +25,7 @@ Json json_of(const std::array<Centering, 3>& centering) {
     return Json::array({word(centering[0]), word(centering[1]), word(centering[2])});
 }
 
-Json describe(const Volume& volume, const MinMaxBricks& bricks) {
+Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStatistics& statistics) {
     const Grid& grid = volume.grid();
     const Grid::Bounds bounds = grid.bounds();
     Json info;
@@ -33,7 +37,17 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks) {
     info["range"] = nullptr;  // no finite value
     if (!bricks.whole.empty()) info["range"] = Json::array({bricks.whole.lo, bricks.whole.hi});
     info["nan_count"] = bricks.non_finite;
+    info["spacing"] = json_vector(
+        {glm::length(grid.step[0]), glm::length(grid.step[1]), glm::length(grid.step[2])});
+    info["origin"] = json_vector(grid.origin);  // the centre of the first sample
+    add_statistics(statistics, info);
     return info;
+}
+
+CodedImage picture_of(const Volume& volume, const ValueRange& range,
+                      const ValueStatistics& statistics) {
+    return above_one_another(middle_slices(volume, range),
+                             [&](int width) { return histogram_picture(statistics, width); });
 }
 
 }  // namespace
@@ -43,11 +57,12 @@ nlohmann::ordered_json report_on_volume(const std::string& file, const std::stri
     if (!png.empty()) picture.emplace(png);
     const Volume volume = read_volume(file);
     const MinMaxBricks bricks = measure_bricks(volume);
+    const ValueStatistics statistics = measure_values(volume, bricks.whole);
     if (picture) {
-        write_png(*picture, middle_slices(volume, bricks.whole));
+        write_png(*picture, picture_of(volume, bricks.whole, statistics));
         picture->commit();
     }
-    return describe(volume, bricks);
+    return describe(volume, bricks, statistics);
 }
 
 }  // namespace lamina

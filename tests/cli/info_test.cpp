@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// lamina info: what it says of values and places. (What is wrong with meshes: mesh_files_test.cpp.)
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "cli/lamina_run.h"
+#include "image/png.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class Info : public testing::Test {
+  protected:
+    // 3 x 2 x 2 samples of 0, 10, ..., 110, in steps of 2, 0.5 and 4.
+    void SetUp() override {
+        write_bytes_to(folder / "a.nrrd",
+                       "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\n"
+                       "space dimension: 3\nspace directions: (2,0,0) (0,0.5,0) (0,0,4)\n"
+                       "space origin: (10,20,30)\n\n0 10 20 30 40 50 60 70 80 90 100 110\n");
+    }
+    json info(const std::string& file) {
+        const ProgramResult result = lamina_run({"info", folder / file, "--json"});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return json::parse(result.out);
+    }
+    std::string text(const std::string& file) { return lamina_run({"info", folder / file}).out; }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Info, SaysWhereSamplesLieAndHowValuesAreSpread) {
+    const json found = info("a.nrrd");
+    EXPECT_EQ(found["spacing"], json({2, 0.5, 4}));
+    EXPECT_EQ(found["origin"], json({10, 20, 30}));
+    // Of twelve values the first is at least 8 %, the third 25 %, the sixth 50 %, and so on.
+    EXPECT_EQ(found["percentiles"],
+              json::parse(R"({"0.1": 0, "1": 0, "5": 0, "25": 20, "50": 50, "75": 80, "95": 110,
+                              "99": 110, "99.9": 110})"));
+    const auto counts = found["histogram"]["counts"].get<std::vector<int>>();
+    ASSERT_EQ(counts.size(), 111u);  // 0 .. 110
+    EXPECT_EQ(found["histogram"]["edges"].size(), 112u);
+    for (std::size_t value = 0; value < counts.size(); ++value)
+        EXPECT_EQ(counts[value], value % 10 == 0 ? 1 : 0) << value;
+    for (const char* key : {"kind", "size", "type", "centers", "bounds", "range", "nan_count"})
+        EXPECT_TRUE(found.contains(key)) << key;
+}
+
+TEST_F(Info, TextHasPercentilesAndAHistogram) {
+    const std::string shown = text("a.nrrd");
+    EXPECT_NE(shown.find("spacing           [2.0,0.5,4.0]\n"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("0.1 %: 0, 1 %: 0, 5 %: 0, 25 %: 20, 50 %: 50, 75 %: 80"),
+              std::string::npos)
+        << shown;
+    // 16 lines, of all values together.
+    EXPECT_EQ(std::count(shown.begin(), shown.end(), '%'), 9 + 16) << shown;
+    EXPECT_NE(shown.find("100 "), std::string::npos);
+}
+
+TEST_F(Info, OfAMeshItIsTheFirstScalarPointByPoint) {
+    write_bytes_to(folder / "m.node",
+                   "5 3 2 0\n0 0 0 0 1 9\n1 1 0 0 2 9\n2 0 1 0 3 9\n3 0 0 1 4 9\n4 1 1 1 10 9\n");
+    write_bytes_to(folder / "m.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");
+    const json found = info("m.node");
+    EXPECT_EQ(found["percentiles"]["0.1"], 1);
+    EXPECT_EQ(found["percentiles"]["25"], 2);
+    EXPECT_EQ(found["percentiles"]["50"], 3);
+    EXPECT_EQ(found["percentiles"]["99.9"], 10);
+    const auto counts = found["histogram"]["counts"].get<std::vector<int>>();
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 5);
+    EXPECT_EQ(counts.front(), 1);
+    EXPECT_EQ(counts.back(), 1);
+    EXPECT_EQ(found["histogram"]["edges"].front(), 1);
+    EXPECT_EQ(found["histogram"]["edges"].back(), 10);
+    // A mesh without scalars has neither.
+    write_bytes_to(folder / "n.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+    write_bytes_to(folder / "n.ele", "1 4 0\n0 0 1 2 3\n");
+    EXPECT_TRUE(info("n.node")["percentiles"].is_null());
+    EXPECT_TRUE(info("n.node")["histogram"].is_null());
+    EXPECT_NE(text("n.node").find("percentiles       null\n"), std::string::npos);
+    EXPECT_EQ(lamina_run({"info", folder / "n.node", "--png", folder / "n.png"}).exit_code, 0);
+}
+
+TEST_F(Info, NaNIsNotCounted) {
+    write_bytes_to(folder / "f.nrrd",
+                   "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n"
+                   "nan 1 nan inf 3 1 2 -inf\n");
+    const json found = info("f.nrrd");
+    EXPECT_EQ(found["nan_count"], 4);
+    EXPECT_EQ(found["percentiles"]["50"], 1);
+    EXPECT_EQ(found["percentiles"]["75"], 2);
+    EXPECT_EQ(found["percentiles"]["95"], 3);
+    const auto counts = found["histogram"]["counts"].get<std::vector<int>>();
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 4);
+    EXPECT_EQ(found["spacing"], json({1, 1, 1}));
+    write_bytes_to(
+        folder / "g.nrrd",
+        "NRRD0004\ntype: float\ndimension: 3\nsizes: 1 1 2\nencoding: ascii\n\nnan nan\n");
+    EXPECT_TRUE(info("g.nrrd")["percentiles"].is_null());
+    EXPECT_TRUE(info("g.nrrd")["range"].is_null());
+    EXPECT_EQ(lamina_run({"info", folder / "g.nrrd", "--png", folder / "g.png"}).exit_code, 0);
+}
+
+// Slices and histogram; along z, the longest axis with 8 of length, 256 pixels.
+TEST_F(Info, PictureHasTheAspectOfTheWorld) {
+    ASSERT_EQ(lamina_run({"info", folder / "a.nrrd", "--png", folder / "a.png"}).exit_code, 0);
+    const CodedImage picture = read_png(folder / "a.png");
+    EXPECT_GE(picture.width, 480);
+    EXPECT_GT(picture.height, 256 + 160);
+    // In the slice of x and z a sample of z is 128 pixels high, and one of x 64 wide. It stands
+    // right of the slice of x and y, which is 192 wide.
+    const int left = 8 + 192 + 8, bottom = 8 + 20 + 256 - 1;
+    const auto grey = [&](int column, int row) {
+        return picture.codes[static_cast<std::size_t>(3 * (row * picture.width + column))];
+    };
+    const auto code = [](int value) { return (255 * value + 55) / 110; };  // rounded
+    EXPECT_EQ(grey(left + 63, bottom), code(30));  // x 0, y 1 (the middle), z 0
+    EXPECT_EQ(grey(left + 64, bottom), code(40));
+    EXPECT_EQ(grey(left + 63, bottom - 127), code(30));
+    EXPECT_EQ(grey(left + 63, bottom - 128), code(90));
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_output.h"
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/stage.h"
+#include "different_files.h"
+#include "scene_files.h"
+#include "turntable.h"
+
+namespace lamina {
+namespace {
+
+// The scene's own picture, and the times of --frames.
+class SinglePicture : public RenderOutput {
+  public:
+    SinglePicture(const OutputOptions& options, const OutputScene& scene)
+        : name_(options.piped() ? "stdout" : options.output),
+          frames_(options.frames),
+          scene_(scene),
+          picture_(options.output, picture_format(options.output, options.format)) {}
+
+    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                     PictureAttributes attributes) override {
+        job.draw(plan, stats);
+        stats.first_picture_ms = scene_.watch.milliseconds();
+        if (frames_ > 0) time_frames(job, stats);
+        Stage writing("write");
+        attributes["renderer"] = stats.renderer;
+        const std::size_t clamped = job.write(picture_, attributes);
+        stats.stages_ms["write"] = writing.end();
+        stats.first_picture_ms += stats.stages_ms["write"];  // the picture of the first frame
+        stats.counts["clamped_pixels"] = static_cast<std::int64_t>(clamped);
+        return name_;
+    }
+
+  private:
+    // The camera turns a little further from frame to frame.
+    void time_frames(RenderJob& job, RenderStats& stats) const {
+        stats.frames_ms.clear();  // the scene's own frame was the warm-up
+        Progress progress("timing frames", frames_);
+        for (int i = 1; i <= frames_; ++i) {
+            check_interrupt();
+            const Camera camera = turned(scene_.scene.camera, degrees_per_frame * i);
+            Stage frame("frame");
+            frame.count("frame", i);
+            job.draw_frame(camera);
+            stats.frames_ms.push_back(frame.end());
+            progress.advance();
+        }
+    }
+
+    std::string name_;
+    int frames_;
+    OutputScene scene_;
+    PictureFile picture_;
+};
+
+}  // namespace
+
+bool OutputOptions::piped() const {
+    return output == standard_stream;
+}
+
+void OutputOptions::check() const {
+    if (views > 0 && frames > 0) throw UsageError("--turntable and --frames: expected one of them");
+    if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
+    if (force && views == 0) throw UsageError("--force: expected --turntable N, too");
+    if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
+    if (!output.empty() && views == 0) picture_format(output, format);
+    if (views > 0) Turntable::check(*this);
+}
+
+void add_output_options(CLI::App& verb, OutputOptions& options) {
+    constexpr int most_frames = 1000000, most_views = 100000;
+    verb.add_option("-o,--output", options.output,
+                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe");
+    verb.add_option("--format", options.format, "With -o -: png, exr or npy");
+    verb.add_option("--frames", options.frames,
+                    "Time this many frames, the camera turning a little")
+        ->check(CLI::Range(1, most_frames));
+    verb.add_option("--turntable", options.views,
+                    "Write this many views around the camera's centre, from -o out_%04d.png; views "
+                    "that are there from an earlier run of the same scene are kept")
+        ->check(CLI::Range(1, most_views));
+    verb.add_flag("--force", options.force,
+                  "With --turntable: draw views that are there, too, and replace files that it did "
+                  "not write, but never one that it reads");
+}
+
+std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
+                                          std::vector<std::filesystem::path> others) {
+    const std::vector<std::filesystem::path> read = files_of(scene.scene);
+    if (options.views > 0) return std::make_unique<Turntable>(options, scene, read, others);
+    if (!options.piped()) others.emplace_back(options.output);
+    expect_different_files(read, others);
+    if (options.output.empty()) return nullptr;
+    return std::make_unique<SinglePicture>(options, scene);
+}
+
+}  // namespace lamina

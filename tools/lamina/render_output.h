@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/stopwatch.h"
+#include "render_job.h"
+
+namespace lamina {
+
+// The options of `lamina render` that say what is written.
+struct OutputOptions {
+    std::string output;  // -o; empty: nothing, "-": stdout
+    std::string format;  // --format
+    int frames = 0;      // --frames; 0: none
+    int views = 0;       // --turntable; 0: none
+    bool force = false;  // --force
+
+    bool piped() const;
+    void check() const;  // throws UsageError where they contradict one another
+};
+
+void add_output_options(CLI::App& verb, OutputOptions& options);
+
+// What is drawn; all outlives the output.
+struct OutputScene {
+    const Scene& scene;
+    const OmissionSwitch& omissions;
+    const Stopwatch& watch;  // from the start of the run
+};
+
+// The pictures that one run writes.
+class RenderOutput {
+  public:
+    virtual ~RenderOutput() = default;
+    // Draws and writes them, and returns their names in words. `attributes`: of the scene's own
+    // picture, but for the renderer. The job has planned.
+    virtual std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                             PictureAttributes attributes) = 0;
+};
+
+// Opens the output, null where there is none: paths that cannot be written fail at once. `others`:
+// files that are written, too. Throws UsageError where one of them or of the output is a file that
+// the scene reads.
+std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
+                                          std::vector<std::filesystem::path> others);
+
+}  // namespace lamina

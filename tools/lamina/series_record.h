@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "base/stopwatch.h"
+
+namespace lamina {
+
+// What a series of pictures has written, in a file beside them: what the pictures were made of, and
+// a hash of each file. So a later run knows which ones are there, whole, and its own.
+class SeriesRecord {
+  public:
+    // `key`: a hash of all that the pictures depend on. What a record of another key lists is
+    // forgotten, as is one that cannot be read.
+    SeriesRecord(std::filesystem::path file, std::string key);
+
+    // Whether the file is in the record's folder as it was written.
+    bool has(const std::string& name) const;
+    // Adds a file that is complete. The record itself is written once a second, and by write().
+    void add(const std::string& name);
+    void write();
+
+  private:
+    std::filesystem::path file_;
+    std::string key_;
+    std::map<std::string, std::string> hashes_;
+    Stopwatch since_written_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "turntable.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/content_hash.h"
+#include "base/error.h"
+#include "base/file_hash.h"
+#include "base/interrupt.h"
+#include "base/json_text.h"
+#include "base/own_files.h"
+#include "base/progress.h"
+#include "different_files.h"
+#include "git_commit.h"
+#include "output_folder.h"
+#include "scene_files.h"
+#include "scene_files/scene_json.h"
+
+namespace lamina {
+namespace {
+
+constexpr const char* own_verb = "render --turntable";
+
+// A hash of all that the pictures depend on.
+std::string key_of(const OutputScene& of, const PictureAttributes& attributes, int views) {
+    ContentHash hash;
+    for (const auto& [name, text] : attributes) hash.add(text);
+    for (const std::filesystem::path& file : files_of(of.scene)) {
+        // The scene's own text is among the attributes, with what --set changed in it.
+        if (file != of.scene.file) hash.add(hash_of_file(file));
+    }
+    hash.add(of.omissions.none ? 1.0 : 0.0);
+    for (const std::string& name : of.omissions.kept) hash.add(name);
+    hash.add(std::string_view(git_commit));
+    hash.add(static_cast<double>(views));
+    return hash.hex();
+}
+
+// The scene of a view has the view's camera.
+std::string scene_text_of(const std::string& scene, const Camera& camera) {
+    nlohmann::json document = parse_json(scene);
+    document["camera"] = camera_json(camera);
+    return json_text(document, 2);
+}
+
+}  // namespace
+
+void Turntable::check(const OutputOptions& options) {
+    picture_format(FrameNames(options.output).name(0), options.format);
+}
+
+Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
+                     const std::vector<std::filesystem::path>& read,
+                     const std::vector<std::filesystem::path>& others)
+    : names_(options.output),
+      format_(picture_format(names_.name(0), options.format)),
+      views_(options.views),
+      force_(options.force),
+      scene_(scene) {
+    std::vector<std::filesystem::path> written = others;
+    for (const std::string& name : names()) written.push_back(path_of(name));
+    expect_different_files(read, written);
+    expect_own_folder(names_.folder(), own_verb, names(), read, force_);
+    // A folder that cannot be written fails at once.
+    if (names_.folder().empty() || std::filesystem::exists(names_.folder()))
+        const AtomicFile unused(path_of(names_.record_name()));
+}
+
+std::vector<std::string> Turntable::names() const {
+    std::vector<std::string> names;
+    for (int view = 0; view < views_; ++view) names.push_back(names_.name(view));
+    names.push_back(names_.record_name());
+    return names;
+}
+
+Camera Turntable::camera_of(int view) const {
+    const Camera& own = scene_.scene.camera;
+    return view == 0 ? own : turned(own, 360.0 * view / views_);
+}
+
+std::vector<int> Turntable::missing(const SeriesRecord& record) const {
+    std::vector<int> views;
+    for (int view = 0; view < views_; ++view) {
+        if (force_ || !record.has(names_.name(view))) views.push_back(view);
+    }
+    return views;
+}
+
+void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record, RenderJob& job,
+                             const Plan& plan, RenderStats& stats,
+                             PictureAttributes& attributes) const {
+    Progress progress("drawing views", static_cast<std::int64_t>(views.size()));
+    const std::string scene_text = attributes.at("scene");
+    std::int64_t clamped = 0;
+    for (const int view : views) {
+        check_interrupt();
+        const std::string name = names_.name(view);
+        const Camera camera = camera_of(view);
+        PictureFile picture(path_of(name), format_);
+        job.draw_view(camera, plan, stats);
+        attributes["scene"] = scene_text_of(scene_text, camera);
+        attributes["renderer"] = stats.renderer;
+        clamped += static_cast<std::int64_t>(job.write(picture, attributes));
+        if (view == views.front()) stats.first_picture_ms = scene_.watch.milliseconds();
+        record.add(name);
+        progress.advance();
+    }
+    stats.counts["clamped_pixels"] = clamped;
+}
+
+std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                            PictureAttributes attributes) {
+    OwnFiles(names_.folder(), own_verb).add(names());
+    attributes["renderer"] = stats.renderer;
+    SeriesRecord record(path_of(names_.record_name()), key_of(scene_, attributes, views_));
+    const std::vector<int> views = missing(record);
+    try {
+        draw_missing(views, record, job, plan, stats, attributes);
+    } catch (const Interrupted&) {
+        record.write();
+        throw;
+    }
+    record.write();
+    const int drawn = static_cast<int>(views.size()), kept = views_ - drawn;
+    stats.counts["kept_views"] = kept;
+    const std::string written =
+        fmt::format("{} of {} views as {}", drawn, views_, path_of(names_.name(0)).string());
+    const std::string last = views_ > 1 ? " .. " + names_.name(views_ - 1) : "";
+    return written + last + (kept > 0 ? fmt::format("; {} were there and are kept", kept) : "");
+}
+
+}  // namespace lamina

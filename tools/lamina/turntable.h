@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "frame_names.h"
+#include "render_output.h"
+#include "series_record.h"
+
+namespace lamina {
+
+// The pictures of `render --turntable`: views around the camera's axis `up` through its centre, at
+// equal angles over 360 degrees, the scene's own first. Views that an earlier run wrote of the same
+// scene and data are kept.
+class Turntable : public RenderOutput {
+  public:
+    // Throws UsageError where the names or the format of the files cannot be had.
+    static void check(const OutputOptions& options);
+
+    // Throws UsageError where it would replace a file of `read` or write one of `others`, and Error
+    // where a file is there that no turntable wrote, unless options.force.
+    Turntable(const OutputOptions& options, const OutputScene& scene,
+              const std::vector<std::filesystem::path>& read,
+              const std::vector<std::filesystem::path>& others);
+
+    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                     PictureAttributes attributes) override;
+
+  private:
+    std::vector<std::string> names() const;  // in the folder, the record last
+    std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }
+    Camera camera_of(int view) const;
+    std::vector<int> missing(const SeriesRecord& record) const;
+    void draw_missing(const std::vector<int>& views, SeriesRecord& record, RenderJob& job,
+                      const Plan& plan, RenderStats& stats, PictureAttributes& attributes) const;
+
+    FrameNames names_;
+    PictureFormat format_;
+    int views_;
+    bool force_;
+    OutputScene scene_;
+};
+
+}  // namespace lamina
