@@ -16,15 +16,15 @@ namespace lamina {
 namespace {
 
 constexpr int room = 8;  // pixels around slices
-constexpr int dot = 2, text_high = (text_dots_high + 3) * dot;
-constexpr double shortest = 256, longest = 1024;  // pixels along the longest axis
-constexpr double rounding = 1e-9;
+constexpr int letter_dot = 2, title_high = (text_dots_high + 3) * letter_dot;
+constexpr double fewest_pixels = 256, most_pixels = 1024;  // along the longest axis
+constexpr double share_of_rounding = 1e-9;
 constexpr PixelColor no_value{20, 40, 160}, paper{255, 255, 255}, ink{40, 40, 40};
 
 struct Slice {
     std::size_t right, up, across;  // axes
 };
-constexpr std::array<Slice, 3> slices{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};
+constexpr std::array<Slice, 3> slice_axes{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};
 
 PixelColor grey(double value, const ValueRange& range) {
     if (!std::isfinite(value)) return no_value;
@@ -42,8 +42,9 @@ std::array<int, 3> pixels_of(const Grid& grid) {
     }
     const double whole = *std::max_element(length.begin(), length.end());
     double per_length = 1 / *std::min_element(spacing.begin(), spacing.end());
-    per_length *= std::max(1.0, std::ceil(shortest / (whole * per_length) - rounding));
-    per_length = std::min(per_length, longest / whole);
+    per_length *=
+        std::max(1.0, std::ceil(fewest_pixels / (whole * per_length) - share_of_rounding));
+    per_length = std::min(per_length, most_pixels / whole);
     std::array<int, 3> pixels{};
     for (std::size_t axis = 0; axis < 3; ++axis)
         pixels[axis] = std::max(1, static_cast<int>(std::lround(per_length * length[axis])));
@@ -82,18 +83,18 @@ CodedImage middle_slices(const Volume& volume, const ValueRange& range) {
     const std::array<int, 3> pixels = pixels_of(grid);
     std::array<int, 3> left{};
     int width = room;
-    for (std::size_t i = 0; i < slices.size(); ++i) {
+    for (std::size_t i = 0; i < slice_axes.size(); ++i) {
         left[i] = width;
-        width +=
-            room + std::max(pixels[slices[i].right], text_width(title_of(slices[i], grid), dot));
+        width += room + std::max(pixels[slice_axes[i].right],
+                                 text_width(title_of(slice_axes[i], grid), letter_dot));
     }
-    const int bottom = room + text_high + std::max(pixels[1], pixels[2]) - 1;
+    const int bottom = room + title_high + std::max(pixels[1], pixels[2]) - 1;
     CodedImage image(width, bottom + 1 + room, 3, 8);
     fill_rectangle(image, 0, 0, image.width, image.height, paper);
-    for (std::size_t i = 0; i < slices.size(); ++i) {
-        draw_text(image, left[i], room, title_of(slices[i], grid), dot, ink);
+    for (std::size_t i = 0; i < slice_axes.size(); ++i) {
+        draw_text(image, left[i], room, title_of(slice_axes[i], grid), letter_dot, ink);
         volume.visit([&](const auto* samples) {
-            draw_slice(grid, samples, range, slices[i], pixels, left[i], bottom, image);
+            draw_slice(grid, samples, range, slice_axes[i], pixels, left[i], bottom, image);
         });
     }
     return image;

@@ -74,7 +74,7 @@ void FrameJob::draw_view(const Camera& camera, const Plan& plan, RenderStats& st
     frames_->set_camera(camera);
     if (!image_) return draw(plan, stats);
     Stage frame("frame");
-    frame.count("frame", static_cast<std::int64_t>(stats.frames_ms.size()));
+    frame.count("frame", static_cast<double>(stats.frames_ms.size()));
     frames_->draw();
     stats.frames_ms.push_back(frame.end());
     frames_->read(*image_);

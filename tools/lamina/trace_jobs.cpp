@@ -41,7 +41,7 @@ class VolumeTraceJob : public RenderJob {
 
     void draw_view(const Camera& camera, const Plan&, RenderStats& stats) override {
         Stage frame("frame");
-        frame.count("frame", static_cast<std::int64_t>(stats.frames_ms.size()));
+        frame.count("frame", static_cast<double>(stats.frames_ms.size()));
         result_.emplace(trace(camera));
         record(frame.end(), result_->error_estimate, stats);
     }
@@ -90,7 +90,7 @@ class MeshTraceJob : public RenderJob {
 
     void draw_view(const Camera& camera, const Plan&, RenderStats& stats) override {
         Stage frame("frame");
-        frame.count("frame", static_cast<std::int64_t>(stats.frames_ms.size()));
+        frame.count("frame", static_cast<double>(stats.frames_ms.size()));
         result_.emplace(trace(camera));
         record(frame.end(), result_->error_estimate, stats);
         keep_largest(
