@@ -14,14 +14,14 @@ namespace lamina {
 namespace {
 
 // Linear light; neighbours differ in hue.
-constexpr std::array<glm::dvec3, 8> colors{{{.75, .20, .05},
-                                            {.06, .30, .65},
-                                            {.80, .55, .08},
-                                            {.10, .45, .15},
-                                            {.45, .12, .50},
-                                            {.08, .50, .50},
-                                            {.75, .30, .40},
-                                            {.70, .65, .55}}};
+constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
+                                                  {.06, .30, .65},
+                                                  {.80, .55, .08},
+                                                  {.10, .45, .15},
+                                                  {.45, .12, .50},
+                                                  {.08, .50, .50},
+                                                  {.75, .30, .40},
+                                                  {.70, .65, .55}}};
 
 // The rarer a label, the denser, up to ten times.
 double extinction_of(double share) {
@@ -44,7 +44,7 @@ AutomaticTransfer label_transfer(const ValueDistribution& values) {
     double largest = 0;
     for (std::size_t i = 0; i < values.distinct(); ++i) {
         const double share = values.share(values.value(i), values.value(i)) / (1 - most);
-        OpticalProperties optics{colors[(i + (i > common ? 7 : 0)) % colors.size()],
+        OpticalProperties optics{label_colors[(i + (i > common ? 7 : 0)) % label_colors.size()],
                                  extinction_of(share)};
         if (i == common) optics = {};
         largest = std::max(largest, optics.extinction);
