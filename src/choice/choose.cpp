@@ -68,6 +68,10 @@ void change_transfer_function(Scene& scene, const Wishes& wishes) {
 }  // namespace
 
 Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
+    if (field.range().empty()) {  // no number: whoever draws this says so
+        scene.automatic_transfer_function = scene.automatic_camera = false;
+        return scene;
+    }
     std::string reason;
     if (scene.automatic_transfer_function) {
         AutomaticTransfer chosen =

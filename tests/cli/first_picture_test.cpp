@@ -263,7 +263,7 @@ TEST_F(FirstPicture, APictureThatShowsNothingSaysWhy) {
     bad["camera"]["center"] = {3, -3, 3};
     expect(bad, "the camera looks away from the data");
     bad = scene;
-    bad["camera"]["center"] = {1.7, 3, 1.3};
+    bad["camera"]["center"] = {4, 0, 1.3};
     expect(bad, "the camera looks past the data");
     bad = scene;
     bad["transfer_function"]["points"][1]["extinction"] = 1e-6;

@@ -98,8 +98,9 @@ void run(const RenderOptions& options) {
     const auto say = [&](const std::string& text) { message(options, text); };
     RenderStats stats;
     const SceneData data = load_data(scene, wishes, stats);
-    const std::string scene_text = json_text(
-        scene.chosen.empty() ? document : nlohmann::json(document_of(scene, document)), 2);
+    const bool changed = !scene.chosen.empty() || wishes.transfer_function() || wishes.camera();
+    const std::string scene_text =
+        json_text(changed ? nlohmann::json(document_of(scene, document)) : document, 2);
     for (const std::string& chosen : scene.chosen) say(chosen);
     const bool many_frames = options.output.frames > 0 || options.output.views > 0;
     const auto job =
