@@ -13,8 +13,8 @@ namespace lamina {
 
 // What a user may ask of it.
 struct TransferWishes {
-    std::optional<Colormap> colormap;  // in place of its own colours
-    std::optional<ValueRange> range;   // what shows, lo < hi: values below are transparent
+    std::optional<Colormap> colormap{};  // in place of its own colours
+    std::optional<ValueRange> range{};   // what shows, lo < hi: values below are transparent
 };
 
 struct AutomaticTransfer {

@@ -13,9 +13,9 @@ namespace lamina {
 
 // What is wanted differently from what the scene says, or from what would be chosen.
 struct Wishes {
-    TransferWishes transfer;
+    TransferWishes transfer{};
     double density = 1;  // factor on extinction
-    ViewTurn turn;
+    ViewTurn turn{};
     double zoom = 1;
 
     bool transfer_function() const { return transfer.colormap || transfer.range || density != 1; }
