@@ -2,6 +2,7 @@
 // lamina render --turntable.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -89,6 +90,16 @@ TEST_F(TurntableRun, TheFirstViewIsTheScenesOwnPicture) {
         turn_well(method + "%%_%d.npy", "wrote 4 of 4", {"--method", method});
         EXPECT_TRUE(std::filesystem::exists(folder / (method + "%_3.npy")));
     }
+}
+
+TEST_F(TurntableRun, TheCurrentFolderIsAFolderToo) {
+    const ProgramResult result =
+        lamina_run({"render", "scene.json", "-o", "v_%d.png", "--turntable", "2"}, [this] {
+            if (chdir(folder.path().c_str()) != 0) _exit(126);
+        });
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("as v_0.png .. v_1.png"), std::string::npos) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "v_1.png"));
 }
 
 TEST_F(TurntableRun, WhatIsThereAndWholeIsKept) {

@@ -20,7 +20,8 @@ constexpr int bar_letters = 40, narrowest_picture = 480;
 }  // namespace
 
 void add_statistics(const ValueStatistics& statistics, Json& info) {
-    info["percentiles"] = info["histogram"] = nullptr;
+    info["percentiles"] = nullptr;
+    info["histogram"] = nullptr;
     if (statistics.percentiles.empty()) return;
     Json percentiles = Json::object();
     for (std::size_t i = 0; i < statistics.percentiles.size(); ++i) {

@@ -61,10 +61,9 @@ Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
     std::vector<std::filesystem::path> written = others;
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(read, written);
-    expect_own_folder(names_.folder(), own_verb, names(), read, force_);
+    expect_own_folder(folder(), own_verb, names(), read, force_);
     // A folder that cannot be written fails at once.
-    if (names_.folder().empty() || std::filesystem::exists(names_.folder()))
-        const AtomicFile unused(path_of(names_.record_name()));
+    if (std::filesystem::exists(folder())) const AtomicFile unused(path_of(names_.record_name()));
 }
 
 std::vector<std::string> Turntable::names() const {
@@ -111,7 +110,7 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
 
 std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
                             PictureAttributes attributes) {
-    OwnFiles(names_.folder(), own_verb).add(names());
+    OwnFiles(folder(), own_verb).add(names());
     attributes["renderer"] = stats.renderer;
     SeriesRecord record(path_of(names_.record_name()), key_of(scene_, attributes, views_));
     const std::vector<int> views = missing(record);

@@ -30,6 +30,7 @@ class Turntable : public RenderOutput {
 
   private:
     std::vector<std::string> names() const;  // in the folder, the record last
+    std::filesystem::path folder() const { return names_.folder().empty() ? "." : names_.folder(); }
     std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }
     Camera camera_of(int view) const;
     std::vector<int> missing(const SeriesRecord& record) const;
