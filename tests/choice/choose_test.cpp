@@ -11,6 +11,7 @@
 
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
+#include "scene/camera.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
 #include "support/split_box.h"
