@@ -14,6 +14,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 constexpr double fov_y = 30;
 constexpr double margin = 1.0 / 25;  // of half the picture
+constexpr double least_across = 0.02;
 
 // Right-handed, orthonormal: a camera's own axes.
 struct Axes {
@@ -89,7 +90,10 @@ Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const V
     Camera camera;
     camera.center = axis - depth.middle() * to.toward;
     camera.eye = axis - eye_depth * to.toward;
-    camera.up = to.up;
+    // The data's own up where that is a direction across the view, so that turntables stand
+    // upright.
+    const glm::dvec3 up = axes_of(axes).up;
+    camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
     camera.fov_y = fov_y;
     return camera;
 }

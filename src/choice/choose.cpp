@@ -39,10 +39,15 @@ std::string vector_text(const glm::dvec3& v) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z);
 }
 
+// Rays with less than this share of the deepest one's optical depth meet noise alone.
+constexpr double least_depth = 0.002;
+
 // The factor that makes the median ray as opaque as wanted; 1 where no ray meets anything.
 double density_of(const Scene& scene, const Field& field) {
     std::vector<double> depths = field.optical_depths(scene);
-    std::erase_if(depths, [](double depth) { return !(depth > 0); });
+    if (depths.empty()) return 1;
+    const double least = least_depth * *std::ranges::max_element(depths);
+    std::erase_if(depths, [&](double depth) { return !(depth > least); });
     if (depths.empty()) return 1;
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::ranges::nth_element(depths, middle);

@@ -92,14 +92,24 @@ UsualRange usual_range(const ValueDistribution& values) {
 }
 
 CommonValues find_common_values(const ValueDistribution& values, bool whole_numbers) {
+    // A mask: what there is more of is background.
+    if (values.distinct() == 2) {
+        const bool low = values.share_up_to(values.lowest()) >= 0.5;
+        const double more = low ? values.lowest() : values.highest();
+        return {more, more, true};
+    }
+    // Ranges that double precision cannot divide have no bins.
+    const UsualRange range = usual_range(values);
+    const double width = range.hi - range.lo;
+    if (!(width / most_bins > 0) || !std::isfinite(width)) return densest(values, common_share);
     const Bins bins(values, whole_numbers);
     const std::size_t peak = bins.highest();
     const std::size_t first = bins.end_of_peak(peak, -1), last = bins.end_of_peak(peak, 1);
     CommonValues found{bins.edge(first), bins.edge(last + 1), true};
     if (first == 0) found.lo = values.lowest();
     if (last + 1 == bins.count()) found.hi = values.highest();
-    const double width = static_cast<double>(last - first + 1) / static_cast<double>(bins.count());
-    const bool background = width <= most_width && values.share(found.lo, found.hi) >= least_share;
+    const double share = static_cast<double>(last - first + 1) / static_cast<double>(bins.count());
+    const bool background = share <= most_width && values.share(found.lo, found.hi) >= least_share;
     return background ? found : densest(values, common_share);
 }
 

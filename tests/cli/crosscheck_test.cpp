@@ -276,11 +276,6 @@ TEST_F(Crosschecks, BadArgumentsAreOneLineAndWriteNothing) {
     scene["mesh"] = "absent.vtu";
     scene["render"]["method"] = "project";
     expect_refused(1, {}, "volume: is missing, expected the volume that both methods show");
-    // A mesh that is given, or made without a tolerance, has no ladder.
-    scene["volume"] = kept["volume"];
-    expect_refused(2, {"--tolerances", ".1"}, "--tolerances: the scene's mesh file has none");
-    scene["mesh"] = {{"kuhn", true}};
-    expect_refused(2, {"--tolerances", ".1"}, "--tolerances: the scene's mesh.kuhn has none");
     scene = kept;
     scene["render"]["slise"] = 1;
     expect_refused(1, {}, "did you mean \"slice\"");

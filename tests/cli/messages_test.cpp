@@ -48,8 +48,9 @@ class Messages : public testing::Test {
 
 TEST_F(Messages, NamesAreEscaped) {
     for (const char* const verb : {"render", "study", "mesh", "crosscheck"}) {
+        const std::string output = std::string(verb) == "render" ? "out.exr" : "out.vtu";
         const ProgramResult result =
-            lamina_run({verb, folder / (hostile + ".json"), "-o", folder / "out.vtu"});
+            lamina_run({verb, folder / (hostile + ".json"), "-o", folder / output});
         EXPECT_NE(result.exit_code, 0);
         expect_line(result.err, {escaped + ".json: no such file"});
     }

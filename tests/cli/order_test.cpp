@@ -88,7 +88,7 @@ TEST(Order, MistakesAreNamed) {
     EXPECT_EQ(order({}).exit_code, 2);
     const ProgramResult unknown = order({"picture.png"});
     EXPECT_EQ(unknown.exit_code, 1);
-    EXPECT_NE(unknown.err.find("picture.png: unknown kind of file"), std::string::npos);
+    EXPECT_NE(unknown.err.find("picture.png: no such file"), std::string::npos);
     EXPECT_EQ(order({(folder.path() / "none.vtu").string()}).exit_code, 1);
 }
 

@@ -82,25 +82,14 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
         print_result("{}\n", printable(finding));
 }
 
-// Before anything is made: what is compared is a volume, and a mesh of it.
-void check_scene(const Scene& scene, const CrosscheckOptions& options) {
-    if (!scene.has_volume())
-        fail("{}: volume: is missing, expected the volume that both methods show",
-             scene.file.string());
-    const bool one_mesh =
-        !scene.mesh_file.empty() || (scene.mesh_request && scene.mesh_request->kuhn);
-    if (one_mesh && !options.settings.stop_when_agreed) {
-        throw UsageError(fmt::format(
-            "--tolerances: the scene's {} has none, expected a mesh that is made with a tolerance",
-            scene.mesh_file.empty() ? "mesh.kuhn" : "mesh file"));
-    }
-}
-
 void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
     Scene scene = load_scene(options.scene, {}, ignored);
-    check_scene(scene, options);
+    // Before anything is made: what is compared is a volume, and a mesh of it.
+    if (!scene.has_volume())
+        fail("{}: volume: is missing, expected the volume that both methods show",
+             scene.file.string());
     const std::filesystem::path folder = options.output;
     expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
     choose_for_volume(scene);

@@ -118,7 +118,11 @@ std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats
         draw_missing(views, record, job, plan, stats, attributes);
     } catch (const Interrupted&) {
         record.write();
-        throw;
+        const auto missing_now = static_cast<int>(missing(record).size());
+        throw Interrupted(
+            fmt::format("interrupted: {} of {} views are there; the same command "
+                        "goes on",
+                        views_ - missing_now, views_));
     }
     record.write();
     const int drawn = static_cast<int>(views.size()), kept = views_ - drawn;

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "base/error.h"
@@ -60,10 +61,24 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
         ->group(group);
 }
 
+namespace {
+
+// A name that is neither a map's nor a file's is a mistake of usage; a damaged file is none.
+Colormap colormap_of(const std::string& name_or_path, ImageColorSpace space) {
+    try {
+        return load_colormap(name_or_path, space);
+    } catch (const Error& error) {
+        if (std::filesystem::exists(name_or_path)) throw;
+        throw UsageError(fmt::format("--colormap {}", error.what()));
+    }
+}
+
+}  // namespace
+
 Wishes wishes_of(const ViewOptions& options, ImageColorSpace space) {
     Wishes wishes;
     if (!options.colormap.empty()) {
-        Colormap colormap = load_colormap(options.colormap, space);
+        Colormap colormap = colormap_of(options.colormap, space);
         // A file seldom says whether its values are those of data. Most are not.
         if (!is_colormap_name(options.colormap)) colormap.own_range = false;
         wishes.transfer.colormap = std::move(colormap);
