@@ -68,8 +68,15 @@ def cut_at_knots(pieces, optics):
     return joined(*done, undecided), numpy.concatenate([*parts, middle]), undecided
 
 
-def integrate(pieces, optics, rays, nodes=8):
+def integrate(pieces, optics, rays):
     """RGBA [rays, 4], and of each ray a bound on what the cuts at knots left undecided."""
+    thin, doubt = thin_pieces(pieces, optics, rays)
+    return emitted(thin, rays), doubt
+
+
+def thin_pieces(pieces, optics, rays):
+    """What emitted() takes: of each piece ray, length, values and the optical depth before it, in the order of the
+    rays; and the bound of integrate()."""
     pieces, part, undecided = cut_at_knots(pieces, optics)
     doubt = numpy.bincount(undecided.ray, undecided.length * optics.densest, rays) * optics.brightest
     # [piece, coefficient, RGB and extinction]: linear in the scalar, so Bernstein coefficients, too.
@@ -94,11 +101,12 @@ def integrate(pieces, optics, rays, nodes=8):
         start = numpy.concatenate([start[~thick], start[thick], start[thick] + half])
         length = numpy.concatenate([length[~thick], half, half])
         values = numpy.concatenate([values[~thick], numpy.stack(low, 2), numpy.stack(high, 2)])
-    return emitted(ray, length, values, before, rays, nodes), doubt
+    return (ray, length, values, before), doubt
 
 
-def emitted(ray, length, values, before, rays, nodes):
-    """The sum over pieces of optical depth up to SPREADS, `before` each of them that in front of it."""
+def emitted(thin, rays, nodes=8):
+    """The sum over pieces of optical depth up to SPREADS: RGBA [rays, 4]."""
+    ray, length, values, before = thin
     places, weights = numpy.polynomial.legendre.leggauss(nodes)
     colors = numpy.zeros((len(ray), 3))
     for place, weight in zip((places + 1) / 2, weights / 2):

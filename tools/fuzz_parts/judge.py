@@ -102,9 +102,9 @@ class Judge:
                   for a, b, c in ((0, 0, 0), (1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))]
         pieces = pieces_of(data, numpy.concatenate([origins + shift for shift in shifts]),
                            numpy.tile(directions, (len(shifts), 1)))
-        colors, doubt = emission.integrate(pieces, self.optics, count * len(shifts))
-        coarser, _ = emission.integrate(pieces, self.optics, count * len(shifts), nodes=6)
-        colors, coarser = (x.reshape(len(shifts), count, 4) for x in (colors, coarser))
+        thin, doubt = emission.thin_pieces(pieces, self.optics, count * len(shifts))
+        colors, coarser = (emission.emitted(thin, count * len(shifts), nodes).reshape(len(shifts), count, 4)
+                           for nodes in (8, 6))
         doubt = numpy.minimum(doubt.reshape(len(shifts), count).max(0), self.optics.brightest)
         spread = numpy.abs(colors - colors[0]).max((0, 2))
         converged = numpy.abs(colors - coarser).max((0, 2))

@@ -108,15 +108,16 @@ def make(dice, value_range, length):
     return result, kind
 
 
-SLOPE_PIECES = 400  # of a slope of opacity, here
+SLOPE_PIECES = 400  # of a slope from opacity 0 to 1, here
 STEEPEST = 17  # optical depth over unit_length
 
 
 def slope(a, b):
-    """Opacities between two, evenly in the root of the optical depth, which makes the errors of chords even: at most
-    STEEPEST / (2 * 400^2) = 5.3e-5 of the depth."""
+    """Opacities between two, evenly in the root of the optical depth, which makes the errors of chords even: with steps
+    of sqrt(STEEPEST) / 400 at most STEEPEST / (2 * 400^2) = 5.3e-5 of the depth."""
     low, high = (math.sqrt(min(-math.log1p(-x), STEEPEST)) if x < 1 else math.sqrt(STEEPEST) for x in (a, b))
-    depths = numpy.linspace(low, high, SLOPE_PIECES + 1)[1:-1] ** 2
+    pieces = math.ceil(SLOPE_PIECES * abs(high - low) / math.sqrt(STEEPEST))
+    depths = numpy.linspace(low, high, pieces + 1)[1:-1] ** 2
     return -numpy.expm1(-depths)
 
 
