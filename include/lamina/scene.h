@@ -44,7 +44,7 @@ struct Scene {
     std::vector<std::string> chosen;  // what was, for people; empty where nothing was automatic
     int width = 800;
     int height = 600;
-    // What colours and background are given in, and pictures composited in.
+    // Colours and background are given, and pictures composited, in its numbers.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
     Method method = Method::slice;

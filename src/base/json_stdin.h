@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// What a JSON text from stdin is called in messages, like the name of a file.
+// Messages call a JSON text from stdin by this name, like a file.
 inline constexpr const char* stdin_name = "stdin";
 
 // Parses all that comes from stdin, within the limits of base/json_text.h. Error messages begin

@@ -147,7 +147,7 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
             fmt::format("values from {:.6g} to {:.6g} show, as wished", range.lo, range.hi)};
 }
 
-// What shows beyond common values, on one side of them or both.
+// A transfer function that shows values beyond the common ones, on one side of them or both.
 AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonValues& common) {
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
     const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);

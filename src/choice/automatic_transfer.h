@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// What a user may ask of it.
+// A user may ask for these.
 struct TransferWishes {
     std::optional<Colormap> colormap{};  // in place of its own colours
     std::optional<ValueRange> range{};   // what shows, lo < hi: values below are transparent

@@ -20,10 +20,8 @@ constexpr double median_opacity = .9;
 constexpr double seen_share = 1e-3;
 
 double largest_extinction(const TransferFunction& transfer_function) {
-    double largest = 0;
-    for (const TransferKnot& knot : transfer_function.knots())
-        largest = std::max(largest, knot.optics.extinction);
-    return largest;
+    const auto knots = transfer_function.knots();
+    return transfer_function.max_extinction(knots.front().value, knots.back().value);
 }
 
 std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene leaves open, chosen from its data: transfer function and camera.
+// Transfer function and camera are chosen from the data where a scene leaves them open.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-// What is wanted differently from what the scene says, or from what would be chosen.
+// Differences that are wanted from the scene, or from what would be chosen.
 struct Wishes {
     TransferWishes transfer{};
     double density = 1;  // factor on extinction
@@ -27,7 +27,7 @@ struct Wishes {
 // give the same scene.
 Scene choose(Scene scene, const Field& field, const Wishes& wishes = {});
 
-// What was chosen, as the first lines of an explanation of the plan.
+// The first lines of an explanation of the plan: they say what was chosen.
 std::string chosen_text(const Scene& scene);
 
 }  // namespace lamina

@@ -18,7 +18,7 @@ constexpr double outer_width = 1.0 / 8;  // of the range, that all but these hav
 constexpr double tail = .03;
 constexpr int tail_width = 20;
 
-// What is background takes at least a fifth of the field, in at most 2 fifths of its range.
+// Background takes at least a fifth of the field, in at most two fifths of its range.
 constexpr double least_share = .2, most_width = .4;
 // Where nothing stands out, this share counts as common.
 constexpr double common_share = 1.0 / 3;

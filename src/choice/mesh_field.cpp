@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-#include "base/parallel.h"
 #include "choice/box_corners.h"
 #include "facts/view_rays.h"
 #include "optics/linear_pieces.h"
@@ -19,22 +18,6 @@ constexpr std::size_t most_tets = std::size_t{1} << 19;
 // Of a tet, four places that stand for a quarter of it each: the points of the quadrature rule that
 // is exact for quadratic functions (Hammer and Stroud 1956).
 constexpr double near_corner = 0.58541019662496845, near_others = 0.13819660112501051;
-
-struct Range {
-    double lo = INFINITY, hi = -INFINITY;
-    bool finite = true;
-};
-
-Range range_of(std::span<const double> values, const Tet& tet) {
-    Range range;
-    for (const std::int32_t corner : tet) {
-        const double value = values[static_cast<std::size_t>(corner)];
-        range.lo = std::min(range.lo, value);
-        range.hi = std::max(range.hi, value);
-        range.finite = range.finite && std::isfinite(value);
-    }
-    return range;
-}
 
 // Six times the volume of a tet, in units of the mesh's diagonal.
 double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
@@ -67,8 +50,8 @@ ValueDistribution MeshField::distribution() const {
     std::vector<WeightedValue> values;
     for (std::size_t i = 0; i < tets.size(); i += step) {
         const Tet& tet = tets[i];
-        const Range range = range_of(mesh_.scalar.values, tet);
-        if (!range.finite) continue;
+        const ValueRange range = range_in(mesh_.scalar.values, tet);
+        if (range.empty()) continue;
         const double weight = volume_of(mesh_.mesh, tet, diagonal);
         double sum = 0;
         for (const std::int32_t corner : tet)
@@ -87,8 +70,8 @@ std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer
     const auto points = mesh_.mesh.points();
     std::vector<char> shown(points.size());
     for (const Tet& tet : mesh_.mesh.tets()) {
-        const Range range = range_of(mesh_.scalar.values, tet);
-        if (!range.finite || !(transfer_function.max_extinction(range.lo, range.hi) > least))
+        const ValueRange range = range_in(mesh_.scalar.values, tet);
+        if (range.empty() || !(transfer_function.max_extinction(range.lo, range.hi) > least))
             continue;
         for (const std::int32_t corner : tet) shown[static_cast<std::size_t>(corner)] = 1;
     }

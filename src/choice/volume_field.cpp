@@ -9,9 +9,9 @@
 #include <numeric>
 #include <type_traits>
 
-#include "base/parallel.h"
 #include "choice/box_corners.h"
 #include "facts/facts.h"
+#include "volume/code_counts.h"
 
 namespace lamina {
 namespace {
@@ -19,27 +19,15 @@ namespace {
 // Enough that a share of 1e-4 of the samples is known to 7 percent.
 constexpr std::int64_t most_float_samples = std::int64_t{1} << 21;
 
-// Integers are all counted, in parts that are added afterwards.
+// Integers are all counted.
 template <typename T>
 std::vector<WeightedValue> weighted_values(const T* samples, std::int64_t count) {
-    constexpr std::int64_t codes = std::int64_t{1} << (8 * sizeof(T));
-    constexpr std::int64_t lowest = std::numeric_limits<T>::min();
-    constexpr std::int64_t parts = 16;
-    std::vector<std::vector<std::int64_t>> counts(parts);
-    parallel_for(parts, 1, [&](std::int64_t part) {
-        std::vector<std::int64_t>& found = counts[static_cast<std::size_t>(part)];
-        found.resize(static_cast<std::size_t>(codes));
-        const std::int64_t end =
-            count / parts * (part + 1) + (part + 1 == parts ? count % parts : 0);
-        for (std::int64_t i = count / parts * part; i < end; ++i)
-            ++found[static_cast<std::size_t>(std::int64_t{samples[i]} - lowest)];
-    });
+    const Counts counts = count_codes(samples, count);
     std::vector<WeightedValue> values;
-    for (std::int64_t code = 0; code < codes; ++code) {
-        std::int64_t sum = 0;
-        for (const auto& found : counts) sum += found[static_cast<std::size_t>(code)];
-        if (sum > 0)
-            values.push_back({static_cast<double>(code + lowest), static_cast<double>(sum)});
+    for (std::size_t code = 0; code < counts.size(); ++code) {
+        if (counts[code] > 0)
+            values.push_back({static_cast<double>(code) + std::numeric_limits<T>::min(),
+                              static_cast<double>(counts[code])});
     }
     return values;
 }

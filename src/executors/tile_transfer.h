@@ -36,9 +36,8 @@ struct TileTransfer {
     std::vector<float> right_end;  // of the last interval: beyond all scalars
     // Remainders of the extinctions that float does not hold.
     std::vector<float> left_rest, right_rest;
-    // Number of intervals with extinction before it; the scalar beyond which it has extinction
-    // itself
-    // (-1: from its left end on; beyond all scalars: nowhere).
+    // Number of intervals with extinction before it; and the scalar beyond which it has extinction
+    // itself: -1 where it has some from its left end on, beyond all scalars where it has none.
     std::vector<float> shown_before, shown_beyond;
     std::vector<std::int32_t> starts;  // ShaderIntervals::starts
 

@@ -2,10 +2,10 @@
 #include "facts/tet_pieces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
+
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 
@@ -24,13 +24,9 @@ TetPieces::TetPieces(const TransferFunction& transfer_function, const ValueRange
 }
 
 TetPieces::Span TetPieces::met(std::span<const double> scalar, const Tet& tet) const {
-    double lo = INFINITY, hi = -INFINITY;
-    for (const std::int32_t corner : tet) {
-        const double value = scalar[static_cast<std::size_t>(corner)];
-        if (!std::isfinite(value)) return {};
-        lo = std::min(lo, value);
-        hi = std::max(hi, value);
-    }
+    const ValueRange range = range_in(scalar, tet);
+    if (range.empty()) return {};
+    const auto [lo, hi] = range;
     // The first that begins above lo lies behind the one that has it, and so does, where the scalar
     // varies, the first that does not end below hi.
     const auto above = std::ranges::upper_bound(pieces_, lo, {}, &LinearPiece::from);

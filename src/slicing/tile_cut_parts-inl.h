@@ -25,12 +25,7 @@ class CutParts {
     // Adds the `members` of a vector of parts, of which `first` is the number of the first.
     HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length,
                         std::size_t first) {
-        const IntTag di;
-        for (std::size_t i = 0; i < 4; ++i)
-            store_members(cubic.c[i].v, members, cubic_[i] + count_);
-        store_members(length.v, members, length_ + count_);
-        store_members(hn::Iota(di, static_cast<std::int32_t>(first)), members, part_ + count_);
-        count_ += hn::CountTrue(FloatTag(), members);
+        append(members, cubic, length, hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
     }
 
     // Sets colour, opacity and depth of the parts that were added.
@@ -67,6 +62,14 @@ class CutParts {
         FloatMask rising, crosses;
         RootLanes root;
     };
+
+    HWY_INLINE void append(FloatMask members, const CubicLanes& cubic, Number length, Ints part) {
+        for (std::size_t i = 0; i < 4; ++i)
+            store_members(cubic.c[i].v, members, cubic_[i] + count_);
+        store_members(length.v, members, length_ + count_);
+        store_members(part, members, part_ + count_);
+        count_ += hn::CountTrue(FloatTag(), members);
+    }
 
     // Composites the next piece of each part.
     template <Lookup kind, bool first>
@@ -147,10 +150,9 @@ class CutParts {
     // Keeps the `members` for the next round, behind those that were kept before: never beyond what
     // was loaded.
     HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
-        add(members, lanes.cubic, lanes.length, 0);
-        const std::size_t kept = hn::CountTrue(FloatTag(), members), to = count_ - kept;
-        if (kept == 0) return;
-        store_members(lanes.part, members, part_ + to);
+        if (hn::AllFalse(FloatTag(), members)) return;
+        const std::size_t to = count_;
+        append(members, lanes.cubic, lanes.length, lanes.part);
         store_members(lanes.turns[0].v, members, turns_[0] + to);
         store_members(lanes.turns[1].v, members, turns_[1] + to);
         store_members(lanes.at.v, members, at_ + to);

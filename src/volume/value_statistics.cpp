@@ -6,25 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <type_traits>
 
 #include "base/parallel.h"
+#include "volume/code_counts.h"
 
 namespace lamina {
 namespace {
-
-constexpr std::int64_t samples_a_part = std::int64_t{1} << 24;  // which 32-bit counters can count
-
-// The samples of 8 and 16 bits in ascending order, from 0.
-struct WholeKeys {
-    template <typename T>
-    static std::size_t key(T sample) {
-        return static_cast<std::size_t>(static_cast<int>(sample) - std::numeric_limits<T>::min());
-    }
-    template <typename T>
-    static constexpr std::size_t count = std::size_t{1} << (8 * sizeof(T));
-};
 
 // The leading bits of a float32: sign, exponent and 11 bits of the mantissa, so that keys ascend
 // with the values.
@@ -45,23 +33,6 @@ struct FloatKeys {
     }
 };
 
-using Counts = std::vector<std::int64_t>;
-
-// Adds up what `count_part(first, end, counts)` counts in the parts of [0, samples), in parallel.
-template <typename CountPart>
-Counts count_in_parts(std::int64_t samples, std::size_t counters, const CountPart& count_part) {
-    Counts total(counters);
-    std::mutex adding;
-    parallel_for((samples + samples_a_part - 1) / samples_a_part, 1, [&](std::int64_t part) {
-        std::vector<std::uint32_t> counts(counters);
-        const std::int64_t first = part * samples_a_part;
-        count_part(first, std::min(samples, first + samples_a_part), counts);
-        const std::scoped_lock lock(adding);
-        for (std::size_t i = 0; i < counters; ++i) total[i] += counts[i];
-    });
-    return total;
-}
-
 // The key of the value with this rank.
 std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
     std::size_t key = 0;
@@ -71,12 +42,7 @@ std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
 
 template <typename T>
 ValueStatistics measure_whole(const T* samples, std::int64_t count) {
-    const Counts counts =
-        count_in_parts(count, WholeKeys::count<T>,
-                       [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
-                           for (std::int64_t i = first; i < end; ++i)
-                               ++into[WholeKeys::key(samples[i])];
-                       });
+    const Counts counts = count_codes(samples, count);
     ValueStatistics found;
     found.count = count;
     const auto value_of = [](std::size_t key) {
