@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds where a ray comes near visible parts of the volume. A texture has, for each brick of the volume, the distance
-// to the nearest brick that shows something (facts/occupied_bricks.h).
-uniform sampler3D distances;    // over 255
-uniform float brick_edge;       // cells
-uniform vec3 first_sample;      // of the texture brick, in the volume
-uniform vec3 last_distance;     // number of bricks less one
+// Finds where a ray comes near visible parts of the volume.
+#include "slicing/brick_distances.glsl"
+
+const float brick_edge = float(BRICK_EDGE);
 
 // A ray in units of the volume's bricks. Its parameter is the depth from where it enters the box.
 struct BrickRay {
@@ -39,7 +37,7 @@ Stretch next_stretch(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;
     vec3 brick = floor(clamp(place, vec3(0.0), last_distance));
-    float to_shown = floor(texelFetch(distances, ivec3(brick), 0).r * 255.0 + 0.5);
+    float to_shown = float(distance_to_shown(ivec3(brick)));
     float reach = max(to_shown, 1.0);
     vec3 ahead = vec3(reach - ray.margin), behind = vec3(1.0 - reach + ray.margin);
     vec3 leave = (brick + mix(behind, ahead, greaterThan(ray.change, vec3(0.0))) - place) * ray.inverse;

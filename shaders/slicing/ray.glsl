@@ -26,6 +26,9 @@ uniform REAL3 direction_row;
 uniform float pixel_size;       // at depth 1
 #endif
 
+uniform vec3 box_min;  // the brick's part of the volume's box, index space
+uniform vec3 box_max;
+
 struct Ray {
     REAL3 origin;
     REAL3 direction;
@@ -52,7 +55,7 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
 // Returns the depths between which the ray is inside the box and inside the slab. Where there are none, y <= x.
-REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
+REAL2 clip_to_box(Ray ray, REAL2 slab) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
     REAL3 inverse = REAL3(1.0) / direction;

@@ -11,14 +11,18 @@
 #endif
 
 #include "slicing/ray.glsl"
-#include "volume/scalar.glsl"
 #include "optics/opacity.glsl"
+#ifdef EXACT
+#include "slicing/exact_segment.glsl"
+#else
+#include "volume/scalar.glsl"
+#endif
 #if SAMPLING == SAMPLING_NONE
 uniform vec4 constant_optics;  // colour, extinction
 uniform float constant_extinction_low;
 #elif defined(PREINTEGRATED) && !defined(LINEAR)
 #include "optics/preintegration.glsl"
-#else
+#elif !defined(EXACT)
 #include "optics/transfer_function.glsl"
 #endif
 #if defined(LINEAR) && !defined(SINGLE_COLOR)
@@ -29,9 +33,6 @@ uniform float constant_extinction_low;
 #ifdef SINGLE_COLOR
 uniform vec3 single_color;
 #endif
-
-uniform vec3 box_min;  // the brick's part of the volume's box, index space
-uniform vec3 box_max;
 
 struct Segment {
     vec3 color;
@@ -52,6 +53,13 @@ vec3 color_or_single(vec3 color) {
 Segment integrate(Ray ray, REAL2 depths) {
     DEPTH extinction = DEPTH(constant_optics.a) + DEPTH(constant_extinction_low);
     return Segment(color_or_single(constant_optics.rgb), extinction * DEPTH(world_length(ray, depths)));
+}
+#elif defined(EXACT)
+Segment integrate(Ray ray, REAL2 depths) {
+    vec3 color;
+    float depth;
+    integrate_cells(ray, depths, color, depth);
+    return Segment(color_or_single(color / max(opacity_from_depth(depth), 1e-37)), DEPTH(depth));
 }
 #elif defined(PREINTEGRATED)
 #ifdef LINEAR

@@ -58,7 +58,7 @@ uvec3 color_codes(vec3 color) { return uvec3(color_code(color.r), color_code(col
 
 void main() {
     Ray ray = view_ray(gl_FragCoord.xy);
-    REAL2 depths = clip_to_box(ray, slab_depths(slab, 1.0), box_min, box_max);
+    REAL2 depths = clip_to_box(ray, slab_depths(slab, 1.0));
     if (!(depths.y > depths.x)) discard;
     Segment segment = integrate(ray, depths);
 #ifdef OPACITY_ONLY

@@ -9,6 +9,7 @@ namespace lamina {
 namespace {
 
 constexpr double max_inverse_width = 1e30;
+constexpr float beyond_all = 3e38f;  // scalars are at most 1
 
 bool is_step(const OpticalProperties& before, const OpticalProperties& after) {
     return before.extinction != after.extinction || before.color != after.color;
@@ -18,6 +19,19 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
     for (int channel = 0; channel < 3; ++channel)
         row.push_back(static_cast<float>(optics.color[channel]));
     row.push_back(static_cast<float>(std::min(optics.extinction, max_shader_extinction)));
+}
+
+// For each interval its right end, and from where on, at its left end or later, something shows.
+void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
+              const std::vector<float>& left, const std::vector<float>& right) {
+    float right_end = beyond_all, shown_beyond = beyond_all;
+    for (std::size_t i = places.size(); i > 0;) {
+        i -= 4;
+        if (left[i + 3] > 0 || right[i + 3] > 0) shown_beyond = places[i];
+        last_row[i + 2] = shown_beyond;
+        last_row[i + 3] = right_end;
+        right_end = places[i];
+    }
 }
 
 // The part of the extinction that float32 drops. Codes of n bits are computed in double precision.
@@ -63,6 +77,7 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
             low.insert(low.end(), {low_part(piece.at_from), low_part(piece.at_to), 0.0f, 0.0f});
             ++anchor;
         });
+    set_ends(low, places, left, right);
     intervals.count = static_cast<int>(places.size() / 4);
     int interval = 0;
     for (int i = 0; i < ShaderIntervals::start_count; ++i) {

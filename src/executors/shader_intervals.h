@@ -19,7 +19,8 @@ inline constexpr double max_shader_extinction = 1e30;
 // 1]. It is laid out as a texture of 4 rows with one RGBA column an interval. Row 0: left end, 1 /
 // width, table node at the left end, number of table nodes to the right end. Row 1: colour and
 // extinction at the left end. Row 2: the same at the right end. Row 3: the remainders of both
-// extinctions that float32 does not hold.
+// extinctions that float32 does not hold; the scalar up to which nothing shows, from the left end
+// on; the right end, which for the last interval lies beyond all scalars.
 struct ShaderIntervals {
     static constexpr int start_count = 1024;
     static constexpr int rows = 4;

@@ -10,13 +10,7 @@
 namespace lamina {
 namespace {
 
-void check_exact(const Scene& scene, const Capabilities& capabilities) {
-    if (!capabilities.tiles) {
-        fail(
-            "{}: render.slice.classification: \"exact\" needs the native engine, expected "
-            "--context cpu or another classification: {}",
-            scene.file.string(), capabilities.renderer);
-    }
+void check_exact(const Scene& scene) {
     if (scene.slice.filter == Filter::hardware) {
         fail(
             "{}: render.slice.filter: found \"hardware\", expected \"exact\" with classification "
@@ -27,13 +21,10 @@ void check_exact(const Scene& scene, const Capabilities& capabilities) {
 
 }  // namespace
 
-ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
-                                           const SampleTrials& trials) {
+ClassificationChoice choose_classification(const Scene& scene, const SampleTrials& trials) {
     const Classification asked = scene.slice.classification;
-    if (asked == Classification::exact) check_exact(scene, capabilities);
+    if (asked == Classification::exact) check_exact(scene);
     if (asked != Classification::automatic) return {asked, {}};
-    if (!capabilities.tiles)
-        return {Classification::post, "exact segments need the native engine (--context cpu)"};
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, "exact segments have no use for the hardware's filter"};
     const auto quicker = std::ranges::find_if(trials.exact, &SlabTrial::keeps_goal);

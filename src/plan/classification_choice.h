@@ -4,7 +4,6 @@
 #include <string>
 
 #include "lamina/scene.h"
-#include "plan/capabilities.h"
 #include "plan/sample_trials.h"
 
 namespace lamina {
@@ -18,11 +17,10 @@ struct ClassificationChoice {
     std::string reason;  // empty where the scene names the classification
 };
 
-// The choice of "classification": "auto" for slicing: exact segments where the context has them,
-// unless `trials` found few enough slabs that are quicker (slicing/slab_trials.h). Throws Error
-// where the context or the filter cannot do what the scene asks for.
-ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
-                                           const SampleTrials& trials = {});
+// The choice of "classification": "auto" for slicing: exact segments, unless `trials` found
+// few enough slabs that are quicker (slicing/slab_trials.h). Throws Error where the filter cannot
+// do what the scene asks for.
+ClassificationChoice choose_classification(const Scene& scene, const SampleTrials& trials = {});
 
 // Post-classified slabs, two a voxel, take less of a frame than exact segments: measured, these
 // take as long as 2.7 or more (docs/precision.md).

@@ -61,7 +61,7 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials) {
-    const ClassificationChoice way = choose_classification(scene, capabilities, trials);
+    const ClassificationChoice way = choose_classification(scene, trials);
     const Scene chosen = with_classification(scene, way.classification);
     const TargetChoice choice = choose_target(chosen, facts, trials);
     Plan plan =

@@ -170,9 +170,8 @@ class SlicePlanner {
     void choose_constant_regions() {
         SlicePlan& slice = plan_.slice;
         if (slice.nothing_visible || slice.sampling == VolumeSampling::none) return;
-        if (!slice.integrates_cells() &&
-            !(slice.has_tree(NodeArithmetic::shader) && capabilities_.tiles))
-            return;
+        if (!capabilities_.tiles) return;
+        if (!slice.integrates_cells() && !slice.has_tree(NodeArithmetic::shader)) return;
         const ConstantBricks& constant = facts_.constant_bricks;
         slice.constant_regions = leave_out(
             !constant.kinds.empty(), "constant_regions",
@@ -217,8 +216,8 @@ class SlicePlanner {
         }
         const std::uint64_t float_bytes =
             4 * static_cast<std::uint64_t>(facts_.grid.sample_count());
-        if (slice.sampling == VolumeSampling::fetch && capabilities_.exact_float_filter &&
-            float_bytes <= max_filtered_bytes) {
+        if (slice.sampling == VolumeSampling::fetch && !slice.integrates_cells() &&
+            capabilities_.exact_float_filter && float_bytes <= max_filtered_bytes) {
             slice.sampling = VolumeSampling::filtered;
         }
         slice.float_texture =

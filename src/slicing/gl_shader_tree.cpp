@@ -51,7 +51,10 @@ void set_node(gl::Defines& defines, const SlicePlan& plan, NodePlace place) {
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place) {
     set_node(segments, plan, place);
     if (plan.bricks.size() > 1) segments.set("ACCUMULATE", 1);
-    if (plan.occupied_only) segments.set("OCCUPIED_ONLY", 1);
+    if (plan.occupied_only) {
+        segments.set("OCCUPIED_ONLY", 1);
+        segments.set("BRICK_EDGE", static_cast<int>(MinMaxBricks::edge));
+    }
     if (plan.ends_early()) segments.set("ENDS_EARLY", 1);
     return segments;
 }

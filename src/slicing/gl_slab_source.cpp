@@ -56,6 +56,10 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
     defines.set("INTERVALS", intervals);
+    if (plan.integrates_cells()) {
+        defines.set("EXACT", 1);
+        if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
+    }
     if (!plan.integrates_runs()) return defines;
     defines.set("PREINTEGRATED", 1);
     if (plan.linear) {
@@ -88,7 +92,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     table_ms_ = tables.end();
     take_plan(plan);
     if (plan_.sampling == VolumeSampling::none) return;
-    normalisation_ = normalisation(volume, range_, plan_);
+    codes_ = sample_codes(volume, range_, plan_);
     if (volume_ && volume_->serves(volume, range_, plan_)) return;
     Stage upload("upload");
     volume_ = std::make_shared<VolumeTextures>(volume, range_, plan_);
@@ -114,7 +118,6 @@ void GlSlabSource::bind(gl::Program& program) const {
     if (plan_.occupied_only) {
         distances_->bind(distances_unit);
         program.set("distances", distances_unit);
-        program.set("brick_edge", static_cast<float>(MinMaxBricks::edge));
         program.set(
             "last_distance",
             glm::vec3(distances_->width(), distances_->height(), distances_->depth()) - 1.0f);
@@ -142,7 +145,10 @@ void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs&
     const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
     program.set("image_size", size);
     program.set("image_middle", 0.5f * size);
-    program.set("normalisation", normalisation_);
+    program.set("normalisation",
+                glm::vec2(codes_.largest * codes_.scale, -codes_.base * codes_.scale));
+    program.set("largest_code", static_cast<float>(codes_.largest));
+    program.set("code_normalisation", glm::vec2(codes_.base, codes_.scale));
     const double thickness = (slabs.far - slabs.near) / slabs.count;
     if (plan_.precise_rays) {
         program.set("slab_thickness", thickness);

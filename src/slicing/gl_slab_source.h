@@ -63,7 +63,7 @@ class GlSlabSource {
     OpticalProperties constant_;              // where no scalar is fetched
     std::optional<GlTransferTables> tables_;  // elsewhere
     std::shared_ptr<const VolumeTextures> volume_;
-    glm::vec2 normalisation_{1, 0};
+    SampleCodes codes_;
     std::optional<gl::Texture> distances_;  // of OccupiedBricks, once a plan leaps by them
     double upload_ms_ = 0, table_ms_ = 0;
 };

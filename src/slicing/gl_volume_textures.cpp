@@ -112,13 +112,12 @@ bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
            (plan.sampling != VolumeSampling::fetch) == filtered_;
 }
 
-// Codes read as code / max_code; int16 codes are shifted to begin at 0.
-glm::vec2 normalisation(const Volume& volume, const ValueRange& range, const SlicePlan& plan) {
-    if (plan.float_texture) return {1, 0};
-    const double max_code = volume.type() == SampleType::uint8 ? 255 : 65535;
+// Codes of int16 are shifted to begin at 0.
+SampleCodes sample_codes(const Volume& volume, const ValueRange& range, const SlicePlan& plan) {
+    if (plan.float_texture) return {};
     const double shift = volume.type() == SampleType::int16 ? 32768 : 0;
-    const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
-    return {static_cast<float>(max_code * scale), static_cast<float>(-(range.lo + shift) * scale)};
+    return {volume.type() == SampleType::uint8 ? 255.0 : 65535.0, range.lo + shift,
+            range.hi > range.lo ? 1 / (range.hi - range.lo) : 0};
 }
 
 }  // namespace lamina

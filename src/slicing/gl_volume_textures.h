@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/vec2.hpp>
-
 #include <vector>
 
 #include "gl/texture.h"
@@ -30,7 +28,12 @@ class VolumeTextures {
     std::vector<gl::Texture> bricks_;
 };
 
-// Scale and offset from what a shader reads to scalars with `range` as [0, 1].
-glm::vec2 normalisation(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
+// Texels hold codes / largest. A scalar, with `range` as [0, 1], is (code - base) * scale. The
+// codes of floats are scalars themselves.
+struct SampleCodes {
+    double largest = 1, base = 0, scale = 1;
+};
+
+SampleCodes sample_codes(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
 }  // namespace lamina

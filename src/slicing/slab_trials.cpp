@@ -282,8 +282,7 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
                          const Facts& facts, const Capabilities& capabilities, bool many_frames) {
     SampleTrials trials;
     if (asked.method != Method::slice || !shows_something(facts)) return trials;
-    const Scene scene =
-        with_classification(asked, choose_classification(asked, capabilities).classification);
+    const Scene scene = with_classification(asked, choose_classification(asked).classification);
     if (scene.slice.classification == Classification::exact) {
         if (many_frames && may_be_quicker(asked))
             trials.exact = try_quicker(asked, volume, bricks, facts);

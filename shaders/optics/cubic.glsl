@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cubics c.x + t (c.y + t (c.z + t c.w)) over 0 <= t <= 1. A trilinear field is one along every straight line inside a
+// cell (docs/numerics.md, section 9).
+float cubic_at(vec4 c, float t) { return c.x + t * (c.y + t * (c.z + t * c.w)); }
+
+float cubic_slope(vec4 c, float t) { return c.y + t * (2.0 * c.z + t * (3.0 * c.w)); }
+
+float cubic_mean(vec4 c) { return c.x + (1.0 / 2.0) * c.y + (1.0 / 3.0) * c.z + (1.0 / 4.0) * c.w; }
+
+// Returns bounds on the cubic, low and high: those of its Bernstein coefficients.
+vec2 cubic_range(vec4 c) {
+    float one = c.x + (1.0 / 3.0) * c.y;
+    float two = one + (1.0 / 3.0) * (c.y + c.z);
+    float end = c.x + c.y + c.z + c.w;
+    return vec2(min(min(c.x, one), min(two, end)), max(max(c.x, one), max(two, end)));
+}
+
+// Returns numerator / divisor where that lies between 0 and 1, else 1.
+float place_or_end(float numerator, float divisor) {
+    bool inside = numerator != 0.0 && (numerator > 0.0) == (divisor > 0.0) && abs(numerator) < abs(divisor);
+    return inside ? numerator / divisor : 1.0;
+}
+
+// Returns the places, in order, between which the cubic is monotone; 1 where there are fewer. The quotient form has no
+// cancellation (Press et al., Numerical Recipes, 5.6).
+vec2 cubic_turns(vec4 c) {
+    float discriminant = c.z * c.z - 3.0 * c.w * c.y;
+    if (discriminant <= 0.0) return vec2(1.0);
+    float root = sqrt(discriminant);
+    float q = c.z < 0.0 ? root - c.z : -(root + c.z);
+    float one = place_or_end(q, 3.0 * c.w), other = place_or_end(c.y, q);
+    return vec2(min(one, other), max(one, other));
+}
+
+// Returns the place where a cubic, which is monotone from one place to another, has a value between those that it has
+// there. Parabolas that touch the cubic (Euler's method, of third order, also near places where the cubic turns) are
+// kept in a bracket.
+float cubic_root(vec4 c, float value, vec2 places, vec2 values) {
+    const float small = 3e-3;  // the next step would be of the order of this to the third power
+    bool rising = values.y >= values.x;
+    float t = places.x + (places.y - places.x) * clamp((value - values.x) / (values.y - values.x), 0.0, 1.0);
+    float step = 1.0;
+    for (int i = 0; i < 30 && step > small; ++i) {
+        float rest = cubic_at(c, t) - value;
+        if ((rest < 0.0) == rising) places.x = t;
+        else places.y = t;
+        float slope = cubic_slope(c, t), bend = c.z + 3.0 * c.w * t;
+        float root = sqrt(max(slope * slope - 4.0 * rest * bend, 0.0));
+        float divisor = rising ? slope + root : slope - root;
+        float nearer = t - 2.0 * rest / divisor;
+        bool inside = divisor != 0.0 && nearer >= places.x && nearer <= places.y;
+        float next = inside ? nearer : 0.5 * (places.x + places.y);
+        step = abs(next - t);
+        t = next;
+    }
+    return t;
+}

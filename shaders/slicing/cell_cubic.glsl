@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scalar along a part of a ray inside one cell of the grid, normalised so that the volume's range is [0, 1].
+uniform sampler3D volume;
+uniform vec3 last_sample;        // the brick's size in samples, less one
+uniform vec2 code_normalisation; // the code that becomes 0, and the scale
+uniform float largest_code;
+
+// Returns a sample's code. Codes are whole numbers; texels hold them over the largest one, with a rounding. Floats are
+// stored normalised.
+float fetch_code(ivec3 sample_index) {
+    float texel = texelFetch(volume, sample_index, 0).r;
+#ifdef FLOAT_SAMPLES
+    return texel;
+#else
+    return round(texel * largest_code);
+#endif
+}
+
+// Corners with x at the lower and at the upper sample: (y, z) lower, y upper, z upper, both upper.
+struct Corners {
+    vec4 lower, upper;
+};
+
+Corners fetch_corners(ivec3 cell) {
+    ivec3 upper = min(cell + 1, ivec3(last_sample));
+    return Corners(vec4(fetch_code(cell), fetch_code(ivec3(cell.x, upper.y, cell.z)),
+                        fetch_code(ivec3(cell.xy, upper.z)), fetch_code(ivec3(cell.x, upper.yz))),
+                   vec4(fetch_code(ivec3(upper.x, cell.yz)), fetch_code(ivec3(upper.xy, cell.z)),
+                        fetch_code(ivec3(upper.x, cell.y, upper.z)), fetch_code(upper)));
+}
+
+// Returns the trilinear field of a cell along place + t * change, less `base`. It is computed from differences of
+// corners, so that a constant cell is exactly constant.
+vec4 cubic_along(Corners corners, float base, vec3 place, vec3 change) {
+    vec4 x = corners.upper - corners.lower;
+    float y = corners.lower.y - corners.lower.x, z = corners.lower.z - corners.lower.x;
+    float xy = x.y - x.x, xz = x.z - x.x, yz = (corners.lower.w - corners.lower.z) - y;
+    float xyz = (x.w - x.z) - xy;
+    // Second derivatives at the entry.
+    vec3 bend = vec3(yz, xz, xy) + place * xyz;
+    vec3 slope = vec3(x.x + place.y * bend.z + place.z * xz, y + place.x * bend.z + place.z * yz,
+                      z + place.x * bend.y + place.y * yz);
+    return vec4((corners.lower.x - base) + place.x * (x.x + place.y * bend.z) + place.y * (y + place.z * yz) +
+                    place.z * (z + place.x * xz),
+                dot(change, slope),
+                change.x * change.y * bend.z + change.z * (change.x * bend.y + change.y * bend.x),
+                change.x * change.y * change.z * xyz);
+}
+
+bool is_nan(float value) { return (floatBitsToUint(value) & 0x7fffffffu) > 0x7f800000u; }
+
+// Returns whether a corner is no number. Compilers may assume that comparisons meet no NaN, so its bits are looked at.
+bool has_nan(Corners corners) {
+    vec4 sums = corners.lower + corners.upper;
+    return is_nan((sums.x + sums.y) + (sums.z + sums.w));
+}
+
+// Returns the cubic of the part of a ray from `place`, counted from a cell's lowest sample, to place + change. Beyond
+// the samples (`cell` axes) the border value repeats. `transparent`: a corner is no number.
+vec4 cell_cubic(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
+    ivec3 last = ivec3(last_sample);
+    ivec3 lowest = clamp(cell, ivec3(0), max(last - 1, 0));
+    vec3 share = clamp(place + vec3(cell - lowest), vec3(0.0), min(last_sample, vec3(1.0)));
+    Corners corners = fetch_corners(lowest);
+    vec4 cubic = cubic_along(corners, code_normalisation.x, share, change * vec3(equal(cell, lowest)));
+#ifdef NAN_TRANSPARENT
+    transparent = has_nan(corners);
+    if (transparent) cubic = vec4(0.0);
+#else
+    transparent = false;
+#endif
+    return cubic * code_normalisation.y;
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds parts of rays, front to back. A part lies in one cell, so its scalar is a cubic. Parts that cross points of the
+// transfer function, or that are too deep for one rule, are cut.
+#include "optics/cell_optics.glsl"
+
+// What a ray has passed: associated colour, optical depth, and what light still comes through.
+struct PartSum {
+    vec3 color;
+    float depth;
+    float transmittance;
+};
+
+// Adds a part in one interval.
+void add_linear_part(Interval interval, LinearPart part, float depth, inout PartSum sum) {
+    sum.depth += depth;
+#ifndef SINGLE_COLOR
+    float opacity = opacity_from_depth(depth);
+    // The shortest parts may be too deep even so: their colour hardly changes.
+    float share = depth > largest_part_depth ? opacity * clamp(part.share.x, 0.0, 1.0)
+                                             : seen_share(part, depth, opacity);
+    sum.color += sum.transmittance * (interval.left.rgb * opacity + interval.change.rgb * share);
+    sum.transmittance -= sum.transmittance * opacity;
+#endif
+}
+
+#ifndef SINGLE_COLOR
+// Shortens a part from its back while it is too deep. Returns whether it was left whole.
+bool shorten(inout LinearPart part, inout float extent) {
+    const float shortest = 1e-6;
+    bool whole = true;
+    for (float depth = depth_of(part); depth > largest_part_depth && extent > shortest; depth = depth_of(part)) {
+        whole = false;
+        // Optical depth grows at least with the first power of the extent from where it is 0; a root does not
+        // overshoot where it grows with the second.
+        float share = clamp(sqrt(0.7 / depth), min(shortest / extent, 0.5), 0.5);
+        extent *= share;
+        part.extinction *= share;
+        part.change *= share;
+        part.share.yzw *= share * vec3(1.0, share, share * share);
+    }
+    return whole;
+}
+#endif
+
+// Nothing behind this optical depth can be seen.
+bool is_opaque(PartSum sum) {
+#ifdef SINGLE_COLOR
+    return sum.depth > 20.0;
+#else
+    return sum.transmittance < 1e-9;
+#endif
+}
+
+// A cubic from a place on: there its value is `scalar`, and the interval of the transfer function is given.
+struct CutPlace {
+    float t, scalar;
+    int interval;
+};
+
+// Returns where a cubic begins. At an end of an interval it begins on the side to which it goes.
+CutPlace first_place(vec4 cubic, vec2 turns) {
+    int interval = find_interval(clamp(cubic.x, 0.0, 1.0));
+    bool falling = cubic_at(cubic, turns.x) < cubic.x;
+    if (falling && interval > 0 && interval_place(interval).x == cubic.x) --interval;
+    return CutPlace(0.0, cubic.x, interval);
+}
+
+// Adds the monotone piece of a part from a place on, as far as it stays in one interval, or less. Moves the place to
+// its end.
+void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
+    float end = place.t < turns.x ? turns.x : place.t < turns.y ? turns.y : 1.0;
+    float at_end = cubic_at(cubic, end);
+    bool rising = at_end >= place.scalar;
+    Interval interval = interval_at(place.interval);
+    float knot = rising ? interval.right_end : place.interval == 0 ? -3e38 : interval.left_end;
+    bool crosses = rising ? knot < at_end : knot > at_end;
+    float to = crosses ? cubic_root(cubic, knot, vec2(place.t, end), vec2(place.scalar, at_end)) : end;
+    float at_to = crosses ? knot : at_end;
+
+    float extent = max(to - place.t, 0.0);
+    vec4 piece = vec4(place.scalar, 0.0, (cubic.z + 3.0 * cubic.w * place.t) * extent * extent,
+                      cubic.w * extent * extent * extent);
+    piece.y = (at_to - place.scalar) - (piece.z + piece.w);
+    LinearPart part = linear_part(interval, piece, world_length * extent);
+#ifdef SINGLE_COLOR
+    const bool whole = true;
+#else
+    bool whole = shorten(part, extent);
+#endif
+    add_linear_part(interval, part, depth_of(part), sum);
+    float shortened = max(place.t + extent, place.t + 6e-8);
+    place.t = whole ? to : shortened;
+    place.scalar = whole ? at_to : cubic_at(cubic, shortened);
+    if (whole && crosses) place.interval += rising ? 1 : -1;
+}
+
+void add_cut_part(vec4 cubic, float world_length, inout PartSum sum) {
+    vec2 turns = cubic_turns(cubic);
+    CutPlace place = first_place(cubic, turns);
+    while (place.t < 1.0 && !is_opaque(sum)) add_piece(cubic, turns, world_length, place, sum);
+}
+
+// Adds a part whose scalar is a cubic.
+void add_part(vec4 cubic, float world_length, inout PartSum sum) {
+    vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
+    Interval interval = interval_at(find_interval(range.x));
+    LinearPart part = linear_part(interval, cubic, world_length);
+    bool crosses = range.y > interval.right_end;
+    float depth = crosses ? 0.0 : depth_of(part);
+    bool hard = crosses && range.y > interval.shown_beyond;
+#ifndef SINGLE_COLOR
+    hard = hard || depth > largest_part_depth;
+#endif
+    if (!hard) add_linear_part(interval, part, depth, sum);
+    // A loop, because software rasterisers skip loops but not branches.
+    while (hard) {
+        add_cut_part(cubic, world_length, sum);
+        hard = false;
+    }
+}

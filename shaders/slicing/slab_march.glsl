@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Composites the slabs of a leaf along a ray, front to back, in registers. OCCUPIED_ONLY: leaps over empty space.
+// ENDS_EARLY: ends the ray where the rest cannot be seen.
+#ifdef OCCUPIED_ONLY
+#include "slicing/empty_space.glsl"
+#endif
+#ifdef ENDS_EARLY
+uniform float opaque_depth;
+#endif
+
+// Returns the associated colour and the optical depth of the part of a ray between the depths `whole`, which `slabs`
+// slabs from number `slab` on hold.
+void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associated_color, out float optical_depth) {
+    float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
+    float end = min(slab + slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
+    // These are sums of thousands of small terms, in double with PRECISE_RAYS.
+    REAL3 color = REAL3(0.0);
+    REAL depth = REAL(0.0);
+    REAL transmittance = REAL(1.0);
+#ifdef PREINTEGRATED
+    float front = sample_scalar(point_at(ray, whole.x));
+#endif
+#ifdef OCCUPIED_ONLY
+    BrickRay bricks = brick_ray(ray, whole.x);
+    float shown_end = first;  // slabs before this may show something
+#endif
+    for (float i = first; i < end; ++i) {
+#ifdef OCCUPIED_ONLY
+        float here = i;
+        while (i >= shown_end && i < end) {
+            Stretch stretch = next_stretch(bricks, i);
+            if (stretch.shown) shown_end = stretch.end;
+            else i = stretch.end;
+        }
+        if (i >= end) break;
+#ifdef PREINTEGRATED
+        // After a leap, the last empty slab gives the scalar at the front.
+        bool leapt = i > here;
+        if (leapt) i -= 1.0;
+#endif
+#endif
+        REAL2 depths = slab_depths(i, 1.0);
+        depths = REAL2(max(depths.x, whole.x), min(depths.y, whole.y));
+        if (!(depths.y > depths.x)) continue;
+#ifdef PREINTEGRATED
+        float back = sample_scalar(point_at(ray, depths.y));
+        Segment segment = integrate_samples(front, sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y))), back,
+                                            float(world_length(ray, depths)));
+        front = back;
+#ifdef OCCUPIED_ONLY
+        if (leapt) segment.depth = DEPTH(0.0);
+#endif
+#else
+        Segment segment = integrate(ray, depths);
+#endif
+        depth += REAL(segment.depth);
+#ifndef MONOCHROME
+        REAL weight = transmittance * REAL(opacity_from_depth(segment.depth));
+        color += weight * REAL3(segment.color);
+        transmittance -= weight;
+#endif
+#ifdef ENDS_EARLY
+        if (float(depth) >= opaque_depth) break;
+#endif
+    }
+    associated_color = vec3(color);
+    optical_depth = float(depth);
+}
