@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -10,5 +11,13 @@ namespace lamina {
 // little where the transfer function has a step at its end, because the later side of the step
 // counts there.
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range);
+
+// The range that exact segments normalise to [0, 1]. It holds all values at which something visible
+// changes, with a margin; beyond it the transfer function is constant or shows nothing. Samples
+// may lie far outside it: a few odd values must not take the digits of those that show. Its width
+// is a power of two, and of samples that are whole numbers its lower end is one, so that in float32
+// samples stay exact: cells whose value is a step lie on the side of that value.
+ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
+                       SampleType type);
 
 }  // namespace lamina

@@ -6,35 +6,65 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/march_limit.h"
 
 namespace lamina {
 namespace {
 
-void check_exact(const Scene& scene) {
+// Of exact segments: the scene's own, that of a tree, or what the context's loops need.
+int slabs_of(const Scene& scene, int least) {
+    const SliceSettings& slice = scene.slice;
+    if (slice.samples) return *slice.samples;
+    if (!slice.tree || slice.tree->automatic) return least;
+    std::int64_t leaves = 1;
+    for (const int factor : slice.tree->factors)
+        leaves = std::min<std::int64_t>(leaves * factor, max_slabs);
+    return static_cast<int>(leaves);
+}
+
+void check_exact(const Scene& scene, int least, const Capabilities& capabilities) {
     if (scene.slice.filter == Filter::hardware) {
         fail(
             "{}: render.slice.filter: found \"hardware\", expected \"exact\" with classification "
             "\"exact\"",
             scene.file.string());
     }
+    if (slabs_of(scene, least) < least) {
+        fail(
+            "{}: render.slice.samples: found {} with classification \"exact\", expected at least "
+            "{} with {}, which ends the loops of longer segments; or use --context cpu",
+            scene.file.string(), slabs_of(scene, least), least, capabilities.renderer);
+    }
 }
 
 }  // namespace
 
-ClassificationChoice choose_classification(const Scene& scene, const SampleTrials& trials) {
+ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
+                                           const Capabilities& capabilities,
+                                           const SampleTrials& trials) {
     const Classification asked = scene.slice.classification;
-    if (asked == Classification::exact) check_exact(scene);
-    if (asked != Classification::automatic) return {asked, {}};
+    if (asked != Classification::automatic && asked != Classification::exact) return {asked, 1, {}};
+    const int least = least_exact_slabs(scene, facts, capabilities);
+    if (asked == Classification::exact) {
+        check_exact(scene, least, capabilities);
+        return {asked, least, {}};
+    }
     if (scene.slice.filter == Filter::hardware)
-        return {Classification::post, "exact segments have no use for the hardware's filter"};
+        return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
+    if (slabs_of(scene, 1) < least) {
+        return {Classification::post, 1,
+                fmt::format("rays may cross so many cells and points of the transfer function that "
+                            "exact segments need {} slabs in this context",
+                            least)};
+    }
     const auto quicker = std::ranges::find_if(trials.exact, &SlabTrial::keeps_goal);
     if (may_be_quicker(scene) && quicker != trials.exact.end()) {
-        return {Classification::post,
+        return {Classification::post, 1,
                 fmt::format("of many frames each is quicker: {} slabs, less than {:.2g} a voxel, "
                             "keep the error",
                             quicker->slabs, quicker_slabs_per_voxel)};
     }
-    return {Classification::exact,
+    return {Classification::exact, 1,
             "a ray is integrated cell by cell: no number of slabs has to be tried"};
 }
 
@@ -44,16 +74,10 @@ bool may_be_quicker(const Scene& scene) {
            !scene.automatic_target;
 }
 
-Scene with_classification(Scene scene, Classification classification) {
-    SliceSettings& slice = scene.slice;
-    slice.classification = classification;
-    if (classification != Classification::exact || slice.samples) return scene;
-    std::int64_t samples = 1;
-    if (slice.tree && !slice.tree->automatic) {
-        for (const int factor : slice.tree->factors)
-            samples = std::min<std::int64_t>(samples * factor, max_slabs);
-    }
-    slice.samples = static_cast<int>(samples);
+Scene with_classification(Scene scene, const ClassificationChoice& choice) {
+    scene.slice.classification = choice.classification;
+    if (choice.classification == Classification::exact)
+        scene.slice.samples = slabs_of(scene, choice.slabs);
     return scene;
 }
 

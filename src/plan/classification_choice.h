@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "facts/facts.h"
 #include "lamina/scene.h"
+#include "plan/capabilities.h"
 #include "plan/sample_trials.h"
 
 namespace lamina {
@@ -14,13 +16,17 @@ inline constexpr double exact_segment_error = 0.05;
 
 struct ClassificationChoice {
     Classification classification = Classification::post;  // not automatic
+    int slabs = 1;       // of exact segments where the scene names none (plan/march_limit.h)
     std::string reason;  // empty where the scene names the classification
 };
 
-// The choice of "classification": "auto" for slicing: exact segments, unless `trials` found
-// few enough slabs that are quicker (slicing/slab_trials.h). Throws Error where the filter cannot
-// do what the scene asks for.
-ClassificationChoice choose_classification(const Scene& scene, const SampleTrials& trials = {});
+// The choice of "classification": "auto" for slicing: exact segments, unless the context's loops
+// are too short for them or `trials` found few enough slabs that are quicker
+// (slicing/slab_trials.h). Throws Error where the filter or the number of slabs cannot do what the
+// scene asks for.
+ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
+                                           const Capabilities& capabilities,
+                                           const SampleTrials& trials = {});
 
 // Post-classified slabs, two a voxel, take less of a frame than exact segments: measured, these
 // take as long as 2.7 or more (docs/precision.md).
@@ -31,7 +37,7 @@ inline constexpr double quicker_slabs_per_voxel = 2;
 bool may_be_quicker(const Scene& scene);
 
 // The scene with a classification and, where exact segments make them equally good, a number of
-// slabs: that of the tree, or 1.
-Scene with_classification(Scene scene, Classification classification);
+// slabs: that of the tree, or of the choice.
+Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
 }  // namespace lamina

@@ -7,8 +7,15 @@
 
 namespace lamina {
 
-// How many slabs one fragment can march through. llvmpipe silently ends all loops of a fragment
-// after 65535 rounds together (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit.
-int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
+// llvmpipe silently ends all loops of a fragment after 65535 rounds together
+// (LP_MAX_TGSI_LOOP_ITERATIONS); other drivers have no such limit.
+
+// How many slabs one fragment can march through. With exact segments, for `slabs` slabs, at least
+// least_exact_slabs().
+int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                       int slabs);
+
+// Into how many slabs a ray must be parted so that one fragment can walk through the cells of each.
+int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities);
 
 }  // namespace lamina

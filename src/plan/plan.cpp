@@ -47,7 +47,8 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
     Plan plan;
     if (scene.method == Method::slice) {
         plan = plan_alone(scene, facts, capabilities, omissions, trials);
-        const Scene chosen = with_classification(scene, plan.slice.classification);
+        const Scene chosen =
+            with_classification(scene, {plan.slice.classification, plan.slice.slabs, {}});
         add_savings(plan, with_target(chosen, plan.slice.target), facts, capabilities, omissions,
                     trials);
         return plan;
@@ -61,8 +62,8 @@ Plan make_plan(const Scene& scene, const Facts& facts, const Capabilities& capab
 
 Plan plan_alone(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                 const OmissionSwitch& omissions, const SampleTrials& trials) {
-    const ClassificationChoice way = choose_classification(scene, trials);
-    const Scene chosen = with_classification(scene, way.classification);
+    const ClassificationChoice way = choose_classification(scene, facts, capabilities, trials);
+    const Scene chosen = with_classification(scene, way);
     const TargetChoice choice = choose_target(chosen, facts, trials);
     Plan plan =
         plan_slicing(with_target(chosen, choice.target), facts, capabilities, omissions, trials);

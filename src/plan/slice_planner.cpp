@@ -282,7 +282,7 @@ class SlicePlanner {
         if (scene_.slice.tree) {
             choose_tree_for(*scene_.slice.tree);
         } else {
-            const int most = most_marched_slabs(scene_, facts_, capabilities_);
+            const int most = most_marched_slabs(scene_, facts_, capabilities_, slice.slabs);
             const bool whole = slice.slabs <= most;
             const std::string node =
                 whole ? "one node marches all slabs in registers: "
@@ -299,7 +299,8 @@ class SlicePlanner {
         }
         if (slice.has_tree(NodeArithmetic::shader))
             check_leaves(scene_, TreeShape(slice.tree->factors, slice.slabs),
-                         most_marched_slabs(scene_, facts_, capabilities_), capabilities_);
+                         most_marched_slabs(scene_, facts_, capabilities_, slice.slabs),
+                         capabilities_);
         if (slice.tree && is_fixed_point(slice.target)) {
             slice.tree->largest_color = std::max(facts_.max_color, 1.0);
         }

@@ -61,8 +61,7 @@ std::vector<SelftestCase> cases_of(const std::string& group, const SelftestScene
                          [scene, way](const PictureMaker& maker) {
                              const Drawn drawn = draw(maker, scene, way);
                              return outcome_of(fit_of(drawn.picture, drawn.bounds));
-                         },
-                         way.native_only});
+                         }});
     }
     return cases;
 }

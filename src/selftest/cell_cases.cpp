@@ -125,8 +125,7 @@ std::vector<SelftestCase> cell_cases() {
                                           "four roundings of a float32.",
                              [cell, way](const PictureMaker& maker) {
                                  return outcome_of_cell(cell, way, maker);
-                             },
-                             way.native_only});
+                             }});
         }
     }
     return cases;

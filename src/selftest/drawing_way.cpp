@@ -29,11 +29,6 @@ DrawingWay slice(const std::string& name, const std::function<void(Scene&)>& set
     return {"slice " + name, Method::slice, TraceOf::volume, post_unless_set, rounding};
 }
 
-DrawingWay native(DrawingWay way) {
-    way.native_only = true;
-    return way;
-}
-
 DrawingWay project(const std::string& name, const std::function<void(Scene&)>& set,
                    const BlendRounding& rounding = of_float32) {
     return {"project " + name, Method::project, TraceOf::mesh, set, rounding};
@@ -67,8 +62,8 @@ std::vector<DrawingWay> float_ways() {
               [](Scene& scene) { scene.slice.order = Order::front_to_back; }),
         slice("preintegrated float32",
               [](Scene& scene) { scene.slice.classification = Classification::preintegrated; }),
-        native(slice("exact float32",
-                     [](Scene& scene) { scene.slice.classification = Classification::exact; })),
+        slice("exact float32",
+              [](Scene& scene) { scene.slice.classification = Classification::exact; }),
         project("float32", [](Scene&) {}),
         project("analytic float32",
                 [](Scene& scene) { scene.project.coloring = Coloring::analytic; }),

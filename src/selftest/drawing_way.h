@@ -17,7 +17,6 @@ struct DrawingWay {
     TraceOf trace_of = TraceOf::volume;
     std::function<void(Scene&)> set;  // sets further keys of the scene
     BlendRounding rounding;           // rounding of one blend
-    bool native_only = false;         // OpenGL cannot draw so
 
     bool draws_mesh() const {
         return method == Method::project || (method == Method::trace && trace_of == TraceOf::mesh);

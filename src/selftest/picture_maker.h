@@ -17,8 +17,6 @@ class PictureMaker {
     explicit PictureMaker(const Capabilities& capabilities) : capabilities_(capabilities) {}
     virtual ~PictureMaker() = default;
 
-    bool native() const { return capabilities_.tiles; }  // drawn by the native engine
-
     virtual PreciseImage draw(const Scene& scene, const Volume& volume) const;
     // `order`: what was found of the visibility order, where something was drawn in one.
     virtual PreciseImage draw(const Scene& scene, const SceneMesh& mesh,

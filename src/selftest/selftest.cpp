@@ -19,7 +19,6 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
     for (const SelftestCase& each : cases) {
         check_interrupt();
         progress.advance();
-        if (each.native_only && !maker.native()) continue;
         const Stopwatch watch;
         CaseOutcome outcome;
         try {

@@ -25,7 +25,6 @@ struct SelftestCase {
     std::string group, scene, way;
     std::string about;  // what is stiff or extreme, and where the bound comes from
     std::function<CaseOutcome(const PictureMaker&)> run;
-    bool native_only = false;  // not run where OpenGL draws
 
     std::string name() const { return group + "/" + scene + "/" + way; }
 };

@@ -79,15 +79,17 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
                            std::shared_ptr<const VolumeTextures> ready)
     : facts_(facts),
       plan_(plan),
-      range_(drawn_range(transfer_function, facts.range)),
-      single_color_(first_color(transfer_function, range_.lo, range_.hi)),
-      constant_(transfer_function.at(range_.lo)),
+      constant_(transfer_function.at(facts.range.lo)),
       volume_(std::move(ready)) {
     facts_.grid = in_units(facts.grid, plan.unit);
+    const ValueRange drawn = drawn_range(transfer_function, facts.range);
+    single_color_ = first_color(transfer_function, drawn.lo, drawn.hi);
+    const bool exact = plan.integrates_cells();
+    range_ = exact ? exact_range(transfer_function, facts.range, volume.type()) : drawn;
     Stage tables("tables");
     if (plan_.sampling != VolumeSampling::none) {
         tables_.emplace(transfer_function, range_, plan_.uses_table() ? &plan_.table : nullptr,
-                        plan_.table_filtered, sampled_step_advance);
+                        plan_.table_filtered, exact ? 0 : sampled_step_advance);
     }
     table_ms_ = tables.end();
     take_plan(plan);

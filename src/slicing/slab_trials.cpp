@@ -263,7 +263,7 @@ int most_slabs(const Facts& facts) {
 // Empty where exact segments are as quick.
 std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts) {
-    const Scene scene = with_classification(asked, Classification::post);
+    const Scene scene = with_classification(asked, {Classification::post, 1, {}});
     const int most = std::min(slabs_per_voxel(facts, quicker_slabs_per_voxel), most_slabs(facts));
     std::vector<SlabTrial> trials = try_numbers(scene, volume, bricks, facts, most);
     if (!some_keep_goal(trials)) trials.clear();
@@ -282,7 +282,8 @@ SampleTrials try_samples(const Scene& asked, const Volume& volume, const MinMaxB
                          const Facts& facts, const Capabilities& capabilities, bool many_frames) {
     SampleTrials trials;
     if (asked.method != Method::slice || !shows_something(facts)) return trials;
-    const Scene scene = with_classification(asked, choose_classification(asked).classification);
+    const Scene scene =
+        with_classification(asked, choose_classification(asked, facts, capabilities));
     if (scene.slice.classification == Classification::exact) {
         if (many_frames && may_be_quicker(asked))
             trials.exact = try_quicker(asked, volume, bricks, facts);

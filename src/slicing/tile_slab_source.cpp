@@ -26,15 +26,6 @@ double point_margin(const TextureBrick& part) {
     return 0.01 + 2e-6 * static_cast<double>(size);
 }
 
-// A range around `range` in which whole numbers, times the inverse width, stay exact in float32:
-// its width is a power of two, and of samples that are whole numbers its lower end is one. Exact
-// segments need it: cells whose value is a step of the transfer function lie on the side of that
-// value.
-ValueRange exact_range(const ValueRange& range, SampleType type) {
-    const double lo = type == SampleType::float32 ? range.lo : std::floor(range.lo);
-    return {lo, lo + std::exp2(std::ceil(std::log2(range.hi - lo)))};
-}
-
 }  // namespace
 
 TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& transfer_function,
@@ -66,7 +57,8 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     if (!sampled) return;
     Stage tables("tables");
     const bool exact = plan_.integrates_cells();
-    const ValueRange unit = exact ? exact_range(range, volume.type()) : range;
+    const ValueRange unit =
+        exact ? exact_range(transfer_function, facts.range, volume.type()) : range;
     transfer_.emplace(transfer_function, unit, plan_.uses_table() ? &plan_.table : nullptr,
                       exact ? 0 : sampled_step_advance);
     slabs_.transfer = &*transfer_;

@@ -53,6 +53,16 @@ std::vector<SlicePlan> every_segment_plan() {
             plans.push_back(plan);
         }
     }
+    for (int bits = 0; bits < 32; ++bits) {
+        SlicePlan plan;
+        plan.classification = Classification::exact;
+        plan.orthographic = (bits & 1) != 0;
+        plan.single_color = (bits & 2) != 0;
+        plan.nan_transparent = (bits & 4) != 0;
+        plan.float_texture = (bits & 8) != 0;
+        plan.precise_rays = (bits & 16) != 0;
+        plans.push_back(plan);
+    }
     return plans;
 }
 
@@ -153,6 +163,25 @@ std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
     return plans;
 }
 
+// Optical depths of exact segments become codes, and nodes of several bricks, as others do.
+SlicePlan exact_codes() {
+    SlicePlan plan;
+    plan.classification = Classification::exact;
+    plan.target = Target::emulated;
+    plan.emulation = Emulation{16, AlphaRounding::stochastic, OverRounding::separate, 1};
+    return plan;
+}
+
+SlicePlan exact_nodes() {
+    SlicePlan plan;
+    plan.classification = Classification::exact;
+    plan.tree = TreePlan{.factors = {4}};
+    plan.occupied_only = true;
+    plan.opaque_depth = 9;
+    plan.bricks.resize(2);
+    return plan;
+}
+
 void add_slabs(Specialisations& all) {
     for (const SlicePlan& plan : every_segment_plan()) {
         for (const int intervals : {1, 6}) {
@@ -160,6 +189,8 @@ void add_slabs(Specialisations& all) {
             add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
         }
     }
+    add(all, "slicing/slab.vert", "slicing/slab.frag",
+        slab_defines(exact_codes(), segment_defines(exact_codes(), 6, table_nodes)));
     for (const SlicePlan& plan : every_code_plan()) {
         const gl::Defines segments = segment_defines(plan, 6, table_nodes);
         add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
@@ -181,6 +212,7 @@ void add_nodes(Specialisations& all) {
         plan.opaque_depth = 9;
         add_leaf(plan, 6, NodePlace::inner);
     }
+    add_leaf(exact_nodes(), 6, NodePlace::inner);
     for (const SlicePlan& segments : two_segment_plans()) {
         for (const SlicePlan& plan : every_node_plan(segments)) {
             for (const NodePlace place : {NodePlace::inner, NodePlace::root}) {

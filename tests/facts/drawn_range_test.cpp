@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "facts/drawn_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/transfer_functions.h"
+
+namespace lamina {
+namespace {
+
+using test::knot;
+
+// Something changes from 100 to 104 only: transparent before, constant after.
+TransferFunction narrow() {
+    return TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(100, {0, 1, 0}, 0),
+                                     knot(102, {0, 1, 0}, 3), knot(104, {1, 1, 1}, 1),
+                                     knot(60000, {1, 1, 1}, 1)});
+}
+
+TEST(ExactRange, IsAPowerOfTwoAroundWhatChanges) {
+    const ValueRange range = exact_range(narrow(), {-3, 60000}, SampleType::uint16);
+    EXPECT_LT(range.lo, 100);
+    EXPECT_GT(range.hi, 104);
+    // Of three halves of an interval, side by side and overlapping, one holds what is shorter than
+    // a quarter of it less two margins; so the width ends at most at four times 4, and its margins.
+    EXPECT_LE(range.hi - range.lo, 32);
+    EXPECT_EQ(std::exp2(std::round(std::log2(range.hi - range.lo))), range.hi - range.lo);
+    EXPECT_EQ(range.lo, std::floor(range.lo));
+}
+
+TEST(ExactRange, HoldsAllThatIsDrawnWhereAllChanges) {
+    const ValueRange range = exact_range(test::smooth(), {0, 1}, SampleType::float32);
+    EXPECT_EQ(range, (ValueRange{0, 1}));
+    const ValueRange bytes =
+        exact_range(TransferFunction::linear({knot(0, {1, 1, 1}, 0), knot(255, {1, 1, 1}, 1)}),
+                    {3, 250}, SampleType::uint8);
+    EXPECT_EQ(bytes, (ValueRange{3, 259}));
+}
+
+TEST(ExactRange, EndsAtTheDistanceOfFloats) {
+    const auto step =
+        TransferFunction::linear({knot(1000, {1, 1, 1}, 0), knot(1000, {1, 1, 1}, 1)});
+    const ValueRange floats = exact_range(step, {-1e9, 1e9}, SampleType::float32);
+    EXPECT_GE(floats.hi - floats.lo, 1000 * 0x1p-24);
+    EXPECT_LE(floats.hi - floats.lo, 1);
+    EXPECT_LT(floats.lo, 1000);
+    EXPECT_GT(floats.hi, 1000);
+    const ValueRange bytes = exact_range(step, {0, 65535}, SampleType::uint16);
+    EXPECT_LE(bytes.hi - bytes.lo, 16);
+    EXPECT_EQ(bytes.lo, std::floor(bytes.lo));
+}
+
+}  // namespace
+}  // namespace lamina
