@@ -51,7 +51,8 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
     }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
-    if (slabs_of(scene, 1) < least) {
+    // A tree's leaves may be longer than a slab.
+    if (slabs_of(scene, 1) < least || (scene.slice.tree && least > 1)) {
         return {Classification::post, 1,
                 fmt::format("rays may cross so many cells and points of the transfer function that "
                             "exact segments need {} slabs in this context",

@@ -289,7 +289,11 @@ TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
     scene.slice.classification = Classification::automatic;
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
               limited ? Classification::post : Classification::exact);
+    scene.slice.tree = TreeSettings{.factors = {2}};
+    scene.slice.samples = 64;
+    EXPECT_NO_THROW(make_plan(scene, facts, capabilities(), {}));
     if (!limited) return;
+    scene.slice.tree.reset();
     scene.slice.classification = Classification::exact;
     scene.slice.samples = 1;
     try {
