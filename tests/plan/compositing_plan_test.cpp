@@ -157,6 +157,7 @@ TEST(CompositingPlan, AutomaticTreesKeepToMaxError) {
 TEST(CompositingPlan, AutomaticTreesSayThatTheirNodeIsTooLong) {
     nlohmann::json document = rendered("fixed16", {{"tree", "auto"}});
     document["render"]["slice"]["samples"] = 65536;
+    document["render"]["slice"]["classification"] = "post";
     document["render"]["max_error"] = 4;
     expect_error([&] { planned(document); },
                  {"scene.json: render.slice.tree: found \"auto\"", "65536 slabs", "at most"});

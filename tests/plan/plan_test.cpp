@@ -24,7 +24,7 @@ Plan plan_of(const nlohmann::json& document, const Capabilities& capabilities) {
 }
 
 TEST(Plan, WhereNothingWasTriedSamplesAreTwoAVoxelAlongTheView) {
-    nlohmann::json document = minimal_scene();
+    nlohmann::json document = with("/render/slice/classification", "post");
     document["camera"] = {{"eye", {0.5, 0.5, 3}}, {"center", {0.5, 0.5, 0.5}}};
     EXPECT_EQ(plan_of(document, usual()).slice.slabs, 30);  // 15 cells
     document["render"]["slice"]["samples"] = 7;
@@ -33,9 +33,12 @@ TEST(Plan, WhereNothingWasTriedSamplesAreTwoAVoxelAlongTheView) {
 
 TEST(Plan, FloatTexturesAreFilteredOnlyWhereThatWasMeasuredExact) {
     Capabilities capabilities = usual();
-    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::fetch);
+    const nlohmann::json post = with("/render/slice/classification", "post");
+    EXPECT_EQ(plan_of(post, capabilities).slice.sampling, VolumeSampling::fetch);
     capabilities.exact_float_filter = true;
-    EXPECT_EQ(plan_of(minimal_scene(), capabilities).slice.sampling, VolumeSampling::filtered);
+    EXPECT_EQ(plan_of(post, capabilities).slice.sampling, VolumeSampling::filtered);
+    EXPECT_EQ(plan_of(with("/render/slice/classification", "exact"), capabilities).slice.sampling,
+              VolumeSampling::fetch);
     EXPECT_EQ(plan_of(with("/render/slice/filter", "hardware"), capabilities).slice.sampling,
               VolumeSampling::hardware);
 }
