@@ -48,8 +48,9 @@ constexpr double rise = .1;
 constexpr int steps = 8;
 // The outermost of a side: there its colours end.
 constexpr double far_share = .998;
-// A side with less than this share of all that is not common shows nothing: it is noise.
-constexpr double least_side = .02;
+// A side with less than this share of all that is not common shows nothing: it is noise, or the
+// foot of a peak, and would take half of the hues.
+constexpr double least_side = .05;
 // Where common values are no background, they show this share of what lies next to them.
 constexpr double faint = .25;
 
@@ -152,13 +153,20 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
 }
 
 // A transfer function that shows values beyond the common ones, on one side of them or both.
-// `share`: of the field, that the values are.
-AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonValues& common,
-                                double share) {
+// A side whose values would make a shell around what was measured shows nothing if the other does.
+AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
+    const ValueDistribution& values = padding.rest;
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
     const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);
     if (below < least_side * (below + above)) down = Side({}, common.lo, common.lo);
     if (above < least_side * (below + above)) up = Side({}, common.hi, common.hi);
+    if (common.background && !down.empty() && !up.empty()) {
+        if (padding.shell_below(common.lo)) {
+            down = Side({}, common.lo, common.lo);
+        } else if (padding.shell_above(common.hi)) {
+            up = Side({}, common.hi, common.hi);
+        }
+    }
     const auto points = joined(down, up, common.background ? 0 : faint);
     const std::string hidden = common.background ? "are transparent" : "are faint";
     const auto text = [&](double value) {
@@ -167,11 +175,12 @@ AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonVal
     std::string shown;
     if (!down.empty()) shown = "down to " + text(down.end());
     if (!up.empty()) shown += (shown.empty() ? "up to " : " and up to ") + text(up.end());
-    return {normalized(points),
-            fmt::format("values from {} to {}, {:.3g} % of the field, {}; beyond, {}, the rarer "
-                        "the denser",
-                        text(common.lo), text(common.hi),
-                        100 * share * values.share(common.lo, common.hi), hidden, shown)};
+    return {
+        normalized(points),
+        fmt::format("values from {} to {}, {:.3g} % of the field, {}; beyond, {}, the rarer "
+                    "the denser",
+                    text(common.lo), text(common.hi),
+                    100 * (1 - padding.share) * values.share(common.lo, common.hi), hidden, shown)};
 }
 
 // The function with nothing that shows below or above a value.
@@ -205,11 +214,12 @@ std::string padding_text(const Padding& padding) {
                        100 * padding.share, padding.values.size() > 1 ? "are" : "is");
 }
 
-AutomaticTransfer in_own_colors(const ValueDistribution& values, bool whole_numbers, double share) {
+AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
+    const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
         return label_transfer(values);
-    return beyond_common(values, find_common_values(values, whole_numbers), share);
+    return beyond_common(padding, find_common_values(values, whole_numbers));
 }
 
 TransferFunction in_colors_of(const TransferFunction& function,
@@ -227,10 +237,10 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
         return chosen;
     }
     const Padding padding = find_padding(values, whole_numbers);
-    const auto [function, reason] = in_own_colors(padding.rest, whole_numbers, 1 - padding.share);
+    const auto [function, reason] = in_own_colors(padding, whole_numbers);
     TransferFunction colored = in_colors_of(function, wishes.colormap);
-    if (padding.below) colored = shown_above(colored, *padding.below);
-    if (padding.above) colored = shown_below(colored, *padding.above);
+    if (padding.below) colored = shown_above(colored, padding.edge_below());
+    if (padding.above) colored = shown_below(colored, padding.edge_above());
     return {colored, padding_text(padding) + reason};
 }
 

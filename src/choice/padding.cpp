@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_values = 4;
 // What was measured has more different values than this.
 constexpr std::size_t few_values = 24;
-constexpr double least_share = 1e-3;
+constexpr double least_padding = 1e-3;
 
 // How far padding is from the rest, in widths of its range. A value above it may as well be a part
 // that has one value, a piece of metal in tissue, and so must be farther away.
@@ -22,9 +22,8 @@ constexpr double far_below = 1, far_above = 4;
 // there is more.
 constexpr double near_below = 1.0 / 8;
 
-// Between the rest and the padding colours and extinction end at this part of the way: cells that
-// interpolate between the two show little of what lies between them.
-constexpr double edge_share = 1.0 / 64;
+constexpr double edge_share = 1.0 / 64;  // of the way to the padding, or of the rest's range
+constexpr double thin_shell = 1.0 / 50;  // of a voxel
 
 bool is_padding(double value, double share, const ValueDistribution& rest, bool whole_numbers) {
     // Halves, for differences may overflow.
@@ -46,7 +45,7 @@ Padding find_padding(const ValueDistribution& all, bool whole_numbers) {
     const auto take = [&](double value, const ValueDistribution& rest) {
         if (rest.distinct() <= few_values) return false;
         const double share = found.rest.share(value, value);
-        if (share < least_share || !is_padding(value, share, rest, whole_numbers)) return false;
+        if (share < least_padding || !is_padding(value, share, rest, whole_numbers)) return false;
         found.values.push_back(value);
         found.share += share * (1 - found.share);
         found.rest = rest;
@@ -57,14 +56,30 @@ Padding find_padding(const ValueDistribution& all, bool whole_numbers) {
         more = take(lowest, found.rest.between(std::nextafter(lowest, INFINITY), highest)) ||
                take(highest, found.rest.between(lowest, std::nextafter(highest, -INFINITY)));
     }
-    if (found.values.empty()) return found;
-    const double lo = found.rest.lowest(), hi = found.rest.highest();
     for (const double value : found.values) {
         // The nearest one on each side was found last.
-        if (value < lo) found.below = lo - edge_share * std::min(lo - value, hi - lo);
-        if (value > hi) found.above = hi + edge_share * std::min(value - hi, hi - lo);
+        if (value < found.rest.lowest()) found.below = value;
+        if (value > found.rest.highest()) found.above = value;
     }
     return found;
+}
+
+double Padding::edge_below() const {
+    const double lo = rest.lowest();
+    return lo - edge_share * std::min(lo - *below, rest.highest() - lo);
+}
+
+double Padding::edge_above() const {
+    const double hi = rest.highest();
+    return hi + edge_share * std::min(*above - hi, hi - rest.lowest());
+}
+
+bool Padding::shell_below(double lo) const {
+    return below && lo - rest.lowest() > thin_shell * (lo - *below);
+}
+
+bool Padding::shell_above(double hi) const {
+    return above && rest.highest() - hi > thin_shell * (*above - hi);
 }
 
 }  // namespace lamina

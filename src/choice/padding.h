@@ -12,10 +12,18 @@ namespace lamina {
 // CT, or -9999 on land in a model of the sea.
 struct Padding {
     std::vector<double> values;
-    double share = 0;        // of the field
-    ValueDistribution rest;  // all other values
-    // Close to the rest, on its way to the padding below it and above it, where there is one.
-    std::optional<double> below, above;
+    double share = 0;                    // of the field
+    ValueDistribution rest;              // all other values
+    std::optional<double> below, above;  // those next to the rest, where there are any
+
+    // Between the padding and the rest, close to the rest: what interpolates between the two shows
+    // up to there alone.
+    double edge_below() const;
+    double edge_above() const;
+    // Whether cells that interpolate between padding and rest would show the rest's values up to
+    // `lo`, or from `hi` on, as a shell around the rest that is not thin.
+    bool shell_below(double lo) const;
+    bool shell_above(double hi) const;
 };
 
 // Finds single values that are far from all others, at both ends (docs/first-picture.md).

@@ -35,8 +35,10 @@ TEST(Padding, IsFarFromAllOtherValues) {
         EXPECT_EQ(found.rest.highest(), 3000);
         EXPECT_EQ(found.below.has_value(), value < 0);
         EXPECT_EQ(found.above.has_value(), value > 0);
-        if (found.below) EXPECT_TRUE(value < *found.below && *found.below < -1024);
-        if (found.above) EXPECT_TRUE(value > *found.above && *found.above > 3000);
+        if (found.below)
+            EXPECT_TRUE(value < found.edge_below() && found.edge_below() < -1024) << value;
+        if (found.above)
+            EXPECT_TRUE(value > found.edge_above() && found.edge_above() > 3000) << value;
     }
 }
 
@@ -82,6 +84,11 @@ TEST(Padding, IsTransparent) {
         EXPECT_EQ(both.transfer_function.at(value).extinction, 0);
         EXPECT_EQ(both.transfer_function.at(.02 * value).extinction, 0);
     }
+    // Nearer padding would make a thick shell of the values between it and the common one, so
+    // these do not show, if others do.
+    const auto near = choose_transfer_function(with(flow, -999, 100), false).transfer_function;
+    EXPECT_EQ(near.at(-50).extinction, 0);
+    EXPECT_GT(near.at(50).extinction, 0);
     // A wished range is taken as it is.
     const auto wished = choose_transfer_function(below, true, {.range = ValueRange{-4000, 3000}});
     EXPECT_GT(wished.transfer_function.at(-3000).extinction, 0);
