@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "base/stage.h"
 #include "different_files.h"
+#include "named_output.h"
 #include "scene_files.h"
 #include "turntable.h"
 
@@ -75,8 +76,9 @@ void OutputOptions::check() const {
 void add_output_options(CLI::App& verb, OutputOptions& options) {
     constexpr int most_frames = 1000000, most_views = 100000;
     verb.add_option("-o,--output", options.output,
-                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe");
-    verb.add_option("--format", options.format, "With -o -: png, exr or npy");
+                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe")
+        ->option_text("FILE");
+    verb.add_option("--format", options.format, "With -o -: png, exr or npy")->option_text("NAME");
     verb.add_option("--frames", options.frames,
                     "Time this many frames, the camera turning a little")
         ->check(CLI::Range(1, most_frames));
@@ -93,7 +95,7 @@ std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const Ou
                                           std::vector<std::filesystem::path> others) {
     const std::vector<std::filesystem::path> read = files_of(scene.scene);
     if (options.views > 0) return std::make_unique<Turntable>(options, scene, read, others);
-    if (!options.piped()) others.emplace_back(options.output);
+    others.emplace_back(options.output);
     expect_different_files(read, others);
     if (options.output.empty()) return nullptr;
     return std::make_unique<SinglePicture>(options, scene);
