@@ -70,6 +70,36 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSp
     }
 }
 
+// A quantity of rays that is linear in the pixel, at the places x and y from the image's middle.
+HWY_INLINE TwoDoubles at_pixels(const TwoDoubles& x, const TwoDoubles& y, double middle,
+                                double by_column, double by_row) {
+    const DoubleTag d;
+    const auto at_pixel = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
+        return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(across, hn::Set(d, by_column))),
+                       hn::Mul(down, hn::Set(d, by_row)));
+    };
+    return each_half<FloatTag>(at_pixel, x, y);
+}
+
+HWY_INLINE void clip_to_plane(const RayPlane& plane, const TwoDoubles& x, const TwoDoubles& y,
+                              DepthSpan& span) {
+    const DoubleTag d;
+    const TwoDoubles distance =
+        at_pixels(x, y, plane.origin_middle, plane.origin_column, plane.origin_row);
+    const TwoDoubles slope =
+        at_pixels(x, y, plane.slope_middle, plane.slope_column, plane.slope_row);
+    const auto clip = [&](HalfDoubles from, HalfDoubles change, HalfDoubles& enter,
+                          HalfDoubles& leave) HWY_ATTR {
+        const auto safe = crossing_direction(change);
+        const auto crossing = hn::Div(hn::Neg(from), safe);
+        const auto enters = hn::Gt(safe, hn::Zero(d));
+        enter = hn::IfThenElse(enters, hn::Max(enter, crossing), enter);
+        leave = hn::IfThenElse(enters, leave, hn::Min(leave, crossing));
+    };
+    clip(distance.low, slope.low, span.enter.low, span.leave.low);
+    clip(distance.high, slope.high, span.enter.high, span.leave.high);
+}
+
 // The smallest enter and the largest leave of the lanes whose rays hit. Returns false where no ray
 // does.
 HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
@@ -104,18 +134,11 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     };
     const TwoDoubles x = from(column + 0.5 - frame.middle_column, columns);
     const TwoDoubles y = from(row + 0.5 - frame.middle_row, rows);
-    const auto along = [&](double middle, double by_column, double by_row) HWY_ATTR {
-        const auto at_pixel = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
-            return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(across, hn::Set(d, by_column))),
-                           hn::Mul(down, hn::Set(d, by_row)));
-        };
-        return each_half<FloatTag>(at_pixel, x, y);
-    };
     for (int axis = 0; axis < 3; ++axis) {
-        rays.origin[axis] =
-            along(brick.origin_middle[axis], frame.origin_column[axis], frame.origin_row[axis]);
-        rays.direction[axis] = along(frame.direction_middle[axis], frame.direction_column[axis],
-                                     frame.direction_row[axis]);
+        rays.origin[axis] = at_pixels(x, y, brick.origin_middle[axis], frame.origin_column[axis],
+                                      frame.origin_row[axis]);
+        rays.direction[axis] = at_pixels(x, y, frame.direction_middle[axis],
+                                         frame.direction_column[axis], frame.direction_row[axis]);
         rays.direction_float[axis] = to_floats(FloatTag(), rays.direction[axis]);
     }
     rays.box.enter = all(0);
@@ -132,6 +155,7 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     };
     rays.length_per_depth = each_half<FloatTag>(length_of, x, y);
     rays.length_float = to_floats(FloatTag(), rays.length_per_depth);
+    for (const RayPlane& plane : frame.clip) clip_to_plane(plane, x, y, rays.box);
     rays.drawn = rays.box;
     clip_to_box(rays, brick.box, rays.box);
     clip_to_box(rays, brick.drawn, rays.drawn);

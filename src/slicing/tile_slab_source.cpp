@@ -118,6 +118,7 @@ void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
     rays.middle_column = 0.5 * view.width;
     rays.middle_row = 0.5 * view.height;
     rays.pixel_size = perspective ? static_cast<double>(static_cast<float>(view.pixel)) : 0.0;
+    rays.clip = ray_planes(plan_.clip, grid_, view, slabs);
     rays.slab_thickness = (slabs.far - slabs.near) / slabs.count;
     const double voxels = rays.slab_thickness * glm::length(rays.direction_middle);
     rays.tested_slabs =

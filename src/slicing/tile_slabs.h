@@ -11,6 +11,7 @@
 #include "facts/facts.h"
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
+#include "slicing/ray_planes.h"
 #include "slicing/slab_polygons.h"
 #include "slicing/tile_volume.h"
 
@@ -33,6 +34,7 @@ struct TileRays {
     // front on.
     std::array<float, tile_block_slabs + 1> edges{};
     std::array<float, tile_block_slabs> middles{};
+    std::vector<RayPlane> clip;
 };
 
 struct TileBrickView {
