@@ -8,10 +8,12 @@
 #define REAL double
 #define REAL2 dvec2
 #define REAL3 dvec3
+#define REAL4 dvec4
 #else
 #define REAL float
 #define REAL2 vec2
 #define REAL3 vec3
+#define REAL4 vec4
 #endif
 
 uniform vec2 image_middle;      // in pixels
@@ -32,6 +34,10 @@ struct Ray {
     REAL length_per_depth;  // world units
 };
 
+#ifdef CLIP_PLANES
+#include "slicing/clip.glsl"
+#endif
+
 Ray view_ray(vec2 fragment) {
     vec2 from_middle = (fragment - image_middle) * vec2(1.0, -1.0);  // exact
     REAL2 pixel = REAL2(from_middle);
@@ -51,7 +57,7 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// Returns the depths between which the ray is inside the box and inside the slab. Where there are none, y <= x.
+// Returns the depths between which the ray is inside the box, the clip and the slab. Where there are none, y <= x.
 REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
@@ -60,6 +66,10 @@ REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     REAL3 other = (REAL3(box_max) - ray.origin) * inverse;
     REAL3 enter = min(one, other);
     REAL3 leave = max(one, other);
-    return REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
-                 min(slab.y, min(leave.x, min(leave.y, leave.z))));
+    REAL2 inside = REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
+                         min(slab.y, min(leave.x, min(leave.y, leave.z))));
+#ifdef CLIP_PLANES
+    inside = clip_to_planes(ray, inside);
+#endif
+    return inside;
 }

@@ -16,6 +16,8 @@ struct IndexPlane {
     double offset = 0;
 
     double distance(const glm::dvec3& index) const;
+    // The same plane in an index space that begins at sample `first` of this one.
+    IndexPlane seen_from(const glm::dvec3& first) const { return {normal, distance(first)}; }
     // The least and the largest distance of a box's points.
     double least_distance(const glm::dvec3& min, const glm::dvec3& max) const;
     double largest_distance(const glm::dvec3& min, const glm::dvec3& max) const;

@@ -70,24 +70,17 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSp
     }
 }
 
-// A quantity of rays that is linear in the pixel, at the places x and y from the image's middle.
-HWY_INLINE TwoDoubles at_pixels(const TwoDoubles& x, const TwoDoubles& y, double middle,
-                                double by_column, double by_row) {
+HWY_INLINE void clip_to_plane(const PacketRays& rays, const IndexPlane& plane, DepthSpan& span) {
     const DoubleTag d;
-    const auto at_pixel = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
-        return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(across, hn::Set(d, by_column))),
-                       hn::Mul(down, hn::Set(d, by_row)));
-    };
-    return each_half<FloatTag>(at_pixel, x, y);
-}
-
-HWY_INLINE void clip_to_plane(const RayPlane& plane, const TwoDoubles& x, const TwoDoubles& y,
-                              DepthSpan& span) {
-    const DoubleTag d;
-    const TwoDoubles distance =
-        at_pixels(x, y, plane.origin_middle, plane.origin_column, plane.origin_row);
-    const TwoDoubles slope =
-        at_pixels(x, y, plane.slope_middle, plane.slope_column, plane.slope_row);
+    TwoDoubles distance = all(plane.offset),
+               slope = all(0);  // of the origin; its change with depth
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto add = [&](HalfDoubles sum, HalfDoubles v) HWY_ATTR {
+            return hn::Add(sum, hn::Mul(hn::Set(d, plane.normal[axis]), v));
+        };
+        distance = each_half<FloatTag>(add, distance, rays.origin[axis]);
+        slope = each_half<FloatTag>(add, slope, rays.direction[axis]);
+    }
     const auto clip = [&](HalfDoubles from, HalfDoubles change, HalfDoubles& enter,
                           HalfDoubles& leave) HWY_ATTR {
         const auto safe = crossing_direction(change);
@@ -134,11 +127,18 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     };
     const TwoDoubles x = from(column + 0.5 - frame.middle_column, columns);
     const TwoDoubles y = from(row + 0.5 - frame.middle_row, rows);
+    const auto along = [&](double middle, double by_column, double by_row) HWY_ATTR {
+        const auto at_pixel = [&](HalfDoubles across, HalfDoubles down) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Set(d, middle), hn::Mul(across, hn::Set(d, by_column))),
+                           hn::Mul(down, hn::Set(d, by_row)));
+        };
+        return each_half<FloatTag>(at_pixel, x, y);
+    };
     for (int axis = 0; axis < 3; ++axis) {
-        rays.origin[axis] = at_pixels(x, y, brick.origin_middle[axis], frame.origin_column[axis],
-                                      frame.origin_row[axis]);
-        rays.direction[axis] = at_pixels(x, y, frame.direction_middle[axis],
-                                         frame.direction_column[axis], frame.direction_row[axis]);
+        rays.origin[axis] =
+            along(brick.origin_middle[axis], frame.origin_column[axis], frame.origin_row[axis]);
+        rays.direction[axis] = along(frame.direction_middle[axis], frame.direction_column[axis],
+                                     frame.direction_row[axis]);
         rays.direction_float[axis] = to_floats(FloatTag(), rays.direction[axis]);
     }
     rays.box.enter = all(0);
@@ -155,7 +155,7 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     };
     rays.length_per_depth = each_half<FloatTag>(length_of, x, y);
     rays.length_float = to_floats(FloatTag(), rays.length_per_depth);
-    for (const RayPlane& plane : frame.clip) clip_to_plane(plane, x, y, rays.box);
+    for (const IndexPlane& plane : brick.clip) clip_to_plane(rays, plane, rays.box);
     rays.drawn = rays.box;
     clip_to_box(rays, brick.box, rays.box);
     clip_to_box(rays, brick.drawn, rays.drawn);

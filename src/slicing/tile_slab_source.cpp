@@ -118,7 +118,6 @@ void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
     rays.middle_column = 0.5 * view.width;
     rays.middle_row = 0.5 * view.height;
     rays.pixel_size = perspective ? static_cast<double>(static_cast<float>(view.pixel)) : 0.0;
-    rays.clip = ray_planes(plan_.clip, grid_, view, slabs);
     rays.slab_thickness = (slabs.far - slabs.near) / slabs.count;
     const double voxels = rays.slab_thickness * glm::length(rays.direction_middle);
     rays.tested_slabs =
@@ -138,6 +137,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     if (brick.drawn.empty()) return;
     if (volume_) brick.brick = volume_->bricks()[number];
     brick.origin_middle = grid_.to_index(view.eye + slabs.near * view.forward) - first;
+    for (const IndexPlane& plane : plan_.clip) brick.clip.push_back(plane.seen_from(first));
     brick.first = first;
     brick.margin = point_margin(part);
     // Shaders get the box in float.

@@ -11,7 +11,6 @@
 #include "facts/facts.h"
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
-#include "slicing/ray_planes.h"
 #include "slicing/slab_polygons.h"
 #include "slicing/tile_volume.h"
 
@@ -34,15 +33,15 @@ struct TileRays {
     // front on.
     std::array<float, tile_block_slabs + 1> edges{};
     std::array<float, tile_block_slabs> middles{};
-    std::vector<RayPlane> clip;
 };
 
 struct TileBrickView {
     TileBrick brick;
     glm::dvec3 origin_middle{0};  // origin of the ray through the image's middle
     IndexBox box, drawn;          // in the brick's index space
-    glm::dvec3 first{0};          // the volume's sample at the brick's origin
-    double margin = 0;            // largest error of a point in float, in voxels
+    std::vector<IndexPlane> clip;
+    glm::dvec3 first{0};  // the volume's sample at the brick's origin
+    double margin = 0;    // largest error of a point in float, in voxels
 };
 
 // All that the segments of slabs depend on.
