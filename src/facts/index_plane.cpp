@@ -34,4 +34,11 @@ std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid) {
     return planes;
 }
 
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid) {
+    const glm::dvec3 min = grid.index_min(), max = grid.index_max();
+    std::erase_if(planes,
+                  [&](const IndexPlane& plane) { return plane.least_distance(min, max) >= 0; });
+    return planes;
+}
+
 }  // namespace lamina

@@ -27,5 +27,7 @@ struct IndexPlane {
 
 // All planes of the clip, the box's six last.
 std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid);
+// Those of them that cut something off the grid's box.
+std::vector<IndexPlane> cutting_planes(std::vector<IndexPlane> planes, const Grid& grid);
 
 }  // namespace lamina

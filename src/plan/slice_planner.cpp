@@ -85,17 +85,12 @@ class SlicePlanner {
     }
 
     void choose_clip() {
-        SlicePlan& slice = plan_.slice;
-        slice.clip = facts_.clip;
-        const glm::dvec3 min = facts_.grid.index_min(), max = facts_.grid.index_max();
-        const auto keeps_all = [&](const IndexPlane& plane) {
-            return plane.least_distance(min, max) >= 0;
-        };
-        const auto idle = std::ranges::count_if(slice.clip, keeps_all);
-        if (leave_out(idle > 0, "clip_planes",
-                      fmt::format("{} of {} planes of the clip cut nothing away", idle,
-                                  slice.clip.size())))
-            std::erase_if(slice.clip, keeps_all);
+        const std::vector<IndexPlane> cutting = cutting_planes(facts_.clip, facts_.grid);
+        const std::size_t all = facts_.clip.size(), idle = all - cutting.size();
+        const bool fewer =
+            leave_out(idle > 0, "clip_planes",
+                      fmt::format("{} of {} planes of the clip cut nothing away", idle, all));
+        plan_.slice.clip = fewer ? cutting : facts_.clip;
     }
 
     void choose_slabs() {

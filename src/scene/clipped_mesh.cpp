@@ -21,8 +21,8 @@ namespace lamina {
 namespace {
 
 // A corner this near to a plane lies on it: of the mesh's diagonal, and in roundings of
-// coordinates.
-constexpr double near_of_diagonal = 1e-13, near_of_coordinates = 0x1p-46;
+// coordinates. Renderers place faces to 9e-6 of an edge (docs/numerics.md, section 6).
+constexpr double near_of_diagonal = 1e-10, near_of_coordinates = 0x1p-46;
 
 // Corners 0, 1, 2 and 3, 4, 5 are triangles with the edges 0-3, 1-4, 2-5 between them; corner 3
 // lies where 0, 1, 2 are seen counter-clockwise.

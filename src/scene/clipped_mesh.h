@@ -13,7 +13,7 @@ namespace lamina {
 
 // The part of a mesh that lies in all half-spaces. Tets that a plane crosses are replaced by up to
 // three, so that a conforming mesh stays one; their scalars are interpolated linearly. Corners
-// nearer to a plane than 1e-13 of the mesh's diagonal (or than roundings of large coordinates) lie
+// nearer to a plane than 1e-10 of the mesh's diagonal (or than roundings of large coordinates) lie
 // on it, for thinner tets would be nothing but roundings. Orientations stay. Points that no tet
 // uses are dropped. Meshes with cell scalars cannot be cut.
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);

@@ -59,22 +59,31 @@ void expect_sound(const MeshData& data, double least_volume) {
     EXPECT_EQ(mesh.findings().unused_points, 0);
 }
 
+constexpr double off_plane = 1e-10 * 1.74;  // of the unit box
+
 TEST(CutMesh, BothSidesTogetherAreTheWhole) {
     for (const MeshData& whole : {kuhn(4), test::split_box(7, 600, .05, wave)}) {
         for (const HalfSpace& half : planes()) {
             const HalfSpace rest = other_side(half);
             const MeshData kept = cut_mesh(whole, {&half, 1}), cut = cut_mesh(whole, {&rest, 1});
-            // Corners nearer than 1e-13 of the diagonal count as on the plane.
-            EXPECT_NEAR(volume_of_mesh(kept) + volume_of_mesh(cut), 1, 1e-12);
+            // Corners nearer than 1e-10 of the diagonal count as on the plane, of which up to 1.7
+            // lie in the box.
+            EXPECT_NEAR(volume_of_mesh(kept) + volume_of_mesh(cut), 1, 1.7 * off_plane);
             expect_sound(kept, 0);
             expect_sound(cut, 0);
             for (const glm::dvec3& point : kept.points) {
-                EXPECT_GE(glm::dot(glm::normalize(half.normal), point - half.point), -1e-12);
+                EXPECT_GE(glm::dot(glm::normalize(half.normal), point - half.point), -off_plane);
             }
-            // Kept parts of convex meshes are convex.
-            EXPECT_NE(convexity(TetMesh(kept, "kept")), Convexity::none);
         }
     }
+}
+
+// Within rounding. (Of irregular meshes triangles of a cut may be so small that the plane of one
+// is not that of the next.)
+TEST(CutMesh, PartsOfAConvexMeshAreConvex) {
+    const MeshData whole = kuhn(4);
+    for (const HalfSpace& half : planes())
+        EXPECT_NE(convexity(TetMesh(cut_mesh(whole, {&half, 1}), "kept")), Convexity::none);
 }
 
 // Where faces of the mesh lie in the plane nothing is cut.
@@ -89,8 +98,8 @@ TEST(CutMesh, ScalarsAreLinearAndConstantsStay) {
     const auto linear = [](const glm::dvec3& p) { return 3 * p.x - p.y + .5 * p.z; };
     MeshData whole = test::split_box(7, 600, .05, linear);
     whole.point_scalars.push_back({"constant", std::vector<double>(whole.points.size(), .1)});
-    const std::vector<HalfSpace> all = planes();
-    const MeshData kept = cut_mesh(whole, {all.data() + 5, 3});
+    const std::vector<HalfSpace> wedge{{{.5, .5, .5}, {.3, -.7, .2}}, {{.5, .4, .5}, {1, .2, 0}}};
+    const MeshData kept = cut_mesh(whole, wedge);
     ASSERT_FALSE(kept.tets.empty());
     for (std::size_t i = 0; i < kept.points.size(); ++i) {
         EXPECT_NEAR(kept.point_scalars[0].values[i], linear(kept.points[i]), 1e-14);
@@ -118,7 +127,7 @@ TEST(CutMesh, TetsWithoutValueStayWithout) {
         const HalfSpace rest = other_side(half);
         EXPECT_NEAR(volume_without(cut_mesh(whole, {&half, 1})) +
                         volume_without(cut_mesh(whole, {&rest, 1})),
-                    volume_without(whole), 1e-12);
+                    volume_without(whole), 1.7 * off_plane);
     }
 }
 

@@ -59,7 +59,7 @@ TEST(ChangedClip, NothingIsLeftOfAMesh) {
     nothing_left_out.none = true;
     for (const OmissionSwitch& omissions : {OmissionSwitch{}, nothing_left_out}) {
         Scene scene = mesh_scene();
-        scene.clip.planes = {{{2, 0, 0}, {1, 0, 0}}};
+        scene.clip.planes = {{{5, 0, 0}, {1, 0, 0}}};  // of a box 3 wide
         SceneRenderer frames(scene, split_box(), tile_capabilities(), omissions);
         EXPECT_EQ(frames.draw_picture().rgba, Image(scene.width, scene.height).rgba);
         EXPECT_NE(frames.explanation().find("the clip cuts the whole mesh away"),

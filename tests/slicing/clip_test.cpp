@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "facts/world_unit.h"
 #include "support/volume_of.h"
 #include "tile_fixture.h"
 
@@ -179,7 +180,7 @@ void expect_many_slabs_to_converge(const Draw& draw) {
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             scene.clip = named.clip;
             const Image reference = trace(volume, scene, 1e-6);
-            for (const auto [classification, samples, bound] :
+            for (const auto& [classification, samples, bound] :
                  {std::tuple{Classification::post, 800, .05},
                   std::tuple{Classification::preintegrated, 200, .05}}) {
                 scene.slice.classification = classification;
