@@ -57,7 +57,7 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// Returns the depths between which the ray is inside the box, the clip and the slab. Where there are none, y <= x.
+// Returns the depths between which the ray is inside the box and inside the slab. Where there are none, y <= x.
 REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
     REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
@@ -68,7 +68,7 @@ REAL2 clip_to_box(Ray ray, REAL2 slab, vec3 box_min, vec3 box_max) {
     REAL3 leave = max(one, other);
     REAL2 inside = REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
                          min(slab.y, min(leave.x, min(leave.y, leave.z))));
-#ifdef CLIP_PLANES
+#ifdef CLIP_PLANES  // and where the clip keeps it
     inside = clip_to_planes(ray, inside);
 #endif
     return inside;
