@@ -92,6 +92,48 @@ TEST_F(SlicingTest, ClippedHomogeneousBoxHasTheExactChordsOpacity) {
         });
 }
 
+// What float32 rays may do to a length inside the unit box and a clip: a plane's distance is off by
+// 16 roundings of coordinates, which are up to the eye's distance of 2, and a ray that grazes the
+// plane is cut so much farther away.
+double float_error_of_length(const Clip& clip, const View::Ray& ray) {
+    constexpr double off = 16 * 0x1p-24 * 3;
+    std::vector<HalfSpace> faces = half_spaces({{}, ClipBox{{0, 0, 0}, {1, 1, 1}}});
+    for (const HalfSpace& half : half_spaces(clip)) faces.push_back(half);
+    double error = 0;
+    for (const HalfSpace& half : faces) {
+        const glm::dvec3 normal = glm::normalize(half.normal);
+        error += off / std::abs(glm::dot(normal, glm::normalize(ray.direction)));
+    }
+    return error;
+}
+
+TEST_F(SlicingTest, FloatRaysEndAtPlanesToo) {
+    const Volume volume = constant();
+    Capabilities gpu = capabilities();
+    gpu.software = false;
+    for (const Pose& pose : poses) {
+        for (const test::NamedClip& named : test::clips_of_unit_box()) {
+            Scene scene = posed(pose, TransferFunction::linear({knot(0, {1, 1, 1}, 2)}));
+            scene.clip = named.clip;
+            scene.slice.samples = 7;
+            const Facts facts = measure(scene, volume, measure_bricks(volume));
+            ASSERT_FALSE(make_plan(scene, facts, gpu, {}).slice.precise_rays);
+            const View view(scene.camera, scene.width, scene.height);
+            const Image image = render(volume, scene, gpu);
+            for (int row = 0; row < view.height; ++row) {
+                for (int column = 0; column < view.width; ++column) {
+                    const View::Ray ray = view.ray(column, row);
+                    const double length = test::kept_length(named.clip, ray, {0, 0, 0}, {1, 1, 1});
+                    // Beside the lengths: sums of eight opacities in float32.
+                    ASSERT_NEAR(image.pixel(column, row)[3], -std::expm1(-2 * length),
+                                2 * float_error_of_length(named.clip, ray) + 16 * 0x1p-24)
+                        << named.name;
+                }
+            }
+        }
+    }
+}
+
 // Clips of the unit box, moved into a grid's box.
 Clip in_box_of(const Grid& grid, Clip clip) {
     const Grid::Bounds box = grid.bounds();
