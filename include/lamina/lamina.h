@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lamina/camera.h"
+#include "lamina/clip.h"
 #include "lamina/color.h"
 #include "lamina/context_choice.h"
 #include "lamina/error.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lamina/camera.h"
+#include "lamina/clip.h"
 #include "lamina/emulation.h"
 #include "lamina/export.h"
 #include "lamina/generator_request.h"
@@ -38,6 +39,7 @@ struct Scene {
     NanPolicy nan = NanPolicy::error;
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
     Camera camera;
+    Clip clip;
     // Where these are set, what stands above is replaced by what the data suggest, once they are
     // known (docs/first-picture.md).
     bool automatic_transfer_function = false, automatic_camera = false;

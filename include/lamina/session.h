@@ -39,6 +39,7 @@ using ProgressCallback = std::function<void(const std::string& activity, double 
 //   transfer function   measures the data against it, makes tables; the volume stays where it is.
 //                       A mesh that the session makes from a volume is made again, for it follows
 //                       the transfer function
+//   clip                measures the data against it, makes tables; a mesh is cut again
 //   settings            all of that, and what is automatic is chosen again
 //
 // What is automatic ("auto" in scene files) is chosen for the first picture and kept, transfer
@@ -65,6 +66,7 @@ class LAMINA_API Session {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
+    void set_clip(const Clip& clip);
     // Another scene of the same data, of any method that can draw them. What it says of files is
     // not read again.
     void set_scene(Scene scene);

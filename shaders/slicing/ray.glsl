@@ -8,10 +8,12 @@
 #define REAL double
 #define REAL2 dvec2
 #define REAL3 dvec3
+#define REAL4 dvec4
 #else
 #define REAL float
 #define REAL2 vec2
 #define REAL3 vec3
+#define REAL4 vec4
 #endif
 
 uniform vec2 image_middle;      // in pixels
@@ -34,6 +36,10 @@ struct Ray {
     REAL3 direction;
     REAL length_per_depth;  // world units
 };
+
+#ifdef CLIP_PLANES
+#include "slicing/clip.glsl"
+#endif
 
 Ray view_ray(vec2 fragment) {
     vec2 from_middle = (fragment - image_middle) * vec2(1.0, -1.0);  // exact
@@ -63,6 +69,10 @@ REAL2 clip_to_box(Ray ray, REAL2 slab) {
     REAL3 other = (REAL3(box_max) - ray.origin) * inverse;
     REAL3 enter = min(one, other);
     REAL3 leave = max(one, other);
-    return REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
-                 min(slab.y, min(leave.x, min(leave.y, leave.z))));
+    REAL2 inside = REAL2(max(slab.x, max(enter.x, max(enter.y, enter.z))),
+                         min(slab.y, min(leave.x, min(leave.y, leave.z))));
+#ifdef CLIP_PLANES  // and where the clip keeps it
+    inside = clip_to_planes(ray, inside);
+#endif
+    return inside;
 }

@@ -97,6 +97,43 @@ double faint_extinction(const Facts& facts) {
     return faint_depth / (box_diagonal(facts.grid) * std::max(facts.max_color, 1.0));
 }
 
+// Of the volume's box, what the bricks first .. last hold.
+IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& count,
+                       const std::array<std::int64_t, 3>& first,
+                       const std::array<std::int64_t, 3>& last) {
+    IndexBox box{grid.index_min(), grid.index_max()};
+    for (int axis = 0; axis < 3; ++axis) {
+        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
+        if (first[axis] > 0) box.min[axis] = static_cast<double>(first[axis] * MinMaxBricks::edge);
+        if (last[axis] + 1 < count[axis])
+            box.max[axis] = static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
+    }
+    return box;
+}
+
+// Bricks that lie wholly behind a plane of the clip.
+void empty_cut_bricks(Facts& facts) {
+    OccupiedBricks& occupied = facts.occupied_bricks;
+    const auto [nx, ny, nz] = occupied.count;
+    const std::int64_t columns = nx, rows = ny;  // clang below 16 has no bindings in lambdas
+    const auto cut_away = [&](const IndexBox& box) {
+        return std::ranges::any_of(facts.clip, [&](const IndexPlane& plane) {
+            return plane.largest_distance(box.min, box.max) <= 0;
+        });
+    };
+    parallel_for(nz, 1, [&](std::int64_t z) {
+        for (std::int64_t y = 0; y < rows; ++y) {
+            for (std::int64_t x = 0; x < columns; ++x) {
+                std::uint8_t& distance = occupied.distance[occupied.place(x, y, z)];
+                const std::array<std::int64_t, 3> brick{x, y, z};
+                if (distance == 0 &&
+                    cut_away(box_of_bricks(facts.grid, occupied.count, brick, brick)))
+                    distance = OccupiedBricks::farthest;
+            }
+        }
+    });
+}
+
 void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                    Facts& facts) {
     OccupiedBricks& occupied = facts.occupied_bricks;
@@ -112,21 +149,12 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
         const auto i = static_cast<std::size_t>(number);
         occupied.distance[i] = shown(bricks.ranges[i]) ? 0 : OccupiedBricks::farthest;
     });
-    occupied.measure_distances();
-}
-
-// Of the volume's box, what the bricks first .. last hold.
-IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& count,
-                       const std::array<std::int64_t, 3>& first,
-                       const std::array<std::int64_t, 3>& last) {
-    IndexBox box{grid.index_min(), grid.index_max()};
-    for (int axis = 0; axis < 3; ++axis) {
-        // The outermost bricks also hold the half voxels beyond the samples of `cell` axes.
-        if (first[axis] > 0) box.min[axis] = static_cast<double>(first[axis] * MinMaxBricks::edge);
-        if (last[axis] + 1 < count[axis])
-            box.max[axis] = static_cast<double>((last[axis] + 1) * MinMaxBricks::edge);
+    if (!facts.clip.empty()) {
+        const bool some = std::ranges::count(occupied.distance, 0) > 0;
+        empty_cut_bricks(facts);
+        facts.clipped_away = some && std::ranges::count(occupied.distance, 0) == 0;
     }
-    return box;
+    occupied.measure_distances();
 }
 
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
@@ -211,6 +239,7 @@ Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bric
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts;
     facts.grid = volume.grid();
+    facts.clip = index_planes(scene.clip, facts.grid);
     facts.type = volume.type();
     facts.range = bricks.whole;
     facts.non_finite = bricks.non_finite;

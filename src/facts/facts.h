@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "facts/constant_bricks.h"
+#include "facts/index_plane.h"
 #include "facts/occupied_bricks.h"
 #include "facts/ray_shares.h"
 #include "facts/scalar_rays.h"
@@ -42,6 +43,8 @@ struct Facts {
     ValueRange range;             // range of the finite samples
     std::int64_t non_finite = 0;  // number of NaN or infinite samples
 
+    std::vector<IndexPlane> clip;  // all planes of the scene's clip
+
     double side_ratio = 1;  // longest side of the box over the shortest, in the world
 
     // The following describe the transfer function over `range`.
@@ -52,9 +55,10 @@ struct Facts {
     std::int64_t knots = 0;     // number strictly inside the range
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
 
-    // The smallest box, made of whole min/max bricks, outside which the transfer function shows
-    // nothing.
+    // The smallest box, made of whole min/max bricks, outside which nothing shows. Bricks that the
+    // clip cuts away as a whole show nothing.
     IndexBox occupied;
+    bool clipped_away = false;  // something would show without the clip, and nothing does with it
     OccupiedBricks occupied_bricks;
     double occupied_share = 0;  // share of the bricks that show something
     DepthRange occupied_depth;  // eye-space depths of `occupied`

@@ -21,6 +21,8 @@ struct MeshFacts {
     ValueRange range;    // range of the finite values
     std::int64_t non_finite = 0;
     MeshFindings findings;
+    // The clip leaves nothing of the mesh. All else then describes the mesh before it was cut.
+    bool clipped_away = false;
 
     double shortest_edge = 0, longest_edge = 0;  // world units
     double diagonal = 0;                         // diagonal of the bounding box, world units

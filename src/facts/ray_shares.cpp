@@ -36,6 +36,9 @@ class ShareCounter {
         for (int i = 0; i < steps_; ++i) {
             const glm::dvec3 at = origin + (facts_.near_depth + (i + 0.5) * step) * direction;
             if (glm::clamp(at, facts_.grid.index_min(), facts_.grid.index_max()) != at) continue;
+            if (std::ranges::any_of(
+                    facts_.clip, [&](const IndexPlane& plane) { return plane.distance(at) < 0; }))
+                continue;
             const bool occupied = facts_.occupied_bricks.any_in(at, at);
             const bool seen = depth < opaque_;
             const bool constant = !facts_.constant_bricks.kinds.empty() &&

@@ -9,8 +9,8 @@ namespace lamina {
 
 struct Facts;
 
-// Shares of the slabs along the rays of all pixels: of those in the box, of those in bricks that
-// show something, and of those in constant ones of these bricks (Facts::constant_bricks). The
+// Shares of the slabs along the rays of all pixels: of those in the clipped box, of those in bricks
+// that show something, and of those in constant ones of these bricks (Facts::constant_bricks). The
 // members *_before_opaque count only slabs before the ray is as good as opaque. All are counted on
 // rays all over the picture, and a plan predicts its work from them.
 struct RayShares {

@@ -26,13 +26,14 @@ class RaySampler {
     RaySampler(const Scene& scene, const Volume& volume, const Facts& facts)
         : volume_(volume),
           grid_(facts.grid),
+          clip_(facts.clip),
           transfer_function_(scene.transfer_function),
           view_(scene.camera, scene.width, scene.height),
           step_((facts.far_depth - facts.near_depth) /
                 std::clamp(std::ceil(scalars_per_voxel * facts.voxels_along_view), 1.0,
                            most_scalars)) {}
 
-    // Depths where the pixel's ray enters and leaves the box; far <= near: it misses the box.
+    // Depths where the pixel's ray enters and leaves the clipped box; far <= near: it misses that.
     DepthRange chord(const glm::ivec2& pixel) const {
         const View::Ray ray = view_.ray(pixel.x, pixel.y);
         const glm::dvec3 origin = grid_.to_index(ray.origin);
@@ -44,6 +45,12 @@ class RaySampler {
             if (!std::isfinite(a) || !std::isfinite(b)) continue;  // perpendicular: all or nothing
             from = std::max(from, std::min(a, b));
             to = std::min(to, std::max(a, b));
+        }
+        for (const IndexPlane& plane : clip_) {
+            const double slope = glm::dot(plane.normal, direction);
+            const double at = -plane.distance(origin) / slope;
+            if (!std::isfinite(at)) continue;  // as above
+            (slope > 0 ? from : to) = slope > 0 ? std::max(from, at) : std::min(to, at);
         }
         return {from, to};
     }
@@ -97,6 +104,7 @@ class RaySampler {
 
     const Volume& volume_;
     const Grid& grid_;
+    const std::vector<IndexPlane>& clip_;
     const TransferFunction& transfer_function_;
     View view_;
     double step_;  // in depth, between scalars

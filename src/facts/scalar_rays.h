@@ -14,7 +14,7 @@ struct Facts;
 struct ScalarRays {
     struct Ray {
         double length_per_depth = 1;  // world length per unit of eye-space depth
-        double near = 0, far = 0;     // eye-space depths where it enters and leaves the box
+        double near = 0, far = 0;     // eye-space depths where it enters and leaves the clipped box
         // The scalar, and the optical depth in front of it, at two or more evenly spaced depths
         // from `near` to `far`.
         std::vector<float> scalars;

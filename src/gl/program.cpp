@@ -81,4 +81,8 @@ void Program::set(std::string_view name, std::span<const glm::vec4> values) {
     set(name, UniformKind::float4, values.size(), values.data());
 }
 
+void Program::set(std::string_view name, std::span<const glm::dvec4> values) {
+    set(name, UniformKind::double4, values.size(), values.data());
+}
+
 }  // namespace lamina::gl

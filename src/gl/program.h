@@ -43,6 +43,7 @@ class Program {
     void set(std::string_view name, const glm::dvec3& value);
     void set(std::string_view name, std::span<const glm::vec2> values);  // of an array
     void set(std::string_view name, std::span<const glm::vec4> values);
+    void set(std::string_view name, std::span<const glm::dvec4> values);
     void set(std::string_view name, const glm::vec4& value);
     void set(std::string_view name, const glm::ivec2& value);
     void set(std::string_view name, const glm::ivec3& value);

@@ -28,6 +28,8 @@ std::size_t bytes_of(UniformKind kind) {
             return 16;
         case UniformKind::double3:
             return 24;
+        case UniformKind::double4:
+            return 32;
         case UniformKind::matrix4:
             return 64;
     }
@@ -68,6 +70,8 @@ void upload(unsigned program, int location, const UniformValue& value) {
             return api().ProgramUniform2dv(program, location, count, doubles);
         case UniformKind::double3:
             return api().ProgramUniform3dv(program, location, count, doubles);
+        case UniformKind::double4:
+            return api().ProgramUniform4dv(program, location, count, doubles);
         case UniformKind::int1:
             return api().ProgramUniform1iv(program, location, count, ints);
         case UniformKind::int2:

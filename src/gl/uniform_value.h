@@ -15,6 +15,7 @@ enum class UniformKind {
     double1,
     double2,
     double3,
+    double4,
     int1,
     int2,
     int3,

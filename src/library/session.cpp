@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "choice/choose.h"
 #include "library/session_parts.h"
+#include "scene/half_space.h"
 
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
@@ -64,6 +65,12 @@ void Session::set_transfer_function(const TransferFunction& transfer_function) {
         parts_->take_scene(std::move(scene));
         if (parts_->drawn) parts_->drawn->set_transfer_function(transfer_function);
     });
+}
+
+void Session::set_clip(const Clip& clip) {
+    half_spaces(clip);  // checks it
+    parts_->scene.clip = parts_->asked.clip = clip;
+    if (parts_->drawn) parts_->run([&] { parts_->drawn->set_clip(clip); });
 }
 
 void Session::set_scene(Scene scene) {

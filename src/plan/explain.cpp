@@ -177,6 +177,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("classification",
             with_reason(name_of(slice.classification), slice.classification_reason));
         row("order", name_of(slice.order));
+        if (!slice.clip.empty()) row("clip", fmt::format("{} planes", slice.clip.size()));
         row("rays", slice.precise_rays ? "double" : "float");
         row("scalar", with_reason(text_of(slice.sampling, capabilities), slice.filter_reason));
         if (!capabilities.tiles) {

@@ -72,6 +72,8 @@ struct SlicePlan : CompositingPlan {
     // scalar.
     bool linear = false;
     TablePlan table;  // otherwise, for Classification::preintegrated
+    // Segments end at these planes, in the volume's index space.
+    std::vector<IndexPlane> clip;
     // Polygons cover only this box inside the volume's box. Segments are clipped to the volume's
     // box.
     IndexBox drawn;

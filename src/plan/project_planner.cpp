@@ -111,7 +111,10 @@ class ProjectPlanner {
                                 "per fragment, with --no-omit neither"});
         }
         const bool transparent = facts_.transparent_tets == facts_.tets;
+        if (facts_.clipped_away)
+            omitted_.push_back({"drawing", "the clip cuts the whole mesh away"});
         plan_.nothing_visible =
+            facts_.clipped_away ||
             leave_out(transparent || !facts_.in_front, "drawing",
                       transparent ? "the transfer function shows no value that the mesh has"
                                   : "the mesh lies behind the eye");

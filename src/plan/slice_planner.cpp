@@ -62,6 +62,7 @@ class SlicePlanner {
         slice.nan_transparent = facts_.non_finite > 0;
         slice.table_filtered =
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
+        choose_clip();
         choose_slabs();
         choose_filter();
         choose_precision();
@@ -81,6 +82,15 @@ class SlicePlanner {
         if (!unneeded || !omissions_.allows(name)) return false;
         plan_.omitted.push_back({name, reason});
         return true;
+    }
+
+    void choose_clip() {
+        const std::vector<IndexPlane> cutting = cutting_planes(facts_.clip, facts_.grid);
+        const std::size_t all = facts_.clip.size(), idle = all - cutting.size();
+        const bool fewer =
+            leave_out(idle > 0, "clip_planes",
+                      fmt::format("{} of {} planes of the clip cut nothing away", idle, all));
+        plan_.slice.clip = fewer ? cutting : facts_.clip;
     }
 
     void choose_slabs() {
@@ -131,8 +141,9 @@ class SlicePlanner {
         slice.drawn = whole;
         slice.nothing_visible = leave_out(
             facts_.occupied.empty() || facts_.far_depth <= facts_.near_depth, "drawing",
-            facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
-                                    : "the volume lies behind the eye");
+            facts_.clipped_away       ? "the clip cuts all away that the transfer function shows"
+            : facts_.occupied.empty() ? "the transfer function shows no value that the volume has"
+                                      : "the volume lies behind the eye");
         if (slice.nothing_visible) return;
         const bool smaller = facts_.occupied.min != whole.min || facts_.occupied.max != whole.max;
         const bool by_brick = skips_bricks();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
@@ -18,6 +19,13 @@ class ProjectRenderer : public FrameRenderer {
     // For the renderer that takes its place.
     virtual std::shared_ptr<VisibilityOrder> order() const = 0;
     virtual std::int64_t tets_drawn() const = 0;  // that cover the centre of a pixel
+
+    // Makes the mesh live as long as the renderer.
+    void keep(std::shared_ptr<const SceneMesh> mesh) { mesh_ = std::move(mesh); }
+    const SceneMesh* kept_mesh() const { return mesh_.get(); }
+
+  private:
+    std::shared_ptr<const SceneMesh> mesh_;
 };
 
 // What sorts the mesh's tets as the plan says: `ready`, of the same mesh or null, where it does.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/double_double.h"
+#include "reference/clip_span.h"
 
 namespace lamina {
 namespace {
@@ -46,16 +46,12 @@ Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dv
     return {dot(offset, axis) / square * unscale, dot(direction, axis) / square * unscale};
 }
 
-struct Interval {
-    DoubleDouble from, to;
-};
-
 // Returns the part of z >= 0 where every coordinate is inside its closed range. Where there is
 // none, from >= to.
-Interval clip(const Coordinate (&ray)[3], const glm::dvec3& lowest, const glm::dvec3& highest,
-              int& entry_axis) {
+RaySpan clip_to_faces(const Coordinate (&ray)[3], const glm::dvec3& lowest,
+                      const glm::dvec3& highest, int& entry_axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Interval inside{{0, 0}, {infinity, 0}};
+    RaySpan inside{{0, 0}, {infinity, 0}};
     for (int axis = 0; axis < 3; ++axis) {
         if (ray[axis].slope.hi == 0) {
             const DoubleDouble p = ray[axis].position;
@@ -76,7 +72,7 @@ Interval clip(const Coordinate (&ray)[3], const glm::dvec3& lowest, const glm::d
 
 }  // namespace
 
-Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
+Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip) {
     Coordinate coordinates[3];
     double steepest = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -91,8 +87,12 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray) {
     }
     const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
     int entry_axis = -1;
-    const Interval inside = clip(coordinates, lowest, highest, entry_axis);
+    RaySpan inside = clip_to_faces(coordinates, lowest, highest, entry_axis);
     if (!(inside.from < inside.to)) return {};
+    const DoubleDouble of_box = inside.from;
+    clip_span(clip, ray, inside);
+    if (!(inside.from < inside.to)) return {};
+    if (of_box < inside.from) entry_axis = -1;
 
     Chord chord;
     chord.length_z = (inside.to - inside.from).rounded();

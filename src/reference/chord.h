@@ -3,8 +3,11 @@
 
 #include <glm/vec3.hpp>
 
+#include <span>
+
 #include "lamina/grid.h"
 #include "scene/camera.h"
+#include "scene/half_space.h"
 
 namespace lamina {
 
@@ -21,10 +24,10 @@ struct Chord {
     double world_length() const { return length_z * world_per_z; }
 };
 
-// Clips a ray to the box. The numbers of ray and grid are taken as exact. length_z has a relative
-// error of 1e-15, also for very short chords at an edge of the box that is seen from far away. The
-// box is closed: a ray in a face is inside.
-Chord clip_to_box(const Grid& grid, const View::Ray& ray);
+// Clips a ray to the box, and to the half-spaces of a clip. The numbers of ray and grid are taken
+// as exact. length_z has a relative error of 1e-15, also for very short chords at an edge of the
+// box that is seen from far away. The box is closed: a ray in a face is inside.
+Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 
 // World length of the ray of pixel (column, row) (fractions allowed) inside the box.
 double chord_length(const Grid& grid, const View& view, double column, double row);

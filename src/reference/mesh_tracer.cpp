@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "mesh/ray_walk.h"
+#include "reference/clip_span.h"
 #include "reference/segment_sum.h"
 #include "reference/transfer_intervals.h"
 
@@ -32,14 +33,15 @@ class RowTracer {
   public:
     RowTracer(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> scalar,
               const std::vector<char>& no_value, const TransferFunction& transfer_function,
-              const TransferIntervals& intervals, const View& view)
+              const TransferIntervals& intervals, const View& view, std::span<const HalfSpace> clip)
         : mesh_(mesh),
           open_faces_(open_faces),
           scalar_(scalar),
           no_value_(no_value),
           transfer_function_(transfer_function),
           intervals_(intervals),
-          view_(view) {
+          view_(view),
+          clip_(clip) {
         const glm::dvec3 lo = mesh.bounds().min - view.eye, hi = mesh.bounds().max - view.eye;
         reach_ = glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
     }
@@ -54,8 +56,9 @@ class RowTracer {
             SegmentSum sum(transfer_function_, intervals_,
                            place_epsilons * std::numeric_limits<double>::epsilon() * reach_);
             walk.aim(ray.origin, ray.direction);
+            const Seen seen = seen_of(ray);
             const auto add = [&](const TetSegment& segment) {
-                add_segment(segment, world_per_z, sum);
+                add_segment(segment, seen, world_per_z, sum);
                 return !sum.opaque();
             };
             if (walk.overlapping()) {
@@ -77,18 +80,33 @@ class RowTracer {
     }
 
   private:
-    // Adds the part of the segment in front of the eye, or of the eye's plane.
-    void add_segment(const TetSegment& segment, double world_per_z, SegmentSum& sum) const {
-        if (segment.out.at <= 0) return;
+    // The part of a ray in front of the eye, or of the eye's plane, that the clip keeps.
+    struct Seen {
+        double from, to;
+    };
+    Seen seen_of(const View::Ray& ray) const {
+        RaySpan span{{0, 0}, {INFINITY, 0}};
+        clip_span(clip_, ray, span);
+        return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
+    }
+
+    // Adds the part of the segment that is seen.
+    void add_segment(const TetSegment& segment, const Seen& seen, double world_per_z,
+                     SegmentSum& sum) const {
+        if (segment.out.at <= seen.from || segment.in.at >= seen.to || seen.from >= seen.to) return;
         if (!no_value_.empty() && no_value_[static_cast<std::size_t>(segment.tet)] != 0) return;
-        double front = segment.in.interpolate(scalar_);
-        const double back = segment.out.interpolate(scalar_);
-        double from = segment.in.at;
-        if (from < 0) {
-            front += (back - front) * (-from / (segment.out.at - from));
-            from = 0;
+        double from = segment.in.at, to = segment.out.at;
+        double front = segment.in.interpolate(scalar_), back = segment.out.interpolate(scalar_);
+        const double slope = (back - front) / (to - from);
+        if (to > seen.to) {
+            back -= slope * (to - seen.to);
+            to = seen.to;
         }
-        sum.add(front, back, (segment.out.at - from) * world_per_z, slack_of(segment.tet));
+        if (from < seen.from) {
+            front += slope * (seen.from - from);
+            from = seen.from;
+        }
+        sum.add(front, back, (to - from) * world_per_z, slack_of(segment.tet));
     }
 
     // Returns how far interpolation may be off inside a tet. Constant values are exact.
@@ -111,6 +129,7 @@ class RowTracer {
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     const View& view_;
+    std::span<const HalfSpace> clip_;
     double reach_;
 };
 
@@ -132,11 +151,13 @@ std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double
 
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
-                           const TransferFunction& transfer_function, const View& view) {
+                           const TransferFunction& transfer_function, const View& view,
+                           std::span<const HalfSpace> clip) {
     MeshTraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals intervals(transfer_function);
     const std::vector<char> no_value = tets_without_value(mesh, scalar);
-    const RowTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals, view);
+    const RowTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals, view,
+                           clip);
     std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
     Progress progress("tracing", view.height);
     parallel_for(view.height, 1, [&](std::int64_t row) {

@@ -12,6 +12,7 @@
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
 #include "scene/camera.h"
+#include "scene/half_space.h"
 
 namespace lamina {
 
@@ -28,10 +29,11 @@ struct MeshTraceResult {
 };
 
 // `scalar`: one value a point. Tets with a corner whose value is NaN or infinite are transparent.
-// `open_faces`: tree of the mesh's open faces. Runs on all cores; the result does not depend on
-// their number.
+// `open_faces`: tree of the mesh's open faces. `clip`: what is drawn lies in all of them. Runs on
+// all cores; the result does not depend on their number.
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
-                           const TransferFunction& transfer_function, const View& view);
+                           const TransferFunction& transfer_function, const View& view,
+                           std::span<const HalfSpace> clip = {});
 
 }  // namespace lamina

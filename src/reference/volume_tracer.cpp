@@ -40,10 +40,11 @@ struct TracedRay {
 
 template <typename Sample>
 TracedRay trace_ray(const Grid& grid, const CellSamples<Sample>& samples,
-                    const TransferIntervals& transfer, const View::Ray& ray, double tolerance) {
-    const Chord chord = clip_to_box(grid, ray);
+                    const TransferIntervals& transfer, const View::Ray& ray,
+                    const TraceOptions& options) {
+    const Chord chord = clip_to_box(grid, ray, options.clip);
     if (!(chord.length_z > 0)) return {};
-    RayIntegrator integrator(transfer, tolerance, chord.world_length());
+    RayIntegrator integrator(transfer, options.tolerance, chord.world_length());
     CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
         add_cell(samples, transfer, chord, cell, from, to, integrator);
         return !integrator.opaque();
@@ -78,8 +79,8 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
             const int row = static_cast<int>(number);
             RowTotals& totals = rows[static_cast<std::size_t>(number)];
             for (int column = 0; column < view.width; ++column) {
-                const TracedRay ray = trace_ray(volume.grid(), samples, transfer,
-                                                view.ray(column, row), options.tolerance);
+                const TracedRay ray =
+                    trace_ray(volume.grid(), samples, transfer, view.ray(column, row), options);
                 double* const pixel = result.image.pixel(column, row);
                 for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
                 totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
@@ -107,7 +108,7 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
         parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
             const auto i = static_cast<std::size_t>(number);
             rays[i] = trace_ray(volume.grid(), samples, transfer,
-                                view.ray(pixels[i].x, pixels[i].y), options.tolerance);
+                                view.ray(pixels[i].x, pixels[i].y), options);
             progress.advance();
         });
     });

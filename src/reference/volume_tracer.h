@@ -13,12 +13,15 @@
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
+#include "scene/half_space.h"
 
 namespace lamina {
 
 struct TraceOptions {
     // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1.
     double tolerance = 1e-5;
+
+    std::vector<HalfSpace> clip{};  // what is drawn lies in all of them
 
     static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
 };

@@ -3,6 +3,7 @@
 
 #include "base/unreachable.h"
 #include "projection/project_renderer.h"
+#include "scene/clipped_mesh.h"
 
 namespace lamina {
 namespace {
@@ -23,8 +24,18 @@ ProjectOrder order_of(OrderMethod method) {
 
 }  // namespace
 
+void ProjectDrawing::clip_mesh(const Scene& scene) {
+    if (scene.clip == clip_) return;
+    clip_ = scene.clip;
+    mesh_ = clipped_mesh(whole_, clip_, name_of_mesh(scene));
+    clipped_away_ = mesh_ == nullptr;
+    if (clipped_away_) mesh_ = whole_;
+}
+
 void ProjectDrawing::measure_data(const Scene& scene) {
+    clip_mesh(scene);
     facts_ = lamina::measure_data(scene, *mesh_);
+    facts_.clipped_away = clipped_away_;
 }
 
 // Trial rays choose between a table whose nodes lie on the transfer function's points and
@@ -67,8 +78,13 @@ std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& ca
 std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,
                                                              const Capabilities& capabilities,
                                                              FrameRenderer* before) const {
-    return make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
-                                 scene.width, scene.height, before);
+    const auto* const other = dynamic_cast<const ProjectRenderer*>(before);
+    const bool same_mesh = other != nullptr && other->kept_mesh() == mesh_.get();
+    auto renderer =
+        make_project_renderer(*mesh_, scene.transfer_function, plan.project, capabilities,
+                              scene.width, scene.height, same_mesh ? before : nullptr);
+    renderer->keep(mesh_);
+    return renderer;
 }
 
 }  // namespace lamina

@@ -12,7 +12,8 @@ namespace lamina {
 
 class ProjectDrawing : public Drawing {
   public:
-    explicit ProjectDrawing(std::shared_ptr<const SceneMesh> mesh) : mesh_(std::move(mesh)) {}
+    explicit ProjectDrawing(std::shared_ptr<const SceneMesh> mesh)
+        : whole_(std::move(mesh)), mesh_(whole_) {}
 
     const char* activity() const override { return "projecting"; }
     void measure_data(const Scene& scene) override;
@@ -26,7 +27,12 @@ class ProjectDrawing : public Drawing {
                                                  FrameRenderer* before) const override;
 
   private:
-    std::shared_ptr<const SceneMesh> mesh_;
+    void clip_mesh(const Scene& scene);
+
+    std::shared_ptr<const SceneMesh> whole_;
+    std::shared_ptr<const SceneMesh> mesh_;  // what the clip leaves; where that is nothing, whole_
+    Clip clip_;
+    bool clipped_away_ = false;
     MeshFacts facts_;
 };
 

@@ -58,6 +58,11 @@ void SceneRenderer::set_transfer_function(const TransferFunction& transfer_funct
     plan_.reset();
 }
 
+void SceneRenderer::set_clip(const Clip& clip) {
+    change([&](Scene& scene) { scene.clip = clip; });
+    data_measured_ = renderer_fits_ = false;
+}
+
 void SceneRenderer::set_scene(Scene scene) {
     assert(scene.method == asked_.method);
     asked_ = std::move(scene);

@@ -28,6 +28,9 @@ namespace lamina {
 //   transfer function   the facts of the data, too, and a renderer with its tables, which takes
 //                       over the same; OpenGL compiles where the transfer function has another
 //                       number of points or its tables have other sizes
+//   clip                the facts of the data, too, and a renderer, which takes over the same; a
+//   mesh
+//                       is cut again
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.
@@ -48,6 +51,7 @@ class SceneRenderer {
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);
+    void set_clip(const Clip& clip);
     // Replaces the scene by another one with the same data and method.
     void set_scene(Scene scene);
     void choose_again();

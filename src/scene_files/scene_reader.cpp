@@ -10,6 +10,7 @@
 #include "base/shortened.h"
 #include "image/image_limits.h"
 #include "scene/camera.h"
+#include "scene_files/clip_json.h"
 #include "scene_files/color_json.h"
 #include "scene_files/data_range.h"
 #include "scene_files/data_reader.h"
@@ -189,6 +190,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     }
     scene.automatic_camera = is_automatic(reader, "camera");
     if (!scene.automatic_camera) scene.camera = read_camera(reader.object("camera"));
+    if (reader.has("clip")) scene.clip = read_clip(reader.object("clip"));
     read_image(reader.object("image"), scene);
     read_render(reader.object("render"), scene);
     reader.close();

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "base/stage.h"
 #include "base/unreachable.h"
@@ -52,6 +55,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     defines.set("SAMPLING", sampling_define(plan.sampling));
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.precise_rays) defines.set("PRECISE_RAYS", 1);
+    if (!plan.clip.empty()) defines.set("CLIP_PLANES", static_cast<int>(plan.clip.size()));
     if (plan.single_color) defines.set("SINGLE_COLOR", 1);
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
@@ -170,6 +174,19 @@ void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs&
     set_real(program, "direction_row", perspective ? row : glm::dvec3(0));
 }
 
+void GlSlabSource::set_clip(gl::Program& program, const glm::dvec3& first) const {
+    if (plan_.clip.empty()) return;
+    std::vector<glm::dvec4> planes;
+    for (const IndexPlane& plane : plan_.clip)
+        planes.emplace_back(plane.normal, plane.seen_from(first).offset);
+    if (plan_.precise_rays) {
+        program.set("clip_planes", std::span<const glm::dvec4>(planes));
+    } else {
+        const std::vector<glm::vec4> rounded(planes.begin(), planes.end());
+        program.set("clip_planes", std::span<const glm::vec4>(rounded));
+    }
+}
+
 void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs& slabs,
                              std::size_t brick) const {
     const TextureBrick& texture = plan_.bricks[brick];
@@ -177,6 +194,7 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     const IndexBox box = box_of(texture, facts_.grid);
     set_real(program, "origin_middle",
              facts_.grid.to_index(view.eye + slabs.near * view.forward) - first);
+    set_clip(program, first);
     if (plan_.occupied_only) program.set("first_sample", glm::vec3(first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));

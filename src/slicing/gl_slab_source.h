@@ -54,6 +54,8 @@ class GlSlabSource {
     double table_ms() const { return table_ms_; }
 
   private:
+    // `first`: the sample of the volume at which the texture begins.
+    void set_clip(gl::Program& program, const glm::dvec3& first) const;
     void set_real(gl::Program& program, const char* name, const glm::dvec3& value) const;
 
     Facts facts_;

@@ -86,8 +86,9 @@ class SlabTrials {
           most_(most),
           all_traced_(rays_of(scene_) <= all_traced_rays),
           truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
-                 std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
-                            coarsest_tolerance)) {}
+                 {.tolerance = std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
+                                          coarsest_tolerance),
+                  .clip = half_spaces(scene.clip)}) {}
 
     std::vector<SlabTrial> run(int first) { return run_from(first, Filter::exact); }
 

@@ -70,6 +70,29 @@ HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSp
     }
 }
 
+HWY_INLINE void clip_to_plane(const PacketRays& rays, const IndexPlane& plane, DepthSpan& span) {
+    const DoubleTag d;
+    TwoDoubles distance = all(plane.offset),
+               slope = all(0);  // of the origin; its change with depth
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto add = [&](HalfDoubles sum, HalfDoubles v) HWY_ATTR {
+            return hn::Add(sum, hn::Mul(hn::Set(d, plane.normal[axis]), v));
+        };
+        distance = each_half<FloatTag>(add, distance, rays.origin[axis]);
+        slope = each_half<FloatTag>(add, slope, rays.direction[axis]);
+    }
+    const auto clip = [&](HalfDoubles from, HalfDoubles change, HalfDoubles& enter,
+                          HalfDoubles& leave) HWY_ATTR {
+        const auto safe = crossing_direction(change);
+        const auto crossing = hn::Div(hn::Neg(from), safe);
+        const auto enters = hn::Gt(safe, hn::Zero(d));
+        enter = hn::IfThenElse(enters, hn::Max(enter, crossing), enter);
+        leave = hn::IfThenElse(enters, leave, hn::Min(leave, crossing));
+    };
+    clip(distance.low, slope.low, span.enter.low, span.leave.low);
+    clip(distance.high, slope.high, span.enter.high, span.leave.high);
+}
+
 // The smallest enter and the largest leave of the lanes whose rays hit. Returns false where no ray
 // does.
 HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
@@ -132,6 +155,7 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     };
     rays.length_per_depth = each_half<FloatTag>(length_of, x, y);
     rays.length_float = to_floats(FloatTag(), rays.length_per_depth);
+    for (const IndexPlane& plane : brick.clip) clip_to_plane(rays, plane, rays.box);
     rays.drawn = rays.box;
     clip_to_box(rays, brick.box, rays.box);
     clip_to_box(rays, brick.drawn, rays.drawn);

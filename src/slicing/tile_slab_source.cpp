@@ -129,6 +129,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     if (brick.drawn.empty()) return;
     if (volume_) brick.brick = volume_->bricks()[number];
     brick.origin_middle = grid_.to_index(view.eye + slabs.near * view.forward) - first;
+    for (const IndexPlane& plane : plan_.clip) brick.clip.push_back(plane.seen_from(first));
     brick.first = first;
     brick.margin = point_margin(part);
     // Shaders get the box in float.

@@ -39,8 +39,9 @@ struct TileBrickView {
     TileBrick brick;
     glm::dvec3 origin_middle{0};  // origin of the ray through the image's middle
     IndexBox box, drawn;          // in the brick's index space
-    glm::dvec3 first{0};          // the volume's sample at the brick's origin
-    double margin = 0;            // largest error of a point in float, in voxels
+    std::vector<IndexPlane> clip;
+    glm::dvec3 first{0};  // the volume's sample at the brick's origin
+    double margin = 0;    // largest error of a point in float, in voxels
 };
 
 // All that the segments of slabs depend on.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/stage.h"
 #include "compositing/random_bits.h"
@@ -101,8 +102,11 @@ void append_largest(std::size_t count, int picture_width, const std::vector<floa
 }  // namespace
 
 TrialTruth::TrialTruth(const Volume& volume, const TransferFunction& transfer_function,
-                       const View& view, double tolerance)
-    : volume_(volume), transfer_function_(transfer_function), view_(view), options_{tolerance} {}
+                       const View& view, TraceOptions options)
+    : volume_(volume),
+      transfer_function_(transfer_function),
+      view_(view),
+      options_(std::move(options)) {}
 
 void TrialTruth::trace_all() {
     pixels_ = pixels_all_over(view_.width, view_.height, 1);

@@ -17,9 +17,8 @@ namespace lamina {
 
 class TrialTruth {
   public:
-    // `tolerance`: tolerance of the tracer, as a share of full scale.
     TrialTruth(const Volume& volume, const TransferFunction& transfer_function, const View& view,
-               double tolerance);
+               TraceOptions options);
 
     void trace_all();
     // Traces at most `count` pixels of a picture that is too large for trace_all(). One quarter

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "base/content_hash.h"
+#include "scene/half_space.h"
 
 namespace lamina::study {
 namespace {
@@ -25,6 +26,10 @@ std::string picture_key(const Scene& scene) {
     add(hash, camera.center);
     add(hash, camera.up);
     hash.add(transfer_function_key(scene.transfer_function));
+    for (const HalfSpace& half : half_spaces(scene.clip)) {
+        add(hash, half.point);
+        add(hash, half.normal);
+    }
     return hash.hex();
 }
 

@@ -68,6 +68,23 @@ TEST(Session, DrawsAMeshInMemory) {
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
 }
 
+TEST(Session, ClipsAreSetAndTakenBack) {
+    const Volume volume = waves(12);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    const Image whole = session.draw();
+    Clip clip;
+    clip.planes = {{{5, 6, 4}, {.2, -1, 3}}};
+    session.set_clip(clip);
+    const Image cut = session.draw();
+    EXPECT_LE(error_of(cut, session.trace()).linf, .053);  // as above
+    EXPECT_GT(error_of(cut, whole).linf, 20);
+    EXPECT_EQ(session.resolved_scene().clip, clip);
+    session.set_clip({});
+    EXPECT_EQ(session.draw().rgba, whole.rgba);
+    clip.planes[0].normal = glm::dvec3(0);
+    expect_error([&] { session.set_clip(clip); }, {"clip.planes: found the normal (0, 0, 0)"});
+}
+
 TEST(Session, GoesFromMethodToMethodOfOneVolume) {
     const Volume volume = waves(8);
     Scene scene = scene_for(volume.grid().bounds());

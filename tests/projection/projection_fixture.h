@@ -11,10 +11,10 @@
 
 #include "gl/gl_fixture.h"
 #include "image/metrics.h"
+#include "plan/plan.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/tile_project_renderer.h"
 #include "reference/mesh_tracer.h"
-#include "plan/plan.h"
 #include "support/transfer_functions.h"
 #include "tiles/tile_capabilities.h"
 
@@ -84,7 +84,8 @@ inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabiliti
 inline Image trace(const SceneMesh& mesh, const Scene& scene) {
     const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
     return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, scene.transfer_function,
-                               View(scene.camera, scene.width, scene.height))
+                               View(scene.camera, scene.width, scene.height),
+                               half_spaces(scene.clip))
                         .image);
 }
 

@@ -57,6 +57,9 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.merge(asked_for(with("/render/slice/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/tree", {{"factors", {4, 4}}})));
+    const nlohmann::json place{0, 0, 1};
+    in_reader.merge(asked_for(with("/clip", {{"planes", {{{"point", place}, {"normal", place}}}},
+                                             {"box", {{"min", place}, {"max", place}}}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);

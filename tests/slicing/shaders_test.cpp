@@ -51,6 +51,10 @@ std::vector<SlicePlan> every_segment_plan() {
             plan.precise_rays = (bits & 64) != 0;
             plan.linear = (bits & 128) != 0;
             plans.push_back(plan);
+            // Planes have to do with rays alone.
+            if ((bits & ~(1 + 8 + 64)) != 0) continue;
+            plans.push_back(plan);
+            plans.back().clip.resize(1);
         }
     }
     for (int bits = 0; bits < 32; ++bits) {
@@ -71,6 +75,7 @@ std::vector<SlicePlan> two_segment_plans() {
     SlicePlan most;
     most.classification = Classification::preintegrated;
     most.nan_transparent = true;
+    most.clip.resize(38);
     SlicePlan least;
     least.sampling = VolumeSampling::none;
     least.precise_rays = false;

@@ -101,7 +101,7 @@ class Judge:
         shifts = [moved * (a * self.rays.right + b * self.rays.up + c * self.rays.forward)
                   for a, b, c in ((0, 0, 0), (1, 1, 1), (-1, 1, -1), (1, -1, -1), (-1, -1, 1))]
         pieces = pieces_of(data, numpy.concatenate([origins + shift for shift in shifts]),
-                           numpy.tile(directions, (len(shifts), 1)))
+                           numpy.tile(directions, (len(shifts), 1)), self.made.scene.get("clip"))
         thin, doubt = emission.thin_pieces(pieces, self.optics, count * len(shifts))
         colors, coarser = (emission.emitted(thin, count * len(shifts), nodes).reshape(len(shifts), count, 4)
                            for nodes in (8, 6))
@@ -188,7 +188,8 @@ class Judge:
         count = self.rays.width * self.rays.height
         chosen = numpy.arange(0, count, max(1, count // (STRAIGHT_PIXELS if straight else SLAB_PIXELS)))
         rows, columns = numpy.divmod(chosen, self.rays.width)
-        cut = volume_oracle.SlabRays(self.made.volume, self.rays, (columns, rows), plan["slabs"])
+        cut = volume_oracle.SlabRays(self.made.volume, self.rays, (columns, rows), plan["slabs"],
+                                     self.made.scene.get("clip"))
         wanted, doubt = (volume_oracle.preintegrated if straight else volume_oracle.post_classified)(cut, self.optics)
         bound = doubt + self.left_out(plan) + self.optics.off
         error = numpy.abs(drawn.picture[rows, columns] - wanted)

@@ -2,10 +2,11 @@
 """A mesh along rays: every tet is met with every ray, by its four planes."""
 import numpy
 
+from . import clips
 from .emission import Pieces
 
 
-def pieces(mesh, origins, directions):
+def pieces(mesh, origins, directions, clip=None):
     corners = mesh.points[mesh.tets]  # [tet, corner, xyz]
     values = mesh.values[mesh.tets]
     finite = numpy.isfinite(values).all(1)
@@ -16,6 +17,7 @@ def pieces(mesh, origins, directions):
     edges, corners, values = edges[~flat], corners[~flat], values[~flat]
     inverse = numpy.linalg.inv(edges.transpose(0, 2, 1))  # to barycentric coordinates of corners 1 to 3
     world = numpy.linalg.norm(directions, axis=1)
+    kept_near, kept_far, _ = clips.spans(clip, origins, directions)
     found = []
     for i in range(len(origins)):
         at_eye = numpy.einsum("tij,tj->ti", inverse, origins[i] - corners[:, 0])
@@ -27,7 +29,7 @@ def pieces(mesh, origins, directions):
         near = numpy.where(slope > 0, crossing, -numpy.inf).max(1)
         far = numpy.where(slope < 0, crossing, numpy.inf).min(1)
         missed = ((slope == 0) & (at_eye < 0)).any(1)
-        near = numpy.maximum(near, 0)
+        near, far = numpy.maximum(near, kept_near[i]), numpy.minimum(far, kept_far[i])
         hit = numpy.flatnonzero(~missed & (near < far))
         ends = [numpy.einsum("tc,tc->t", numpy.clip(at_eye[hit] + z[hit, None] * slope[hit], 0, 1), values[hit])
                 for z in (near, far)]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from . import cameras, meshes, transfer, volumes
+from . import cameras, clips, meshes, transfer, volumes
 from .dice import Dice
 
 
@@ -120,6 +120,10 @@ def assembled(seed, dice, data, corner, edges, made):
     made.scene["transfer_function"], made.labels["transfer"] = transfer.make(dice, data.finite_range(), length)
     made.scene["camera"], made.labels["camera"] = cameras.make(dice, corner, edges)
     made.scene["image"] = image(dice)
+    cuts = Dice(seed + (1 << 33))  # of their own, so that scenes without clips stay as they were
+    if cuts.chance(0.2):
+        made.scene["clip"] = clips.make(cuts, corner, edges, made.scene["camera"]["eye"])
+        made.labels["clip"] = " and ".join(made.scene["clip"])
     if dice.chance(0.04):
         made.arguments += ["--context", "osmesa"]
     else:

@@ -3,6 +3,7 @@
 and slabs as post-classified slicing takes them."""
 import numpy
 
+from . import clips
 from .emission import Pieces, integrate, joined
 
 
@@ -25,9 +26,9 @@ def trilinear(samples, cell, local):
 
 
 class IndexRays:
-    """Rays in coordinates of samples, clipped to the box and to z >= 0."""
+    """Rays in coordinates of samples, clipped to the box, to the scene's clip and to z >= 0."""
 
-    def __init__(self, volume, origins, directions):
+    def __init__(self, volume, origins, directions, clip=None):
         # Directions of steps are at right angles: the inverse is a projection on each.
         scale = numpy.abs(volume.steps).max()
         steps = volume.steps / scale
@@ -47,12 +48,15 @@ class IndexRays:
         # Rays along a face, within roundings of it: nothing says on which side they are.
         beside = numpy.minimum(numpy.abs(self.origin - low), numpy.abs(self.origin - high)) < 1e-12 * (1 + high)
         along = numpy.abs(self.slope) * self.far[:, None] < 1e-12 * (1 + high)
-        self.tied = (beside & along).any(1)
+        kept_near, kept_far, kept_tied = clips.spans(clip, origins, directions)
+        self.near = numpy.maximum(self.near, kept_near)
+        self.far = numpy.maximum(self.near, numpy.minimum(self.far, kept_far))
+        self.tied = (beside & along).any(1) | kept_tied
 
 
-def pieces(volume, origins, directions):
+def pieces(volume, origins, directions, clip=None):
     """Cells along each ray, as cubics."""
-    rays = IndexRays(volume, origins, directions)
+    rays = IndexRays(volume, origins, directions, clip)
     low, high = volume.corners()
     numbers, starts, ends, cells = [], [], [], []
     for i in range(len(rays.near)):
@@ -90,12 +94,12 @@ class SlabRays:
     """Some pixels' rays (column and row), cut by slabs of equal thickness between the box's nearest and farthest depth
     before the eye."""
 
-    def __init__(self, volume, rays, pixels, count):
+    def __init__(self, volume, rays, pixels, count, clip=None):
         self.volume, self.count = volume, count
         self.low, self.high = volume.corners()
         depths = (volume.world_corners() - rays.eye) @ rays.forward
         self.near, self.far = max(depths.min(), 0.0), max(depths.max(), 0.0)
-        self.chord = IndexRays(volume, *rays.of(*pixels))
+        self.chord = IndexRays(volume, *rays.of(*pixels), clip)
         lowest, highest = volume.finite_range() or (0, 0)
         # Scalars are made of values up to the range, weights of places up to the size: a few roundings of float32 each.
         self.doubt = (2.0 ** -24 * (8 + 2 * max(volume.samples.shape)) * (highest - lowest)

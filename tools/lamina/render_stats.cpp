@@ -85,6 +85,7 @@ Json slice_to_json(const SlicePlan& slice) {
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
     json["bricks"] = slice.bricks.size();
+    if (!slice.clip.empty()) json["clip_planes"] = slice.clip.size();
     add_emulation(slice, json);
     if (slice.dither) {
         json["dither"] = {{"period", slice.dither->period},

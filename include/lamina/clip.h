@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace lamina {
+
+// Keeps the side that the normal points to: dot(normal, p - point) >= 0. World units; the normal
+// has any length above 0.
+struct ClipPlane {
+    glm::dvec3 point{0}, normal{0, 0, 1};
+
+    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
+// Keeps what lies between two corners. World units; min <= max on each axis, or nothing is kept.
+struct ClipBox {
+    glm::dvec3 min{0}, max{0};
+
+    friend bool operator==(const ClipBox&, const ClipBox&) = default;
+};
+
+// What of the data is drawn: what lies on the kept side of all planes and in the box.
+struct Clip {
+    static constexpr std::size_t most_planes = 32;
+
+    std::vector<ClipPlane> planes;  // at most most_planes in scene files
+    std::optional<ClipBox> box;
+
+    bool keeps_all() const { return planes.empty() && !box; }
+
+    friend bool operator==(const Clip&, const Clip&) = default;
+};
+
+}  // namespace lamina

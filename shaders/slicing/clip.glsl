@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planes of the scene's clip in the brick's index space: what is kept has dot(plane.xyz, point) + plane.w >= 0.
+uniform REAL4 clip_planes[CLIP_PLANES];
+
+// Returns the part of the depths in which the ray is on the kept side of all planes. Where there is none, y <= x.
+REAL2 clip_to_planes(Ray ray, REAL2 depths) {
+    for (int i = 0; i < CLIP_PLANES; ++i) {
+        REAL distance = dot(clip_planes[i].xyz, ray.origin) + clip_planes[i].w;
+        REAL slope = dot(clip_planes[i].xyz, ray.direction);
+        if (abs(slope) < REAL(1e-20)) slope = REAL(1e-20);  // a ray that runs along a plane never crosses it
+        REAL crossing = -distance / slope;
+        if (slope > REAL(0.0)) depths.x = max(depths.x, crossing);
+        else depths.y = min(depths.y, crossing);
+    }
+    return depths;
+}

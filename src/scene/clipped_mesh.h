@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "lamina/mesh_data.h"
+#include "scene/half_space.h"
+#include "scene/scene_mesh.h"
+
+namespace lamina {
+
+// The part of a mesh that lies in all half-spaces. Tets that a plane crosses are replaced by up to
+// three, so that a conforming mesh stays one; their scalars are interpolated linearly. Corners
+// nearer to a plane than 1e-10 of the mesh's diagonal (or than roundings of large coordinates) lie
+// on it, for thinner tets would be nothing but roundings. Orientations stay. Points that no tet
+// uses are dropped. Meshes with cell scalars cannot be cut.
+MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
+
+// The same of a scene's mesh: the mesh itself where nothing is cut away, null where nothing is
+// left.
+std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,
+                                              const Clip& clip, const std::string& name);
+
+}  // namespace lamina

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A clip that changes: every frame is the one of a new renderer, and volume and choices stay.
+#include <gtest/gtest.h>
+
+#include "base/client.h"
+#include "choice/volume_field.h"
+#include "render/picture_warnings.h"
+#include "render/scene_renderer.h"
+#include "renderer_scenes.h"
+#include "support/clips.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+TEST(ChangedClip, DrawsEveryFrameAsANewRenderer) {
+    const auto data = blobs();
+    for (const Classification classification :
+         {Classification::automatic, Classification::preintegrated}) {
+        Scene scene = volume_scene();
+        scene.slice.classification = classification;
+        SceneRenderer frames(scene, data, tile_capabilities());
+        frames.draw();
+        for (const test::NamedClip& named : test::clips_of_unit_box()) {
+            frames.set_clip(named.clip);
+            const Image drawn = frames.draw_picture();
+            EXPECT_EQ(frames.renderer().stages_ms().contains("upload")
+                          ? frames.renderer().stages_ms().at("upload")
+                          : 0,
+                      0);
+            SceneRenderer other(frames.resolved_scene(), data, tile_capabilities());
+            EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
+        }
+        EXPECT_EQ(frames.counts().trials, 1);
+    }
+}
+
+TEST(ChangedClip, MeshesLikewise) {
+    const auto mesh = split_box();
+    SceneRenderer frames(mesh_scene(), mesh, tile_capabilities());
+    const Image whole = frames.draw_picture();
+    const int views = frames.counts().data;
+    for (const test::NamedClip& named : test::clips_of_unit_box()) {
+        frames.set_clip(named.clip);
+        const Image drawn = frames.draw_picture();
+        frames.set_camera(orbit(20));  // the cut mesh stays
+        EXPECT_EQ(frames.draw_picture().rgba, drawn.rgba) << named.name;
+        SceneRenderer other(frames.resolved_scene(), mesh, tile_capabilities());
+        EXPECT_EQ(drawn.rgba, other.draw_picture().rgba) << named.name;
+    }
+    EXPECT_EQ(frames.counts().data, views + static_cast<int>(test::clips_of_unit_box().size()));
+    frames.set_clip({});
+    EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
+}
+
+// With --no-omit, too.
+TEST(ChangedClip, NothingIsLeftOfAMesh) {
+    OmissionSwitch nothing_left_out;
+    nothing_left_out.none = true;
+    for (const OmissionSwitch& omissions : {OmissionSwitch{}, nothing_left_out}) {
+        Scene scene = mesh_scene();
+        scene.clip.planes = {{{5, 0, 0}, {1, 0, 0}}};  // of a box 3 wide
+        SceneRenderer frames(scene, split_box(), tile_capabilities(), omissions);
+        EXPECT_EQ(frames.draw_picture().rgba, Image(scene.width, scene.height).rgba);
+        EXPECT_NE(frames.explanation().find("the clip cuts the whole mesh away"),
+                  std::string::npos);
+    }
+}
+
+TEST(ChangedClip, PicturesOfNothingSayWhy) {
+    const auto data = blobs();
+    const auto warning_of = [&](const Clip& clip) {
+        Scene scene = volume_scene();
+        scene.clip = clip;
+        std::string warnings;
+        const WarningTaker taker = [&](const std::string& text) { warnings += text; };
+        const ClientScope scope({{}, &taker, nullptr});
+        warn_of_picture(scene, VolumeField(data->volume, data->bricks),
+                        Image(scene.width, scene.height));
+        return warnings;
+    };
+    EXPECT_NE(warning_of({{}, ClipBox{{1.5, 0, 0}, {2, 1, 1}}})
+                  .find("shows nothing: the clip cuts all of the data away"),
+              std::string::npos);
+    EXPECT_NE(warning_of({{{{.6, 0, 0}, {1, 0, 0}}, {{.4, 0, 0}, {-1, 0, 0}}}, {}})
+                  .find("in what the clip keeps"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina
