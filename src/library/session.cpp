@@ -7,6 +7,7 @@
 #include "base/stopwatch.h"
 #include "choice/choose.h"
 #include "library/session_parts.h"
+#include "scene/lighting_check.h"
 
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
@@ -68,6 +69,7 @@ void Session::set_transfer_function(const TransferFunction& transfer_function) {
 
 void Session::set_scene(Scene scene) {
     check_view(scene.camera, scene.width, scene.height);
+    check_lighting(scene);
     parts_->run([&] {
         parts_->asked = std::move(scene);
         parts_->take_scene(parts_->chosen());

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/lit_check.h"
 
 namespace lamina {
 namespace {
@@ -29,6 +30,7 @@ void check_exact(const Scene& scene, const Capabilities& capabilities) {
 
 ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
                                            const SampleTrials& trials) {
+    check_lit_slicing(scene);
     const Classification asked = scene.slice.classification;
     if (asked == Classification::exact) check_exact(scene, capabilities);
     if (asked != Classification::automatic) return {asked, {}};

@@ -11,6 +11,7 @@
 #include "lamina/transfer_function.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
+#include "reference/trace_options.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -19,7 +20,7 @@ struct MeshTraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
     // The largest error over all pixels and channels, as a share of full scale. It is a bound on
     // the rounding in segments and in the places where the ray crosses faces. Nothing else is
-    // approximate.
+    // approximate but light, which is integrated to the tolerance.
     double error_estimate = 0;
     std::int64_t segments = 0;  // number of ray segments inside one tet that were integrated
     // Number of rays on which the mesh overlaps itself. There its tets are composited one after the
@@ -29,9 +30,10 @@ struct MeshTraceResult {
 
 // `scalar`: one value a point. Tets with a corner whose value is NaN or infinite are transparent.
 // `open_faces`: tree of the mesh's open faces. Runs on all cores; the result does not depend on
-// their number.
+// their number. Throws Error for options out of range.
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
-                           const TransferFunction& transfer_function, const View& view);
+                           const TransferFunction& transfer_function, const View& view,
+                           const TraceOptions& options = {});
 
 }  // namespace lamina

@@ -11,7 +11,8 @@ View view_of(const Scene& scene) {
 }  // namespace
 
 TraceResult trace(const Scene& scene, const Volume& volume) {
-    return trace_volume(volume, scene.transfer_function, view_of(scene), {scene.trace_tolerance});
+    return trace_volume(volume, scene.transfer_function, view_of(scene),
+                        {scene.trace_tolerance, scene.lighting});
 }
 
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
@@ -20,7 +21,7 @@ MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
 
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces) {
     return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function,
-                      view_of(scene));
+                      view_of(scene), {scene.trace_tolerance, scene.lighting});
 }
 
 }  // namespace lamina

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene_files/lighting_json.h"
+
 namespace lamina {
 
 using Json = nlohmann::ordered_json;
@@ -134,6 +136,7 @@ Json scene_json(const Scene& scene) {
                                     ? Json("auto")
                                     : transfer_function_json(scene.transfer_function);
     json["camera"] = scene.automatic_camera ? Json("auto") : camera_json(scene.camera);
+    if (scene.lighting) json["lighting"] = lighting_json(*scene.lighting);
     json["image"] = {{"width", scene.width},
                      {"height", scene.height},
                      {"color_space", name_of(scene.color_space)},

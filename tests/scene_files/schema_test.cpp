@@ -57,6 +57,7 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.merge(asked_for(with("/render/slice/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/table", nlohmann::json::object())));
     in_reader.merge(asked_for(with("/render/project/tree", {{"factors", {4, 4}}})));
+    in_reader.merge(asked_for(with("/lighting", {{"lights", {{{"color", display}}}}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);
