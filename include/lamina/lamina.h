@@ -10,6 +10,7 @@
 #include "lamina/error_norms.h"
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"
+#include "lamina/lighting.h"
 #include "lamina/mesh_data.h"
 #include "lamina/picture_file.h"
 #include "lamina/plan_summary.h"

@@ -14,6 +14,7 @@
 #include "lamina/export.h"
 #include "lamina/generator_request.h"
 #include "lamina/image_color_space.h"
+#include "lamina/lighting.h"
 #include "lamina/mesh_settings.h"
 #include "lamina/project_settings.h"
 #include "lamina/slice_settings.h"
@@ -43,7 +44,8 @@ struct Scene {
     // Where these are set, what stands above is replaced by what the data suggest, once they are
     // known (docs/first-picture.md).
     bool automatic_transfer_function = false, automatic_camera = false;
-    std::vector<std::string> chosen;  // what was, for people; empty where nothing was automatic
+    std::optional<Lighting> lighting;  // none: colours are shown as they are
+    std::vector<std::string> chosen;   // what was, for people; empty where nothing was automatic
     int width = 800;
     int height = 600;
     // Colours and background are given, and pictures composited, in its numbers.

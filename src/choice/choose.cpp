@@ -86,6 +86,25 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
+// Of the range of values over the spacing: less steep parts are taken for noise.
+constexpr double smallest_gradient_share = .01;
+
+bool leaves_gradient_open(const Scene& scene) {
+    return scene.lighting && !scene.lighting->smallest_gradient;
+}
+
+void choose_smallest_gradient(Scene& scene, const Field& field) {
+    if (!leaves_gradient_open(scene)) return;
+    const ValueRange range = field.range();
+    const double height = range.empty() ? 0 : range.hi - range.lo;
+    // Data of one value have no gradient: any number serves.
+    const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;
+    scene.lighting->smallest_gradient =
+        std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
+    scene.chosen.push_back(fmt::format("lighting: smallest gradient {:.4g} per unit of length",
+                                       *scene.lighting->smallest_gradient));
+}
+
 void change_transfer_function(Scene& scene, const Wishes& wishes) {
     TransferFunction& changed = scene.transfer_function;
     if (wishes.transfer.range) changed = stretched(changed, *wishes.transfer.range);
@@ -94,7 +113,15 @@ void change_transfer_function(Scene& scene, const Wishes& wishes) {
 
 }  // namespace
 
+bool leaves_something_open(const Scene& scene) {
+    return scene.automatic_transfer_function || scene.automatic_camera ||
+           leaves_gradient_open(scene);
+}
+
 Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
+    choose_smallest_gradient(scene, field);
+    if (!leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera())
+        return scene;
     if (field.range().empty()) {
         fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
              name_of_data(scene));

@@ -23,6 +23,10 @@ struct Wishes {
     bool camera() const { return turn.azimuth != 0 || turn.elevation != 0 || zoom != 1; }
 };
 
+// Whether the data decide on something in the scene: its transfer function, its camera or the
+// smallest gradient that is lit.
+bool leaves_something_open(const Scene& scene);
+
 // The scene with its transfer function and camera chosen, where they are automatic, and changed as
 // wished. Nothing is automatic in the result, and `chosen` says what was. The same data and wishes
 // give the same scene. Throws Error where there is something to choose and the field has no finite

@@ -20,6 +20,9 @@ class Field {
 
     virtual WorldAxes axes() const = 0;
     virtual ValueRange range() const = 0;  // of the finite values
+    // World distance over which the scalar is known to change: of neighbouring samples, the
+    // smallest of the axes' (infinite where no axis has two), or the mean edge of the tets.
+    virtual double spacing() const = 0;
     // Whether the values are whole numbers, as labels are.
     virtual bool whole_numbers() const = 0;
     // Of the finite values, by volume; of large data evenly chosen ones. Empty where none is

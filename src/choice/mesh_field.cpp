@@ -42,6 +42,20 @@ double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run&
 
 }  // namespace
 
+double MeshField::spacing() const {
+    const auto points = mesh_.mesh.points();
+    double sum = 0;
+    for (const Tet& tet : mesh_.mesh.tets()) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                sum += glm::distance(points[static_cast<std::size_t>(tet[i])],
+                                     points[static_cast<std::size_t>(tet[j])]);
+            }
+        }
+    }
+    return sum / (6 * static_cast<double>(mesh_.mesh.tets().size()));
+}
+
 ValueDistribution MeshField::distribution() const {
     const auto tets = mesh_.mesh.tets();
     const TetMesh::Bounds& bounds = mesh_.mesh.bounds();

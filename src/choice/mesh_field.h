@@ -14,6 +14,7 @@ class MeshField : public Field {
 
     WorldAxes axes() const override { return WorldAxes::unnamed; }
     ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
+    double spacing() const override;                       // each tet's edges count
     bool whole_numbers() const override { return false; }  // it interpolates between them
     // Tets count by their volume.
     ValueDistribution distribution() const override;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -55,6 +56,15 @@ double plane(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, std
 }
 
 }  // namespace
+
+double VolumeField::spacing() const {
+    const Grid& grid = volume_.grid();
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (grid.size[axis] > 1) smallest = std::min(smallest, glm::length(grid.step[axis]));
+    }
+    return smallest;
+}
 
 ValueDistribution VolumeField::distribution() const {
     const std::int64_t count = volume_.grid().sample_count();

@@ -15,6 +15,7 @@ class VolumeField : public Field {
 
     WorldAxes axes() const override { return volume_.grid().axes; }
     ValueRange range() const override { return bricks_.whole; }
+    double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
     ValueDistribution distribution() const override;
     // Corners of min/max bricks.

@@ -8,6 +8,7 @@
 #include "choice/choose.h"
 #include "library/session_parts.h"
 #include "scene/half_space.h"
+#include "scene/lighting_check.h"
 
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
@@ -75,6 +76,7 @@ void Session::set_clip(const Clip& clip) {
 
 void Session::set_scene(Scene scene) {
     check_view(scene.camera, scene.width, scene.height);
+    check_lighting(scene);
     parts_->run([&] {
         parts_->asked = std::move(scene);
         parts_->take_scene(parts_->chosen());

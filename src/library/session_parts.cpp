@@ -12,6 +12,7 @@
 #include "reference/scene_tracer.h"
 #include "render/picture_warnings.h"
 #include "scene/camera.h"
+#include "scene/lighting_check.h"
 
 namespace lamina {
 namespace {
@@ -37,6 +38,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
       many_frames(options.many_frames),
       warnings(scene.warnings) {
     check_view(scene.camera, scene.width, scene.height);
+    check_lighting(scene);
 }
 
 // The context must be current when a renderer of OpenGL is destroyed.
@@ -67,7 +69,7 @@ const SceneMesh& Session::Parts::mesh_data() {
 }
 
 Scene Session::Parts::chosen() {
-    if (!asked.automatic_transfer_function && !asked.automatic_camera) return asked;
+    if (!leaves_something_open(asked)) return asked;
     if (!asked.draws_mesh() || (!mesh_given && asked.mesh_file.empty())) {
         const VolumeData& data = volume_data();
         return choose(asked, VolumeField(data.volume, data.bricks));

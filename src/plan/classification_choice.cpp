@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "plan/lit_check.h"
 #include "plan/march_limit.h"
 
 namespace lamina {
@@ -42,6 +43,7 @@ void check_exact(const Scene& scene, int least, const Capabilities& capabilities
 ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
                                            const Capabilities& capabilities,
                                            const SampleTrials& trials) {
+    check_lit_slicing(scene);
     const Classification asked = scene.slice.classification;
     if (asked != Classification::automatic && asked != Classification::exact) return {asked, 1, {}};
     const int least = least_exact_slabs(scene, facts, capabilities);

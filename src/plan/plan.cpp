@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plan/classification_choice.h"
+#include "plan/lit_check.h"
 #include "plan/picture_limits.h"
 #include "plan/planned_work.h"
 #include "plan/project_planner.h"
@@ -77,6 +78,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
     Plan plan;
     plan.method = scene.method;
     if (scene.method == Method::project) {
+        check_lit_projection(scene);
         check_limits(scene, capabilities);
         const TargetChoice choice = choose_project_target(scene);
         plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,

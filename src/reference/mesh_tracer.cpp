@@ -5,12 +5,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "mesh/point_gradients.h"
 #include "mesh/ray_walk.h"
+#include "optics/ray_lights.h"
 #include "reference/clip_span.h"
 #include "reference/segment_sum.h"
 #include "reference/transfer_intervals.h"
@@ -33,7 +36,7 @@ class RowTracer {
   public:
     RowTracer(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> scalar,
               const std::vector<char>& no_value, const TransferFunction& transfer_function,
-              const TransferIntervals& intervals, const View& view, std::span<const HalfSpace> clip)
+              const TransferIntervals& intervals, const View& view, const TraceOptions& options)
         : mesh_(mesh),
           open_faces_(open_faces),
           scalar_(scalar),
@@ -41,7 +44,8 @@ class RowTracer {
           transfer_function_(transfer_function),
           intervals_(intervals),
           view_(view),
-          clip_(clip) {
+          options_(options) {
+        if (options.lighting) gradients_ = point_gradients(mesh, scalar);
         const glm::dvec3 lo = mesh.bounds().min - view.eye, hi = mesh.bounds().max - view.eye;
         reach_ = glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
     }
@@ -53,8 +57,11 @@ class RowTracer {
         for (int column = 0; column < view_.width; ++column) {
             const View::Ray ray = view_.ray(column, row);
             const double world_per_z = glm::length(ray.direction);
+            std::optional<RayLights> lights;
+            if (options_.lighting) lights.emplace(*options_.lighting, -ray.direction);
             SegmentSum sum(transfer_function_, intervals_,
-                           place_epsilons * std::numeric_limits<double>::epsilon() * reach_);
+                           place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
+                           lights ? &*lights : nullptr, options_.tolerance);
             walk.aim(ray.origin, ray.direction);
             const Seen seen = seen_of(ray);
             const auto add = [&](const TetSegment& segment) {
@@ -71,7 +78,7 @@ class RowTracer {
                 }
             }
             double* const pixel = image.pixel(column, row);
-            for (int channel = 0; channel < 3; ++channel) pixel[channel] = sum.color()[channel];
+            for (int channel = 0; channel < 3; ++channel) pixel[channel] = color_of(sum)[channel];
             pixel[3] = sum.alpha();
             totals.error_estimate = std::max(totals.error_estimate, sum.error_estimate());
             totals.segments += sum.segments();
@@ -86,7 +93,7 @@ class RowTracer {
     };
     Seen seen_of(const View::Ray& ray) const {
         RaySpan span{{0, 0}, {INFINITY, 0}};
-        clip_span(clip_, ray, span);
+        clip_span(options_.clip, ray, span);
         return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
     }
 
@@ -106,7 +113,35 @@ class RowTracer {
             front += slope * (seen.from - from);
             from = seen.from;
         }
-        sum.add(front, back, (to - from) * world_per_z, slack_of(segment.tet));
+        const double length = (to - from) * world_per_z;
+        if (gradients_.empty()) return sum.add(front, back, length, slack_of(segment.tet));
+        sum.add_lit(front, back, gradient_along(segment, from, to), length, slack_of(segment.tet));
+    }
+
+    // Between two parameters of the ray: linear.
+    GradientAlong gradient_along(const TetSegment& segment, double from, double to) const {
+        const glm::dvec3 in = gradient_at(segment.in), out = gradient_at(segment.out);
+        const double length = segment.out.at - segment.in.at;
+        const glm::dvec3 slope = length > 0 ? (out - in) / length : glm::dvec3(0);
+        const glm::dvec3 front = in + (from - segment.in.at) * slope;
+        GradientAlong along;
+        for (int c = 0; c < 3; ++c)
+            along[static_cast<std::size_t>(c)] = {{front[c], (to - from) * slope[c]}};
+        return along;
+    }
+
+    glm::dvec3 gradient_at(const FaceCrossing& crossing) const {
+        const auto at = [&](std::size_t i) {
+            return gradients_[static_cast<std::size_t>(crossing.corners[i])];
+        };
+        const glm::dvec3 first = at(0);
+        return first +
+               (crossing.weights[1] * (at(1) - first) + crossing.weights[2] * (at(2) - first));
+    }
+
+    // Light is added to what is there: rounding may leave -1e-17 of a colour that it takes away.
+    glm::dvec3 color_of(const SegmentSum& sum) const {
+        return gradients_.empty() ? sum.color() : glm::max(sum.color(), glm::dvec3(0));
     }
 
     // Returns how far interpolation may be off inside a tet. Constant values are exact.
@@ -129,7 +164,8 @@ class RowTracer {
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     const View& view_;
-    std::span<const HalfSpace> clip_;
+    const TraceOptions& options_;
+    std::vector<glm::dvec3> gradients_;  // at the points; empty: nothing is lit
     double reach_;
 };
 
@@ -152,12 +188,13 @@ std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
                            const TransferFunction& transfer_function, const View& view,
-                           std::span<const HalfSpace> clip) {
+                           const TraceOptions& options) {
+    check(options);
     MeshTraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals intervals(transfer_function);
     const std::vector<char> no_value = tets_without_value(mesh, scalar);
     const RowTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals, view,
-                           clip);
+                           options);
     std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
     Progress progress("tracing", view.height);
     parallel_for(view.height, 1, [&](std::int64_t row) {

@@ -11,8 +11,8 @@
 #include "lamina/transfer_function.h"
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
+#include "reference/trace_options.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
 
 namespace lamina {
 
@@ -20,7 +20,7 @@ struct MeshTraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
     // The largest error over all pixels and channels, as a share of full scale. It is a bound on
     // the rounding in segments and in the places where the ray crosses faces. Nothing else is
-    // approximate.
+    // approximate but light, which is integrated to the tolerance.
     double error_estimate = 0;
     std::int64_t segments = 0;  // number of ray segments inside one tet that were integrated
     // Number of rays on which the mesh overlaps itself. There its tets are composited one after the
@@ -29,11 +29,11 @@ struct MeshTraceResult {
 };
 
 // `scalar`: one value a point. Tets with a corner whose value is NaN or infinite are transparent.
-// `open_faces`: tree of the mesh's open faces. `clip`: what is drawn lies in all of them. Runs on
-// all cores; the result does not depend on their number.
+// `open_faces`: tree of the mesh's open faces. Runs on all cores; the result does not depend on
+// their number. Throws Error for options out of range.
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
                            const TransferFunction& transfer_function, const View& view,
-                           std::span<const HalfSpace> clip = {});
+                           const TraceOptions& options = {});
 
 }  // namespace lamina

@@ -7,6 +7,7 @@
 
 #include "optics/opacity.h"
 #include "reference/emission_integral.h"
+#include "reference/light_integral.h"
 
 namespace lamina {
 namespace {
@@ -26,27 +27,40 @@ EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, 
     return piece;
 }
 
+GradientAlong part_of(const GradientAlong& gradient, double from, double to) {
+    GradientAlong part;
+    for (std::size_t c = 0; c < 3; ++c)
+        part[c] = part_of(gradient[c], from, to, gradient[c](from), gradient[c](to));
+    return part;
+}
+
 }  // namespace
 
 // The errors allowed to pieces, by their share of the length and by their share of the opacity, add
-// up to half of the tolerance, because the shares of either kind add up to at most 1.
-RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length)
+// up to half of the tolerance, because the shares of either kind add up to at most 1. Those allowed
+// to light add up to half of that.
+RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length,
+                             const RayLights* lights)
     : transfer_(transfer),
-      brightest_(std::max(1.0, transfer.brightest())),
+      lights_(lights),
+      brightest_(std::max(1.0, lights != nullptr ? lights->brightest_lit(transfer.brightest())
+                                                 : transfer.brightest())),
       depth_limit_(std::log(brightest_ / (termination_share * tolerance))),
       error_per_opacity_(tolerance / 4),
       error_per_length_(tolerance / 4 / ray_length) {}
 
-void RayIntegrator::add(const Cubic& scalar, double lo, double hi, double length) {
+void RayIntegrator::add(const Cubic& scalar, const GradientAlong* gradient, double lo, double hi,
+                        double length) {
     if (scalar.constant()) {  // on a step as well: there the value itself decides
-        return add_piece(transfer_[transfer_.above(scalar.c[0])], scalar, length);
+        return add_piece(transfer_[transfer_.above(scalar.c[0])], scalar, gradient, length);
     }
     const std::size_t interval = transfer_.above(lo);
-    if (interval >= transfer_.below(hi)) return add_piece(transfer_[interval], scalar, length);
-    add_split(scalar, length);
+    if (interval >= transfer_.below(hi))
+        return add_piece(transfer_[interval], scalar, gradient, length);
+    add_split(scalar, gradient, length);
 }
 
-void RayIntegrator::add_split(const Cubic& scalar, double length) {
+void RayIntegrator::add_split(const Cubic& scalar, const GradientAlong* gradient, double length) {
     const MonotoneParts parts = monotone_parts(scalar);
     for (int i = 0; i < parts.count && !opaque(); ++i) {
         double from = parts.t[i], start = scalar(from);
@@ -57,7 +71,7 @@ void RayIntegrator::add_split(const Cubic& scalar, double length) {
         const auto advance_to_knot = [&](std::size_t index) {
             const double knot = transfer_.knot(index);
             const double at = knot == start ? from : solve_monotone(scalar, knot, from, to);
-            add_part(interval, scalar, from, at, start, knot, length);
+            add_part(interval, scalar, gradient, from, at, start, knot, length);
             from = at;
             start = knot;
         };
@@ -68,18 +82,23 @@ void RayIntegrator::add_split(const Cubic& scalar, double length) {
             for (; interval > 0 && transfer_.knot(interval - 1) > end; --interval)
                 advance_to_knot(interval - 1);
         }
-        add_part(interval, scalar, from, to, start, end, length);
+        add_part(interval, scalar, gradient, from, to, start, end, length);
     }
 }
 
-void RayIntegrator::add_part(std::size_t interval, const Cubic& scalar, double from, double to,
-                             double start, double end, double length) {
+void RayIntegrator::add_part(std::size_t interval, const Cubic& scalar,
+                             const GradientAlong* gradient, double from, double to, double start,
+                             double end, double length) {
     if (!(from < to) || transfer_[interval].transparent) return;
-    add_piece(transfer_[interval], part_of(scalar, from, to, start, end), (to - from) * length);
+    const Cubic part = part_of(scalar, from, to, start, end);
+    length *= to - from;
+    if (gradient == nullptr) return add_piece(transfer_[interval], part, nullptr, length);
+    const GradientAlong of_part = part_of(*gradient, from, to);
+    add_piece(transfer_[interval], part, &of_part, length);
 }
 
 void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& scalar,
-                              double length) {
+                              const GradientAlong* gradient, double length) {
     if (interval.transparent || opaque()) return;
     ++pieces_;
     const EmissionPiece piece = make_piece(interval, scalar, length);
@@ -93,11 +112,22 @@ void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& sca
         color_ += transmittance * emission.value * interval.color_change;
         error_ += reach * emission.error;
     }
+    if (gradient != nullptr) add_light(interval, piece, *gradient, length);
     depth_.add(depth);
 }
 
+void RayIntegrator::add_light(const TransferInterval& interval, const EmissionPiece& emission,
+                              const GradientAlong& gradient, double length) {
+    const double transmittance = std::exp(-depth_.value());
+    const LightIntegral light =
+        integrate_light({emission, interval.at_lo.color, interval.color_change, gradient}, *lights_,
+                        0.5 * error_per_length_ * length / transmittance, 0.5 * error_per_opacity_);
+    light_ += transmittance * light.value;
+    light_error_ += transmittance * light.error;
+}
+
 glm::dvec3 RayIntegrator::color() const {
-    return glm::max(color_,
+    return glm::max(color_ + light_,
                     glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
 }
 
@@ -106,7 +136,7 @@ double RayIntegrator::alpha() const {
 }
 
 double RayIntegrator::error_estimate() const {
-    return error_ + (opaque() ? brightest_ * std::exp(-depth_.value()) : 0);
+    return error_ + light_error_ + hidden();
 }
 
 }  // namespace lamina

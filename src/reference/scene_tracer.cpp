@@ -8,11 +8,14 @@ View view_of(const Scene& scene) {
     return View(scene.camera, scene.width, scene.height);
 }
 
+TraceOptions options_of(const Scene& scene) {
+    return {scene.trace_tolerance, scene.lighting, half_spaces(scene.clip)};
+}
+
 }  // namespace
 
 TraceResult trace(const Scene& scene, const Volume& volume) {
-    return trace_volume(volume, scene.transfer_function, view_of(scene),
-                        {.tolerance = scene.trace_tolerance, .clip = half_spaces(scene.clip)});
+    return trace_volume(volume, scene.transfer_function, view_of(scene), options_of(scene));
 }
 
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
@@ -21,7 +24,7 @@ MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
 
 MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces) {
     return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function,
-                      view_of(scene), half_spaces(scene.clip));
+                      view_of(scene), options_of(scene));
 }
 
 }  // namespace lamina

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
+#include "reference/ray_integrator.h"
 
 namespace lamina {
 namespace {
@@ -19,11 +21,15 @@ constexpr double segment_error = 1e-13;
 }  // namespace
 
 SegmentSum::SegmentSum(const TransferFunction& transfer_function,
-                       const TransferIntervals& intervals, double place_error)
+                       const TransferIntervals& intervals, double place_error,
+                       const RayLights* lights, double tolerance)
     : transfer_function_(transfer_function),
       intervals_(intervals),
       place_error_(place_error),
-      brightest_(std::max(1.0, intervals.brightest())),
+      lights_(lights),
+      tolerance_(tolerance),
+      brightest_(std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals.brightest())
+                                                 : intervals.brightest())),
       depth_limit_(std::log(brightest_ / least_transmittance)) {}
 
 void SegmentSum::add(double front, double back, double length, double slack) {
@@ -41,12 +47,33 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     depth_.add(segment.optical_depth);
 }
 
+// The unlit segment stays what it is, in closed form: light is added to it.
+void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
+                         double slack) {
+    if (!(length > 0)) return;
+    const auto [lo, hi] = std::minmax(front, back);
+    if (intervals_.visible(lo, hi)) add_light(front, back, gradient, length);
+    add(front, back, length, slack);
+}
+
+void SegmentSum::add_light(double front, double back, const GradientAlong& gradient,
+                           double length) {
+    constexpr double unknown_length = std::numeric_limits<double>::infinity();
+    RayIntegrator segment(intervals_, tolerance_, unknown_length, lights_);
+    const auto [lo, hi] = std::minmax(front, back);
+    segment.add_lit({{front, back - front}}, gradient, lo, hi, length);
+    const double transmittance = std::exp(-depth_.value());
+    color_ += transmittance * segment.light();
+    error_ += transmittance * segment.light_error();
+}
+
 // Returns what would change if the scalar of a segment that is all but constant were elsewhere in
 // [lo, hi]: its rounding may choose the side of a step of the transfer function.
 double SegmentSum::side_error(double lo, double hi, double alpha, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
-    const glm::dvec3 color = glm::abs(above.color - below.color);
+    const double lit = lights_ != nullptr ? lights_->largest_factor() : 1;
+    const glm::dvec3 color = lit * glm::abs(above.color - below.color);
     return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);
 }
 

@@ -6,6 +6,8 @@
 
 #include "base/compensated_sum.h"
 #include "lamina/transfer_function.h"
+#include "optics/ray_lights.h"
+#include "reference/gradient_samples.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {
@@ -15,12 +17,17 @@ class SegmentSum {
   public:
     // `place_error`: bound on the error of every end of a segment, in world units.
     // `transfer_function` and `intervals` are the same function, and must outlive the sum.
+    // `lights`: for add_lit(), whose error is then at most `tolerance` for all segments together;
+    // must outlive the sum, too.
     SegmentSum(const TransferFunction& transfer_function, const TransferIntervals& intervals,
-               double place_error);
+               double place_error, const RayLights* lights = nullptr, double tolerance = 1);
 
     // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
     // Both scalars may have errors up to `slack`.
     void add(double front, double back, double length, double slack);
+    // The same of a segment that is lit, with its gradient from front to back in world space.
+    void add_lit(double front, double back, const GradientAlong& gradient, double length,
+                 double slack);
 
     // Whether all that follows is lost in rounding.
     bool opaque() const { return depth_.value() >= depth_limit_; }
@@ -31,11 +38,14 @@ class SegmentSum {
     std::int64_t segments() const { return segments_; }
 
   private:
+    void add_light(double front, double back, const GradientAlong& gradient, double length);
     double side_error(double lo, double hi, double alpha, double length) const;
 
     const TransferFunction& transfer_function_;
     const TransferIntervals& intervals_;
     double place_error_;
+    const RayLights* lights_;
+    double tolerance_;
     double brightest_;
     double depth_limit_;
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <optional>
 #include <vector>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "reference/cell_walk.h"
 #include "reference/chord.h"
+#include "reference/gradient_samples.h"
 #include "reference/ray_integrator.h"
 #include "reference/transfer_intervals.h"
 #include "reference/trilinear.h"
@@ -17,19 +18,40 @@
 namespace lamina {
 namespace {
 
+// What all rays of a picture share.
+template <typename Sample>
+struct Traced {
+    Traced(const Volume& volume, const Sample* first_sample, const TransferIntervals& intervals,
+           const TraceOptions& how)
+        : grid(volume.grid()),
+          samples(grid, first_sample),
+          gradients(grid, first_sample),
+          transfer(intervals),
+          options(how) {}
+
+    const Grid& grid;
+    CellSamples<Sample> samples;
+    GradientSamples<Sample> gradients;
+    const TransferIntervals& transfer;
+    const TraceOptions& options;
+};
+
 // Adds the part of the chord inside one cell, from parameter `from` to `to`.
 template <typename Sample>
-void add_cell(const CellSamples<Sample>& samples, const TransferIntervals& transfer,
-              const Chord& chord, const CellIndex& cell, double from, double to,
-              RayIntegrator& integrator) {
-    const CellCorners corners = samples.corners(cell);
+void add_cell(const Traced<Sample>& traced, const Chord& chord, const CellIndex& cell, double from,
+              double to, RayIntegrator& integrator) {
+    const CellCorners corners = traced.samples.corners(cell);
     const auto [lo, hi] = corners.range();
-    if (!transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
+    if (!traced.transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
     const glm::dvec3 corner(cell[0], cell[1], cell[2]);
-    const glm::dvec3 local = chord.entry + from * chord.direction - corner;
-    const Cubic scalar = corners.along(glm::clamp(local, glm::dvec3(0), glm::dvec3(1)),
-                                       (to - from) * chord.direction);
-    integrator.add(scalar, lo, hi, (to - from) * chord.world_per_z);
+    const glm::dvec3 start =
+        glm::clamp(chord.entry + from * chord.direction - corner, glm::dvec3(0), glm::dvec3(1));
+    const glm::dvec3 step = (to - from) * chord.direction;
+    const Cubic scalar = corners.along(start, step);
+    const double length = (to - from) * chord.world_per_z;
+    if (!traced.options.lighting) return integrator.add(scalar, lo, hi, length);
+    const GradientAlong gradient = traced.gradients.along(cell, start, step);
+    integrator.add_lit(scalar, gradient, lo, hi, length);
 }
 
 struct TracedRay {
@@ -39,25 +61,19 @@ struct TracedRay {
 };
 
 template <typename Sample>
-TracedRay trace_ray(const Grid& grid, const CellSamples<Sample>& samples,
-                    const TransferIntervals& transfer, const View::Ray& ray,
-                    const TraceOptions& options) {
-    const Chord chord = clip_to_box(grid, ray, options.clip);
+TracedRay trace_ray(const Traced<Sample>& traced, const View::Ray& ray) {
+    const Chord chord = clip_to_box(traced.grid, ray, traced.options.clip);
     if (!(chord.length_z > 0)) return {};
-    RayIntegrator integrator(transfer, options.tolerance, chord.world_length());
-    CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
-        add_cell(samples, transfer, chord, cell, from, to, integrator);
+    std::optional<RayLights> lights;
+    if (traced.options.lighting) lights.emplace(*traced.options.lighting, -ray.direction);
+    RayIntegrator integrator(traced.transfer, traced.options.tolerance, chord.world_length(),
+                             lights ? &*lights : nullptr);
+    CellWalk(traced.grid, chord).run([&](const CellIndex& cell, double from, double to) {
+        add_cell(traced, chord, cell, from, to, integrator);
         return !integrator.opaque();
     });
     return {glm::dvec4(integrator.color(), integrator.alpha()), integrator.error_estimate(),
             integrator.pieces()};
-}
-
-void check(const TraceOptions& options) {
-    if (!(options.tolerance >= TraceOptions::smallest_tolerance && options.tolerance <= 1)) {
-        fail("render.trace.tolerance: {} is out of range, expected {} to 1", options.tolerance,
-             TraceOptions::smallest_tolerance);
-    }
 }
 
 }  // namespace
@@ -74,13 +90,12 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
     std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
     Progress progress("tracing", view.height);
     volume.visit([&](const auto* first_sample) {
-        const CellSamples samples(volume.grid(), first_sample);
+        const Traced traced(volume, first_sample, transfer, options);
         parallel_for(view.height, 1, [&](std::int64_t number) {
             const int row = static_cast<int>(number);
             RowTotals& totals = rows[static_cast<std::size_t>(number)];
             for (int column = 0; column < view.width; ++column) {
-                const TracedRay ray =
-                    trace_ray(volume.grid(), samples, transfer, view.ray(column, row), options);
+                const TracedRay ray = trace_ray(traced, view.ray(column, row));
                 double* const pixel = result.image.pixel(column, row);
                 for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
                 totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
@@ -104,11 +119,10 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     std::vector<TracedRay> rays(pixels.size());
     Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
     volume.visit([&](const auto* first_sample) {
-        const CellSamples samples(volume.grid(), first_sample);
+        const Traced traced(volume, first_sample, transfer, options);
         parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
             const auto i = static_cast<std::size_t>(number);
-            rays[i] = trace_ray(volume.grid(), samples, transfer,
-                                view.ray(pixels[i].x, pixels[i].y), options);
+            rays[i] = trace_ray(traced, view.ray(pixels[i].x, pixels[i].y));
             progress.advance();
         });
     });

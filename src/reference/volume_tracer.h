@@ -12,19 +12,10 @@
 #include "lamina/image.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
+#include "reference/trace_options.h"
 #include "scene/camera.h"
-#include "scene/half_space.h"
 
 namespace lamina {
-
-struct TraceOptions {
-    // Largest error of every channel, as a share of full scale (1.0); 1e-12 .. 1.
-    double tolerance = 1e-5;
-
-    std::vector<HalfSpace> clip{};  // what is drawn lies in all of them
-
-    static constexpr double smallest_tolerance = 1e-12;  // below it rounding dominates
-};
 
 struct TraceResult {
     PreciseImage image;  // associated RGBA in linear light, before any background
@@ -37,7 +28,7 @@ struct TraceResult {
 };
 
 // Traces a volume. Cells with a NaN or infinite corner are transparent. Runs on all cores; the
-// result does not depend on their number. Throws Error for a tolerance out of range.
+// result does not depend on their number. Throws Error for options out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
                          const View& view, const TraceOptions& options);
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene_files/clip_json.h"
+#include "scene_files/lighting_json.h"
 
 namespace lamina {
 
@@ -137,6 +138,7 @@ Json scene_json(const Scene& scene) {
                                     : transfer_function_json(scene.transfer_function);
     json["camera"] = scene.automatic_camera ? Json("auto") : camera_json(scene.camera);
     if (!scene.clip.keeps_all()) json["clip"] = clip_json(scene.clip);
+    if (scene.lighting) json["lighting"] = lighting_json(*scene.lighting);
     json["image"] = {{"width", scene.width},
                      {"height", scene.height},
                      {"color_space", name_of(scene.color_space)},

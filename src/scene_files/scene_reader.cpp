@@ -15,6 +15,7 @@
 #include "scene_files/data_range.h"
 #include "scene_files/data_reader.h"
 #include "scene_files/json_reader.h"
+#include "scene_files/lighting_json.h"
 #include "scene_files/project_reader.h"
 #include "scene_files/slice_reader.h"
 #include "scene_files/transfer_function_json.h"
@@ -191,6 +192,7 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     scene.automatic_camera = is_automatic(reader, "camera");
     if (!scene.automatic_camera) scene.camera = read_camera(reader.object("camera"));
     if (reader.has("clip")) scene.clip = read_clip(reader.object("clip"));
+    scene.lighting = read_lighting(reader, scene.color_space);
     read_image(reader.object("image"), scene);
     read_render(reader.object("render"), scene);
     reader.close();

@@ -169,6 +169,48 @@ TEST(Choose, FarFromZeroNumbersAreToldApart) {
     EXPECT_NE(scene.chosen[1].find("to (50000"), std::string::npos) << scene.chosen[1];
 }
 
+// .01 of the range over the smallest spacing of an axis that has more than one sample.
+TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
+    Grid grid = test::grid_of({5, 4, 1}, Centering::cell);
+    grid.step = {glm::dvec3(0, 3, 0), glm::dvec3(0, 0, -2), glm::dvec3(.5, 0, 0)};
+    const Volume volume =
+        test::volume_of(grid, [](double x, double y, double) { return 10 * x + y - 7; });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    Scene scene;
+    scene.lighting = Lighting{};
+    scene.camera.eye = {1, 2, 3};
+    const Scene chosen = choose(scene, VolumeField(volume, bricks));
+    EXPECT_DOUBLE_EQ(chosen.lighting->smallest_gradient.value(), .01 * 43 / 2);
+    EXPECT_EQ(chosen.chosen.size(), 1u);
+    EXPECT_EQ(chosen.camera.eye, scene.camera.eye);
+    EXPECT_FALSE(leaves_something_open(chosen));
+    EXPECT_TRUE(leaves_something_open(scene));
+    EXPECT_EQ(choose(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
+}
+
+// A cube of edge 1 cut into six tets: each has three edges of the cube, two diagonals of its faces
+// and its own diagonal.
+TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {
+    Scene scene;
+    scene.lighting = Lighting{};
+    const SceneMesh mesh =
+        scene_mesh(scene, test::kuhn_box({2, 3, 4}, [](const glm::dvec3& p) { return 5 * p.x; }));
+    const double mean = (3 + 2 * std::sqrt(2.) + std::sqrt(3.)) / 6;
+    EXPECT_NEAR(choose(scene, MeshField(mesh)).lighting->smallest_gradient.value(), .01 * 10 / mean,
+                1e-14);
+}
+
+TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
+    for (const double value : {4.5, double{NAN}}) {
+        const Volume volume = test::volume_of(test::grid_of({3, 3, 3}, Centering::node),
+                                              [&](double, double, double) { return value; });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        Scene scene = open_scene();
+        scene.lighting = Lighting{};
+        EXPECT_EQ(choose(scene, VolumeField(volume, bricks)).lighting->smallest_gradient, 1);
+    }
+}
+
 // What no picture should fail on: every kind of degenerate data has a transfer function and a
 // camera with finite numbers.
 TEST(Choose, OddData) {

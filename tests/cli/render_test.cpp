@@ -175,6 +175,40 @@ TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
     EXPECT_NE(unwritable.err.find("/nowhere/at/all.exr"), std::string::npos);
 }
 
+TEST_F(Render, WhatCannotBeDrawnLitIsRefused) {
+    const json light{{"smallest_gradient", 1}};
+    expect_failure(with("/lighting", light), {"lighting", "\"slice\"", "\"trace\""});
+    json mesh = with("/lighting", light);
+    mesh["mesh"] = {{"kuhn", true}};
+    mesh["render"] = {{"method", "project"}};
+    expect_failure(mesh, {"lighting", "\"project\"", "\"trace\""});
+    for (const char* const coloring : {"vertex", "attenuation"}) {
+        mesh["render"]["project"] = {{"coloring", coloring}};
+        expect_failure(mesh, {"render.project.coloring", coloring, "\"analytic\""});
+    }
+    expect_failure(with("/lighting", {{"power", 0}}), {"lighting.power: found 0", "1 to 1000"});
+}
+
+// The resolved scene has the smallest gradient, and its picture is the same.
+TEST_F(Render, TracesLitScenes) {
+    write("lit.json", with("/lighting", json::object()));
+    write("unlit.json", scene);
+    const auto trace = [&](const std::string& name) {
+        const ProgramResult result =
+            render({"--method", "trace", "-o", folder / (name + ".npy")}, name + ".json");
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    };
+    EXPECT_NE(trace("lit").find("smallest gradient"), std::string::npos);
+    trace("unlit");
+    EXPECT_NE(read_bytes_of(folder / "lit.npy"), read_bytes_of(folder / "unlit.npy"));
+    const ProgramResult resolved =
+        run_program({LAMINA_BINARY, "scene", folder / "lit.json", "-o", folder / "resolved.json"});
+    EXPECT_EQ(resolved.exit_code, 0) << resolved.err;
+    EXPECT_EQ(trace("resolved").find("smallest gradient"), std::string::npos);
+    EXPECT_EQ(read_bytes_of(folder / "lit.npy"), read_bytes_of(folder / "resolved.npy"));
+}
+
 TEST_F(Render, OutputsAreRegularFilesAndLinksStayLinks) {
     write_bytes_to(folder / "target.json", "old");
     std::filesystem::create_symlink(folder / "target.json", folder / "link.json");

@@ -195,6 +195,24 @@ TEST(Session, RefusesWhatCannotBeDrawn) {
     expect_error([&] { session.plan(); }, {"\"trace\" has no plan"});
 }
 
+// The samples are one apart; the range is that of the waves.
+TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
+    const Volume volume = waves(12);
+    Scene scene = scene_for(volume.grid().bounds());
+    scene.method = Method::trace;
+    Session unlit(scene, volume, native);
+    scene.lighting = Lighting{};
+    Session session(scene, volume, native);
+    EXPECT_FALSE(session.scene().lighting->smallest_gradient);
+    EXPECT_NEAR(session.resolved_scene().lighting->smallest_gradient.value(), .01, 1e-5);
+    EXPECT_GT(error_of(session.draw(), unlit.trace()).linf, 20);
+    for (std::size_t i = 3; i < unlit.trace().rgba.size(); i += 4)
+        EXPECT_EQ(session.trace().rgba[i], unlit.trace().rgba[i]);
+    scene.lighting->power = NAN;
+    expect_error([&] { session.set_scene(scene); }, {"lighting.power: found nan"});
+    expect_error([&] { Session(scene, volume, native); }, {"lighting.power: found nan"});
+}
+
 TEST(Session, ChoosesWhatASceneLeavesOpen) {
     const Volume volume = waves(12);
     Scene open;

@@ -61,8 +61,9 @@ TEST(ClippedTracer, HomogeneousMeshesEqualTheClosedForm) {
     const auto transfer = TransferFunction::linear({{0, {glm::dvec3(.2, .5, 1), 3}}});
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         for (const View& view : views()) {
-            const MeshTraceResult result = trace_mesh(mesh, tree, mesh.point_scalars()[0].values,
-                                                      transfer, view, half_spaces(named.clip));
+            const MeshTraceResult result =
+                trace_mesh(mesh, tree, mesh.point_scalars()[0].values, transfer, view,
+                           {.clip = half_spaces(named.clip)});
             for (int y = 0; y < view.height; ++y) {
                 for (int x = 0; x < view.width; ++x) {
                     const double length =
@@ -91,9 +92,10 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         const std::vector<HalfSpace> clip = half_spaces(named.clip);
         for (const View& view : views()) {
-            const MeshTraceResult of_mesh =
-                trace_mesh(mesh, tree, mesh.point_scalars()[0].values, transfer, view, clip);
-            const TraceResult of_volume = trace_volume(volume, transfer, view, {1e-9, clip});
+            const MeshTraceResult of_mesh = trace_mesh(mesh, tree, mesh.point_scalars()[0].values,
+                                                       transfer, view, {.clip = clip});
+            const TraceResult of_volume =
+                trace_volume(volume, transfer, view, {.tolerance = 1e-9, .clip = clip});
             EXPECT_LT(of_mesh.error_estimate, 1e-10);
             for (int y = 0; y < view.height; ++y) {
                 for (int x = 0; x < view.width; ++x) {

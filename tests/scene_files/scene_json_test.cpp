@@ -79,7 +79,16 @@ TEST(SceneJson, KeepsEveryKey) {
          {{"scalar", 64}, {"mapping", "log2"}, {"store", "opacity"}, {"format", "float16"}}},
         {"/render/project/table", {{"length", 5}, {"construction", "incremental"}}},
         {"/render/project/tree", {{"factors", {3, 2}}, {"nodes", "fixed"}}},
-        {"/render/trace/tolerance", 1e-7}};
+        {"/render/trace/tolerance", 1e-7},
+        {"/lighting", nlohmann::json::object()},
+        {"/lighting",
+         {{"ambient", .25},
+          {"diffuse", 1. / 3},
+          {"specular", 0},
+          {"power", 64},
+          {"smallest_gradient", 1e-7},
+          {"lights",
+           {{{"direction", {1, 0, -.1}}, {"color", "tomato"}}, {{"color", {0, 1, 2}}}}}}}};
     const nlohmann::ordered_json usual = scene_json(read_scene(minimal_scene(), "s"));
     for (const auto& [key, value] : keys) {
         const Scene scene = read_scene(with(key, value), "s");

@@ -60,6 +60,7 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     const nlohmann::json place{0, 0, 1};
     in_reader.merge(asked_for(with("/clip", {{"planes", {{{"point", place}, {"normal", place}}}},
                                              {"box", {{"min", place}, {"max", place}}}})));
+    in_reader.merge(asked_for(with("/lighting", {{"lights", {{{"color", display}}}}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);

@@ -44,7 +44,7 @@ inline Image render(const Volume& volume, const Scene& scene, const Capabilities
 inline Image trace(const Volume& volume, const Scene& scene, double tolerance) {
     return to_float(trace_volume(volume, scene.transfer_function,
                                  View(scene.camera, scene.width, scene.height),
-                                 {tolerance, half_spaces(scene.clip)})
+                                 {tolerance, scene.lighting, half_spaces(scene.clip)})
                         .image);
 }
 

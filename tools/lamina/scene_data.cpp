@@ -12,8 +12,7 @@ namespace lamina {
 namespace {
 
 bool leaves_nothing_open(const Scene& scene, const Wishes& wishes) {
-    return !scene.automatic_transfer_function && !scene.automatic_camera &&
-           !wishes.transfer_function() && !wishes.camera();
+    return !leaves_something_open(scene) && !wishes.transfer_function() && !wishes.camera();
 }
 
 std::shared_ptr<const VolumeData> load_volume_data(const Scene& scene, RenderStats& stats) {
