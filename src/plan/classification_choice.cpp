@@ -30,12 +30,16 @@ void check_exact(const Scene& scene, const Capabilities& capabilities) {
 
 ClassificationChoice choose_classification(const Scene& scene, const Capabilities& capabilities,
                                            const SampleTrials& trials) {
-    check_lit_slicing(scene);
+    check_lit_slicing(scene, capabilities);
     const Classification asked = scene.slice.classification;
     if (asked == Classification::exact) check_exact(scene, capabilities);
     if (asked != Classification::automatic) return {asked, {}};
     if (!capabilities.tiles)
         return {Classification::post, "exact segments need the native engine (--context cpu)"};
+    if (scene.lighting) {
+        check_exact(scene, capabilities);
+        return {Classification::exact, "light needs the gradient in every cell"};
+    }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, "exact segments have no use for the hardware's filter"};
     const auto quicker = std::ranges::find_if(trials.exact, &SlabTrial::keeps_goal);
@@ -50,9 +54,9 @@ ClassificationChoice choose_classification(const Scene& scene, const Capabilitie
 }
 
 bool may_be_quicker(const Scene& scene) {
-    return scene.slice.classification == Classification::automatic && !scene.slice.samples &&
-           !scene.slice.tree && !scene.slice.dither && scene.target == Target::float32 &&
-           !scene.automatic_target;
+    return !scene.lighting && scene.slice.classification == Classification::automatic &&
+           !scene.slice.samples && !scene.slice.tree && !scene.slice.dither &&
+           scene.target == Target::float32 && !scene.automatic_target;
 }
 
 Scene with_classification(Scene scene, Classification classification) {
