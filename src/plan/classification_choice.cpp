@@ -43,13 +43,14 @@ void check_exact(const Scene& scene, int least, const Capabilities& capabilities
 ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
                                            const Capabilities& capabilities,
                                            const SampleTrials& trials) {
-    check_lit_slicing(scene);
+    check_lit_slicing(scene, capabilities);
     const Classification asked = scene.slice.classification;
     if (asked != Classification::automatic && asked != Classification::exact) return {asked, 1, {}};
     const int least = least_exact_slabs(scene, facts, capabilities);
-    if (asked == Classification::exact) {
+    if (asked == Classification::exact || scene.lighting) {
         check_exact(scene, least, capabilities);
-        return {asked, least, {}};
+        return {Classification::exact, least,
+                asked == Classification::exact ? "" : "light needs the gradient in every cell"};
     }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
@@ -72,9 +73,9 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
 }
 
 bool may_be_quicker(const Scene& scene) {
-    return scene.slice.classification == Classification::automatic && !scene.slice.samples &&
-           !scene.slice.tree && !scene.slice.dither && scene.target == Target::float32 &&
-           !scene.automatic_target;
+    return !scene.lighting && scene.slice.classification == Classification::automatic &&
+           !scene.slice.samples && !scene.slice.tree && !scene.slice.dither &&
+           scene.target == Target::float32 && !scene.automatic_target;
 }
 
 Scene with_classification(Scene scene, const ClassificationChoice& choice) {

@@ -5,10 +5,28 @@
 
 namespace lamina {
 
-void check_lit_slicing(const Scene& scene) {
+namespace {
+
+void check_smallest_gradient(const Scene& scene) {
+    if (scene.lighting->smallest_gradient) return;
+    fail("{}: lighting.smallest_gradient: has not been chosen from the data", scene.file.string());
+}
+
+}  // namespace
+
+void check_lit_slicing(const Scene& scene, const Capabilities& capabilities) {
     if (!scene.lighting) return;
-    fail("{}: lighting: method \"slice\" draws no lit pictures yet, expected method \"trace\"",
-         scene.file.string());
+    check_smallest_gradient(scene);
+    if (!capabilities.tiles) {
+        fail("{}: lighting: expected --context cpu: only the native engine draws lit slices: {}",
+             scene.file.string(), capabilities.renderer);
+    }
+    const Classification asked = scene.slice.classification;
+    if (asked == Classification::exact || asked == Classification::automatic) return;
+    fail(
+        "{}: render.slice.classification: found \"{}\", expected \"exact\" with lighting: the "
+        "others draw no lit pictures yet",
+        scene.file.string(), name_of(asked));
 }
 
 // The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have

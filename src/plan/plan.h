@@ -82,11 +82,15 @@ struct SlicePlan : CompositingPlan {
     // Marched rays end at this optical depth, because what lies behind it cannot be seen.
     double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
+    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
+    // Parts of rays along which light bends by more are cut (slicing/tile_light-inl.h).
+    double most_bend = 0;
+    double light_error = 0;  // that this leaves, in 1/255
 
     // The error that slabs, filter and table were found to make, in 1/255, as far as it was
     // measured; that of exact segments.
     double found_error() const {
-        if (integrates_cells()) return exact_segment_error;
+        if (integrates_cells()) return exact_segment_error + light_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }

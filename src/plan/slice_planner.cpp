@@ -13,6 +13,7 @@
 #include "facts/world_unit.h"
 #include "optics/front_weights.h"
 #include "plan/brick_cuts.h"
+#include "plan/light_choice.h"
 #include "plan/march_limit.h"
 #include "plan/picture_limits.h"
 #include "plan/slab_choice.h"
@@ -63,6 +64,7 @@ class SlicePlanner {
         slice.table_filtered =
             scene_.slice.filter == Filter::hardware || capabilities_.exact_float_filter;
         choose_clip();
+        plan_light(scene_, facts_.max_color, slice);
         choose_slabs();
         choose_filter();
         choose_precision();
@@ -87,11 +89,11 @@ class SlicePlanner {
     void choose_clip() {
         const std::vector<IndexPlane> cutting = cutting_planes(facts_.clip, facts_.grid);
         const std::size_t all = facts_.clip.size(), idle = all - cutting.size();
-        const bool fewer =
-            leave_out(idle > 0, "clip_planes",
-                      fmt::format("{} of {} planes of the clip cut nothing away", idle, all));
-        plan_.slice.clip = fewer ? cutting : facts_.clip;
+        const std::string reason =
+            fmt::format("{} of {} planes of the clip cut nothing away", idle, all);
+        plan_.slice.clip = leave_out(idle > 0, "clip_planes", reason) ? cutting : facts_.clip;
     }
+    double max_color() const { return largest_drawn_color(scene_, facts_.max_color); }
 
     void choose_slabs() {
         SlicePlan& slice = plan_.slice;
@@ -181,11 +183,11 @@ class SlicePlanner {
     void choose_constant_regions() {
         SlicePlan& slice = plan_.slice;
         if (slice.nothing_visible || slice.sampling == VolumeSampling::none) return;
-        if (!capabilities_.tiles) return;
-        if (!slice.integrates_cells() && !slice.has_tree(NodeArithmetic::shader)) return;
+        const bool marches = slice.integrates_cells() || slice.has_tree(NodeArithmetic::shader);
+        if (!capabilities_.tiles || !marches) return;
         const ConstantBricks& constant = facts_.constant_bricks;
         slice.constant_regions = leave_out(
-            !constant.kinds.empty(), "constant_regions",
+            !constant.kinds.empty() && !scene_.lighting, "constant_regions",
             fmt::format("{} of the bricks that show something have one colour and one extinction: "
                         "rays take them in one step, by maps of {} bytes",
                         percent(constant.share), 2 * constant.kind.size()));
@@ -200,7 +202,7 @@ class SlicePlanner {
         if (!capabilities_.tiles && slice.bricks.size() > 1) return;
         const double hidden = hidden_share * scene_.max_error;  // in 1/255
         if (slice.error_bound && *slice.error_bound + hidden > scene_.max_error) return;
-        const double depth = opaque_depth(scene_.max_error, facts_.max_color);
+        const double depth = opaque_depth(scene_.max_error, max_color());
         const DepthRange& seen = facts_.occupied_depth;
         const double deepest =
             facts_.max_extinction * (seen.far - seen.near) * facts_.max_length_per_depth;
@@ -219,7 +221,8 @@ class SlicePlanner {
 
     void choose_sampling() {
         SlicePlan& slice = plan_.slice;
-        if (leave_out(facts_.constant && facts_.non_finite == 0, "volume_texture",
+        if (leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting,
+                      "volume_texture",
                       "the transfer function is constant over the volume's range: no scalar is "
                       "fetched")) {
             slice.sampling = VolumeSampling::none;
@@ -238,7 +241,7 @@ class SlicePlanner {
     void choose_table() {
         SlicePlan& slice = plan_.slice;
         slice.single_color =
-            leave_out(facts_.single_color, "color",
+            leave_out(facts_.single_color && !scene_.lighting, "color",
                       "one colour in all that can be seen: only extinction is looked up");
         if (slice.classification != Classification::preintegrated) return;
         if (slice.sampling == VolumeSampling::none) {
@@ -313,7 +316,7 @@ class SlicePlanner {
                          most_marched_slabs(scene_, facts_, capabilities_, slice.slabs),
                          capabilities_);
         if (slice.tree && is_fixed_point(slice.target)) {
-            slice.tree->largest_color = std::max(facts_.max_color, 1.0);
+            slice.tree->largest_color = std::max(max_color(), 1.0);
         }
         if (slice.emulation) {
             slice.blending = programmable_blending(capabilities_);
@@ -326,7 +329,7 @@ class SlicePlanner {
         if (!settings.automatic) {
             slice.tree =
                 TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
-            check_slice_tree(scene_, facts_.single_color);
+            check_slice_tree(scene_, facts_.single_color && !scene_.lighting);
             return;
         }
         try {
@@ -357,7 +360,7 @@ class SlicePlanner {
         if (scene_.slice.dither && is_fixed_point(slice.target)) {
             question.dither = dither_of(*scene_.slice.dither);
         }
-        question.largest_color = facts_.max_color;
+        question.largest_color = max_color();
         question.max_error = scene_.max_error;
         question.slab_error = slice.found_error();
         return question;

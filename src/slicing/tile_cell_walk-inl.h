@@ -33,8 +33,9 @@ HWY_INLINE Ints ints_of(const TwoDoubles& v) {
 class CellWalk {
   public:
     // The rays between the depths of `span`, inside the box of a brick.
+    // `light`: null where nothing is lit.
     void begin(const CellMap& map, const TileBrickView& view, const PacketRays& rays,
-               const DepthSpan& span) {
+               const DepthSpan& span, const TileLight* light) {
         const FloatTag d;
         map_ = map.kinds.empty() ? nullptr : &map;
         view_ = &view;
@@ -53,6 +54,11 @@ class CellWalk {
             last_[i] = static_cast<std::int32_t>(view.brick.last_sample[i]);
             first_[i] = static_cast<std::int32_t>(view.first[axis]);
             cell_[i] = first_cell(axis);
+        }
+        lit_ = light != nullptr;
+        for (std::size_t axis = 0; lit_ && axis < 3; ++axis) {
+            const Number step = Number(rays.direction_float[axis]) * Number(light->spacing[axis]);
+            to_eye_[axis] = Number(0) - step / Number(rays.length_float);
         }
     }
 
@@ -231,6 +237,8 @@ class CellWalk {
             store_members(zero_unless(moves, thickness * slope_[axis]).v, shown,
                           parts.change[axis] + at);
         }
+        for (std::size_t axis = 0; lit_ && axis < 3; ++axis)
+            store_members(to_eye_[axis].v, shown, parts.to_eye[axis] + at);
         store_members(index, shown, parts.index + at);
         store_members((thickness * Number(rays_->length_float)).v, shown, parts.length + at);
         parts.count += static_cast<std::size_t>(std::popcount(lanes.set));
@@ -247,6 +255,9 @@ class CellWalk {
             const auto index = static_cast<std::size_t>(parts.index[i]);
             __builtin_prefetch(samples + bytes * index);
             __builtin_prefetch(samples + bytes * (index + static_cast<std::size_t>(brick.slice)));
+            if (!lit_) continue;
+            for (const std::int32_t row : {0, brick.row, brick.slice, brick.row + brick.slice})
+                __builtin_prefetch(brick.gradients + index + static_cast<std::size_t>(row));
         }
     }
 
@@ -289,6 +300,8 @@ class CellWalk {
     TwoDoubles direction_[3];
     Number slope_[3], inverse_[3];  // the directions in float
     FloatMask forward_[3];          // towards larger indices
+    bool lit_ = false;
+    Number to_eye_[3];  // a unit vector along the grid's axes
     // At the beginning of a run: the cell, and where the ray is in it.
     Ints cell_[3];
     TwoDoubles start_[3];

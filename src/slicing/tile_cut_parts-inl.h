@@ -13,6 +13,7 @@
 
 #include "slicing/tile_cell_optics-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
+#include "slicing/tile_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -23,14 +24,18 @@ class CutParts {
     bool empty() const { return count_ == 0; }
 
     // Adds the `members` of a vector of parts, of which `first` is the number of the first.
-    HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length,
+    // `longest`: share of the part that a piece may have; of lit parts alone.
+    HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length, Number longest,
                         std::size_t first) {
-        append(members, cubic, length, hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
+        append(members, cubic, length, longest,
+               hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
     }
 
-    // Sets colour, opacity and depth of the parts that were added.
+    // Sets colour, opacity and depth of the parts that were added. `light`: null where nothing is
+    // lit.
     template <Lookup kind>
-    void run(const TileTransfer& transfer, bool colored, CellParts& parts) {
+    void run(const TileTransfer& transfer, const TileLight* light, bool colored, CellParts& parts) {
+        light_ = light;
         run_round<kind, true>(transfer, colored, parts);
         while (count_ > 0) run_round<kind, false>(transfer, colored, parts);
     }
@@ -46,7 +51,7 @@ class CutParts {
     // The parts of a vector of lanes, and what is composited of them.
     struct Lanes {
         CubicLanes cubic;
-        Number length;
+        Number length, longest;
         Number turns[2];  // where the cubic turns
         // How far it is done: place, scalar, interval.
         Number at, scalar;
@@ -63,10 +68,12 @@ class CutParts {
         RootLanes root;
     };
 
-    HWY_INLINE void append(FloatMask members, const CubicLanes& cubic, Number length, Ints part) {
+    HWY_INLINE void append(FloatMask members, const CubicLanes& cubic, Number length,
+                           Number longest, Ints part) {
         for (std::size_t i = 0; i < 4; ++i)
             store_members(cubic.c[i].v, members, cubic_[i] + count_);
         store_members(length.v, members, length_ + count_);
+        store_members(longest.v, members, longest_ + count_);
         store_members(part, members, part_ + count_);
         count_ += hn::CountTrue(FloatTag(), members);
     }
@@ -86,7 +93,7 @@ class CutParts {
                 lanes[i] = first ? begin<kind>(transfer, place, members) : load(place, members);
             }
             FloatMask done[vectors];
-            add_pieces<kind>(transfer, colored, used, lanes, done);
+            add_pieces<kind>(transfer, parts, colored, used, lanes, done);
             for (std::size_t i = 0; i < used; ++i) {
                 const FloatMask members = hn::FirstN(d, count - from - i * step);
                 finish(lanes[i], hn::And(members, done[i]), parts);
@@ -101,7 +108,10 @@ class CutParts {
         for (std::size_t i = 0; i < 4; ++i)
             lanes.cubic.c[i] = zero_unless(members, hn::LoadU(FloatTag(), cubic_[i] + from));
         lanes.length = zero_unless(members, hn::LoadU(FloatTag(), length_ + from));
-        lanes.part = hn::LoadU(IntTag(), part_ + from);
+        lanes.longest = hn::LoadU(FloatTag(), longest_ + from);
+        // Those outside `members` are places, too.
+        lanes.part = hn::IfThenElseZero(hn::RebindMask(IntTag(), members),
+                                        hn::LoadU(IntTag(), part_ + from));
         return lanes;
     }
 
@@ -152,7 +162,7 @@ class CutParts {
     HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (hn::AllFalse(FloatTag(), members)) return;
         const std::size_t to = count_;
-        append(members, lanes.cubic, lanes.length, lanes.part);
+        append(members, lanes.cubic, lanes.length, lanes.longest, lanes.part);
         store_members(lanes.turns[0].v, members, turns_[0] + to);
         store_members(lanes.turns[1].v, members, turns_[1] + to);
         store_members(lanes.at.v, members, at_ + to);
@@ -182,8 +192,9 @@ class CutParts {
 
     // Finds the lanes that have reached the end.
     template <Lookup kind>
-    HWY_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
-                               Lanes (&lanes)[vectors], FloatMask (&done)[vectors]) {
+    HWY_INLINE void add_pieces(const TileTransfer& transfer, const CellParts& parts, bool colored,
+                               std::size_t used, Lanes (&lanes)[vectors],
+                               FloatMask (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
         Stretch stretches[vectors];
@@ -195,7 +206,8 @@ class CutParts {
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
             for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(lanes[j].cubic);
         }
-        for (std::size_t i = 0; i < used; ++i) done[i] = add_piece(colored, stretches[i], lanes[i]);
+        for (std::size_t i = 0; i < used; ++i)
+            done[i] = add_piece(parts, colored, stretches[i], lanes[i]);
     }
 
     template <Lookup kind>
@@ -218,14 +230,30 @@ class CutParts {
     }
 
     // Returns the lanes that have reached the end.
-    static HWY_INLINE FloatMask add_piece(bool colored, const Stretch& stretch, Lanes& lanes) {
+    HWY_INLINE FloatMask add_piece(const CellParts& parts, bool colored, const Stretch& stretch,
+                                   Lanes& lanes) const {
         const IntTag di;
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
-        Number extent = max(to - lanes.at, Number(0));
-        LinearPart part = part_of(stretch.interval, lanes, extent, at_to);
-        const FloatMask whole = shorten(part, extent);
-        composite(stretch.interval, part, colored, lanes);
+        Number extent = max(to - lanes.at, Number(0)), at_back = at_to;
+        FloatMask whole = hn::FirstN(FloatTag(), hn::Lanes(FloatTag()));
+        if (light_ != nullptr) {
+            whole = extent <= lanes.longest;
+            extent = min(extent, lanes.longest);
+            at_back = select(whole, at_to, lanes.cubic.at(lanes.at + extent));
+        }
+        LinearPart part = part_of(stretch.interval, lanes, extent, at_back);
+        whole = hn::And(whole, shorten(part, extent));
+        if (light_ == nullptr || !colored) {
+            composite(stretch.interval, part, colored, lanes);
+        } else {
+            const FloatMask again = composite_lit(stretch.interval, part, extent, parts, lanes);
+            lanes.longest =
+                select(again, extent * Number(0.5f), max(lanes.longest, extent * Number(2)));
+            // These stay where they are.
+            whole = hn::AndNot(again, whole);
+            extent = zero_unless(hn::Not(again), extent);
+        }
 
         const Number shortened = max(lanes.at + extent, lanes.at + Number(6e-8f));
         lanes.at = select(whole, to, shortened);
@@ -297,11 +325,40 @@ class CutParts {
             lanes.color[channel] = lanes.color[channel] + interval.color(channel, weight, share);
     }
 
+    // The same of pieces that are lit. Returns those that are not composited, because their light
+    // bends too much for one rule.
+    HWY_INLINE FloatMask composite_lit(const IntervalLanes& interval, const LinearPart& part,
+                                       Number extent, const CellParts& parts, Lanes& lanes) const {
+        const Number depth = part.depth();
+        const Number opacity = opacity_from_depth(FloatTag(), depth.v);
+        const FloatMask deep = depth > Number(largest_part_depth);
+        const Number share =
+            select(deep, opacity * part.share.c[0], seen_share<4>(part, depth, opacity));
+        Number color[3];
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            color[channel] = interval.color(channel, opacity, share);
+        const Number bend = add_light(*light_, gather_gradients(parts, lanes.part),
+                                      {part, interval, lanes.at, extent, depth, opacity}, color);
+        const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
+        const FloatMask again =
+            hn::And(extent > Number(shortest_lit_piece), bends(*light_, bend, weight));
+        lanes.depth = lanes.depth + zero_unless(hn::Not(again), depth);
+        lanes.transmittance = transmittance - zero_unless(hn::Not(again), weight);
+        lanes.opacity = lanes.opacity + zero_unless(hn::Not(again), weight);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            lanes.color[channel] =
+                lanes.color[channel] + zero_unless(hn::Not(again), transmittance * color[channel]);
+        }
+        return again;
+    }
+
     static constexpr std::size_t capacity = CellParts::capacity;
 
+    const TileLight* light_ = nullptr;
     std::size_t count_ = 0;
     alignas(64) float cubic_[4][capacity];
     alignas(64) float length_[capacity];
+    alignas(64) float longest_[capacity];
     alignas(64) std::int32_t part_[capacity];
     // From the second round on:
     alignas(64) float turns_[2][capacity];

@@ -52,7 +52,7 @@ class CellIntegrator {
         packets_ = count;
         for (std::size_t i = 0; i < count; ++i) {
             spans_[i] = span_from(packets[i], slab);
-            walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i]);
+            walks_[i].begin(*slabs_.cells, view, packets[i], spans_[i], slabs_.light);
         }
     }
     // Ends at the front of slab `slab`, which lies behind what was integrated.
@@ -215,10 +215,32 @@ class CellIntegrator {
             if (colored_) hard = hn::Or(hard, shown_depth > Number(largest_part_depth));
             hard = hn::And(stored, hard);
             store_number(shown_depth, parts_.depth + i);
-            if (!hn::AllFalse(d, hard)) cut_.add(hard, cubic, length, i);
             if (colored_) set_colors(interval, part, shown_depth, i);
+            Number longest(1);
+            if (slabs_.light != nullptr && colored_)
+                longest = add_light_to(interval, part, shown_depth, i, hard);
+            if (!hn::AllFalse(d, hard)) cut_.add(hard, cubic, length, longest, i);
         });
-        if (!cut_.empty()) cut_.run<kind>(transfer, colored_, parts_);
+        if (!cut_.empty()) cut_.run<kind>(transfer, slabs_.light, colored_, parts_);
+    }
+
+    // Adds light to the colours of parts that show something, and those whose light bends to the
+    // `hard` ones. Returns how long their pieces may be.
+    HWY_INLINE Number add_light_to(const IntervalLanes& interval, const LinearPart& part,
+                                   Number depth, std::size_t i, FloatMask& hard) {
+        const FloatTag d;
+        const FloatMask seen = hn::And(members_from(i), depth > Number(0));
+        if (hn::AllFalse(d, hn::Or(seen, hard))) return Number(1);
+        const GradientLanes gradient = set_gradients(view_->brick, i, parts_.count - i, parts_);
+        Number color[3] = {load_number(parts_.color[0] + i), load_number(parts_.color[1] + i),
+                           load_number(parts_.color[2] + i)};
+        const Number opacity = load_number(parts_.opacity + i);
+        const Number bend = add_light(
+            *slabs_.light, gradient, {part, interval, Number(0), Number(1), depth, opacity}, color);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            store_number(zero_unless(seen, color[channel]), parts_.color[channel] + i);
+        hard = hn::Or(hard, hn::And(seen, bends(*slabs_.light, bend, opacity)));
+        return longest_piece(*slabs_.light, bend);
     }
 
     HWY_INLINE void set_colors(const IntervalLanes& interval, const LinearPart& part, Number depth,

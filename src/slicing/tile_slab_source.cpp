@@ -63,10 +63,18 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
                       exact ? 0 : sampled_step_advance);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
-    if (volume_ && volume_->serves(volume, unit, plan_)) return;
-    Stage upload("upload");
-    volume_ = std::make_shared<TileVolume>(volume, unit, plan_);
-    upload_ms_ = upload.end();
+    if (!volume_ || !volume_->serves(volume, unit, plan_)) {
+        Stage upload("upload");
+        volume_ = std::make_shared<TileVolume>(volume, unit, facts.range, plan_);
+        upload_ms_ = upload.end();
+    }
+    set_light();
+}
+
+void TileSlabSource::set_light() {
+    if (!plan_.lighting) return;
+    light_ = make_tile_light(*plan_.lighting, grid_, volume_->gradient_scale(), plan_.most_bend);
+    slabs_.light = &*light_;
 }
 
 void TileSlabSource::take_plan() {

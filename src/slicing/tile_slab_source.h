@@ -33,6 +33,7 @@ class TileSlabSource {
     std::int64_t byte_count() const;
 
   private:
+    void set_light();
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
 
@@ -44,6 +45,7 @@ class TileSlabSource {
     bool cells_leave_out_empty_ = false;  // views differ in this
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
+    std::optional<TileLight> light_;
     TileSlabs slabs_;
     std::vector<std::size_t> order_;  // order of the bricks
     double upload_ms_ = 0, table_ms_ = 0;

@@ -12,6 +12,7 @@
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"
+#include "slicing/tile_light.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {
@@ -52,6 +53,7 @@ struct TileSlabs {
     const ConstantBricks* constant = nullptr;  // null where constant bricks are not used
     // In place of both, where rays are integrated cell by cell; otherwise null.
     const CellMap* cells = nullptr;
+    const TileLight* light = nullptr;  // null where nothing is lit
     TileRays rays;
     std::vector<TileBrickView> bricks;  // bricks that show something, in the plan's order
     std::array<float, 3> single_color{};

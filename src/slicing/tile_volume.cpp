@@ -26,7 +26,8 @@ void for_each_row(const TextureBrick& part, const Visit& visit) {
 
 }  // namespace
 
-TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
+TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const ValueRange& values,
+                       const SlicePlan& plan)
     : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
     const bool whole = plan.bricks.size() == 1;
     for (const TextureBrick& part : plan.bricks) {
@@ -43,6 +44,10 @@ TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const Slic
             refer_to_volume(brick);
         } else {
             copy_brick(part, brick);
+        }
+        if (plan.lighting) {
+            gradients_.push_back(make_gradient_map(volume, values, part));
+            brick.gradients = gradients_.back().gradients.data();
         }
         bricks_.push_back(brick);
     }
@@ -106,11 +111,13 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
 bool TileVolume::serves(const Volume& volume, const ValueRange& range,
                         const SlicePlan& plan) const {
     return volume.data() == volume_.data() && range == range_ && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_;
+           plan.float_texture == float_texture_ && plan.lighting.has_value() == !gradients_.empty();
 }
 
 std::int64_t TileVolume::byte_count() const {
     std::int64_t bytes = 0;
+    for (const GradientMap& map : gradients_)
+        bytes += static_cast<std::int64_t>(sizeof(std::uint64_t) * map.gradients.size());
     for (const auto& copy : copies_) bytes += static_cast<std::int64_t>(4 * copy.size());
     return bytes;
 }

@@ -177,7 +177,12 @@ TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
 
 TEST_F(Render, WhatCannotBeDrawnLitIsRefused) {
     const json light{{"smallest_gradient", 1}};
-    expect_failure(with("/lighting", light), {"lighting", "\"slice\"", "\"trace\""});
+    for (const char* const classification : {"post", "preintegrated"}) {
+        json slice = with("/lighting", light);
+        slice["render"]["slice"]["classification"] = classification;
+        expect_failure(slice, {"render.slice.classification", classification, "\"exact\""}, 1,
+                       {"--context", "cpu"});
+    }
     json mesh = with("/lighting", light);
     mesh["mesh"] = {{"kuhn", true}};
     mesh["render"] = {{"method", "project"}};

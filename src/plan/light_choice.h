@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lamina/scene.h"
+#include "plan/plan.h"
+
+namespace lamina {
+
+// Sets what the plan of a lit scene says of light; `max_color`: of the unlit picture.
+void plan_light(const Scene& scene, double max_color, SlicePlan& slice);
+
+// The largest component that the scene may draw.
+double largest_drawn_color(const Scene& scene, double max_color);
+
+}  // namespace lamina
