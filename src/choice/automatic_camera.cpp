@@ -54,47 +54,74 @@ struct Extent {
     double middle() const { return lo + (hi - lo) / 2; }
 };
 
+// How far a point reaches along a direction. Turned all around an axis it describes a circle.
+class Reach {
+  public:
+    Reach(const glm::dvec3& axis, bool all_around) : axis_(axis), all_around_(all_around) {}
+
+    void add(const glm::dvec3& point, const glm::dvec3& along, Extent& extent) const {
+        if (!all_around_) return extent.add(glm::dot(point, along));
+        const double rise = glm::dot(along, axis_), height = glm::dot(point, axis_);
+        const double swing =
+            glm::length(along - rise * axis_) * glm::length(point - height * axis_);
+        extent.add(rise * height - swing);
+        extent.add(rise * height + swing);
+    }
+
+  private:
+    glm::dvec3 axis_;
+    bool all_around_;
+};
+
+glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
+    Extent box[3];
+    for (const glm::dvec3& point : points) {
+        for (int axis = 0; axis < 3; ++axis) box[axis].add(point[axis]);
+    }
+    return {box[0].middle(), box[1].middle(), box[2].middle()};
+}
+
 }  // namespace
 
 // A point at (r, u) across and depth d behind the eye at (R, U, D) is in a picture of slope s if
 // |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d) - s D, and the
 // nearest D for which there is such an R makes the two ends the same; likewise for U.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
-                     int width, int height) {
+                     int width, int height, bool all_around) {
     const Axes to = turned(axes_of(axes), {three_quarter_azimuth + turn.azimuth,
                                            three_quarter_elevation + turn.elevation});
+    Camera camera;
+    camera.fov_y = fov_y;
+    // The data's own up where that is a direction across the view, so that turntables stand
+    // upright.
+    const glm::dvec3 up = axes_of(axes).up;
+    camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
     const double slope_up = std::tan(fov_y / 2 * degree) * (1 - margin);
     const double slope_right = slope_up * width / height;
-    Extent box[3];
-    for (const glm::dvec3& point : points) {
-        for (int axis = 0; axis < 3; ++axis) box[axis].add(point[axis]);
-    }
     // Relative to the middle, so that a distant origin costs no digits.
-    const glm::dvec3 middle(box[0].middle(), box[1].middle(), box[2].middle());
-    Extent right_near, right_far, up_near, up_far, depth;
+    const glm::dvec3 middle = middle_of(points);
+    const Reach reach(camera.up, all_around);
+    Extent right_near, right_far, up_near, up_far, toward;
     for (const glm::dvec3& point : points) {
         const glm::dvec3 arm = point - middle;
-        const double r = glm::dot(arm, to.right), u = glm::dot(arm, to.up);
-        const double d = -glm::dot(arm, to.toward);
-        right_near.add(r - slope_right * d);
-        right_far.add(r + slope_right * d);
-        up_near.add(u - slope_up * d);
-        up_far.add(u + slope_up * d);
-        depth.add(d);
+        reach.add(arm, to.right + slope_right * to.toward, right_near);
+        reach.add(arm, to.right - slope_right * to.toward, right_far);
+        reach.add(arm, to.up + slope_up * to.toward, up_near);
+        reach.add(arm, to.up - slope_up * to.toward, up_far);
+        reach.add(arm, to.toward, toward);
     }
     const double eye_depth = std::min((right_far.lo - right_near.hi) / (2 * slope_right),
                                       (up_far.lo - up_near.hi) / (2 * slope_up));
     const double eye_right = (right_far.lo + right_near.hi) / 2;
     const double eye_up = (up_far.lo + up_near.hi) / 2;
-    const glm::dvec3 axis = middle + eye_right * to.right + eye_up * to.up;
-    Camera camera;
-    camera.center = axis - depth.middle() * to.toward;
-    camera.eye = axis - eye_depth * to.toward;
-    // The data's own up where that is a direction across the view, so that turntables stand
-    // upright.
-    const glm::dvec3 up = axes_of(axes).up;
-    camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
-    camera.fov_y = fov_y;
+    const glm::dvec3 across = eye_right * to.right + eye_up * to.up;
+    camera.eye = middle + across - eye_depth * to.toward;
+    // Of the points on the view's axis, the one in the middle of what shows; turned all around, the
+    // one that the circles have as their centre.
+    const glm::dvec3 level = to.toward - glm::dot(to.toward, camera.up) * camera.up;
+    const double along =
+        all_around ? -glm::dot(across, level) / glm::dot(to.toward, level) : toward.middle();
+    camera.center = middle + across + along * to.toward;
     return camera;
 }
 

@@ -17,9 +17,10 @@ struct ViewTurn {
 // opposite edges of a margin of 1/25 are touched. Where the axes of the world are a patient's it
 // looks from in front and a little from the left and above, the head up. Else it looks from +z, a
 // little from +x and +y, with +y up. `turn` comes on top. One or more points; a picture of
-// width x height pixels.
+// width x height pixels. `all_around`: however far the camera is turned about its `up`
+// (scene/camera.h), all points are in the picture.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
-                     int width, int height);
+                     int width, int height, bool all_around = false);
 
 // The camera gone around its centre, to its right and up. It turns with its up, so that it may go
 // over the poles.

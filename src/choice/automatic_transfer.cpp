@@ -8,13 +8,17 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "choice/changed_transfer.h"
 #include "choice/common_values.h"
 #include "choice/label_colors.h"
+#include "choice/padding.h"
 
 namespace lamina {
 namespace {
@@ -44,8 +48,9 @@ constexpr double rise = .1;
 constexpr int steps = 8;
 // The outermost of a side: there its colours end.
 constexpr double far_share = .998;
-// A side with less than this share of all that is not common shows nothing: it is noise.
-constexpr double least_side = .02;
+// A side with less than this share of all that is not common shows nothing: it is noise, or the
+// foot of a peak, and would take half of the hues.
+constexpr double least_side = .05;
 // Where common values are no background, they show this share of what lies next to them.
 constexpr double faint = .25;
 
@@ -135,7 +140,7 @@ std::vector<TransferKnot> joined(const Side& down, const Side& up, double start)
 
 AutomaticTransfer one_value(double value) {
     return {TransferFunction::linear({{value, {upwards[3], 1}}}),
-            fmt::format("all values are {:.6g}, which shows everywhere", value)};
+            fmt::format("all values are {:.9g}, which shows everywhere", value)};
 }
 
 AutomaticTransfer within(const ValueDistribution& values, const ValueRange& range) {
@@ -144,44 +149,99 @@ AutomaticTransfer within(const ValueDistribution& values, const ValueRange& rang
                                      {range.hi, {upwards.back(), 1}}};
     if (!side.empty()) points = points_of(side, upwards, 0);
     return {normalized(std::move(points)),
-            fmt::format("values from {:.6g} to {:.6g} show, as wished", range.lo, range.hi)};
+            fmt::format("values from {} to {} show, as wished", range.lo, range.hi)};
 }
 
 // A transfer function that shows values beyond the common ones, on one side of them or both.
-AutomaticTransfer beyond_common(const ValueDistribution& values, const CommonValues& common) {
+// A side whose values would make a shell around what was measured shows nothing if the other does.
+AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
+    const ValueDistribution& values = padding.rest;
     Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
     const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);
     if (below < least_side * (below + above)) down = Side({}, common.lo, common.lo);
     if (above < least_side * (below + above)) up = Side({}, common.hi, common.hi);
+    if (common.background && !down.empty() && !up.empty()) {
+        if (padding.shell_below(common.lo)) {
+            down = Side({}, common.lo, common.lo);
+        } else if (padding.shell_above(common.hi)) {
+            up = Side({}, common.hi, common.hi);
+        }
+    }
     const auto points = joined(down, up, common.background ? 0 : faint);
     const std::string hidden = common.background ? "are transparent" : "are faint";
+    const auto text = [&](double value) {
+        return number_text(value, fineness_of(values.lowest(), values.highest()));
+    };
     std::string shown;
-    if (!down.empty()) shown = fmt::format("down to {:.4g}", down.end());
-    if (!up.empty()) shown += fmt::format("{}up to {:.4g}", shown.empty() ? "" : " and ", up.end());
+    if (!down.empty()) shown = "down to " + text(down.end());
+    if (!up.empty()) shown += (shown.empty() ? "up to " : " and up to ") + text(up.end());
     return {
         normalized(points),
-        fmt::format("values from {:.4g} to {:.4g}, {:.3g} % of the field, {}; beyond, {}, the "
-                    "rarer the denser",
-                    common.lo, common.hi, 100 * values.share(common.lo, common.hi), hidden, shown)};
+        fmt::format("values from {} to {}, {:.3g} % of the field, {}; beyond, {}, the rarer "
+                    "the denser",
+                    text(common.lo), text(common.hi),
+                    100 * (1 - padding.share) * values.share(common.lo, common.hi), hidden, shown)};
 }
 
-AutomaticTransfer in_own_colors(const ValueDistribution& values, bool whole_numbers,
-                                const std::optional<ValueRange>& range) {
-    if (range) return within(values, *range);
+// The function with nothing that shows below or above a value.
+TransferFunction shown_above(const TransferFunction& function, double value) {
+    if (function.transparent(std::numeric_limits<double>::lowest(), value)) return function;
+    const OpticalProperties optics = function.at(value);
+    std::vector<TransferKnot> points{{value, {optics.color, 0}}, {value, optics}};
+    std::ranges::copy_if(function.knots(), std::back_inserter(points),
+                         [&](const TransferKnot& knot) { return knot.value > value; });
+    return TransferFunction::linear(points);
+}
+
+TransferFunction shown_below(const TransferFunction& function, double value) {
+    if (function.transparent(value, std::numeric_limits<double>::max())) return function;
+    const OpticalProperties optics = function.at(value);
+    std::vector<TransferKnot> points;
+    std::ranges::copy_if(function.knots(), std::back_inserter(points),
+                         [&](const TransferKnot& knot) { return knot.value < value; });
+    points.push_back({value, optics});
+    points.push_back({value, {optics.color, 0}});
+    return TransferFunction::linear(points);
+}
+
+// Empty where there is none.
+std::string padding_text(const Padding& padding) {
+    std::string text;
+    for (const double value : padding.values)
+        text += fmt::format("{}{:.9g}", text.empty() ? "" : " and ", value);
+    if (text.empty()) return text;
+    return fmt::format("{}, {:.3g} % of the field, {} padding and transparent; ", text,
+                       100 * padding.share, padding.values.size() > 1 ? "are" : "is");
+}
+
+AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
+    const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
         return label_transfer(values);
-    return beyond_common(values, find_common_values(values, whole_numbers));
+    return beyond_common(padding, find_common_values(values, whole_numbers));
+}
+
+TransferFunction in_colors_of(const TransferFunction& function,
+                              const std::optional<Colormap>& colormap) {
+    return colormap ? recolored(function, *colormap) : function;
 }
 
 }  // namespace
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferWishes& wishes) {
-    AutomaticTransfer chosen = in_own_colors(values, whole_numbers, wishes.range);
-    if (wishes.colormap)
-        chosen.transfer_function = recolored(chosen.transfer_function, *wishes.colormap);
-    return chosen;
+    if (wishes.range) {
+        AutomaticTransfer chosen = within(values, *wishes.range);
+        chosen.transfer_function = in_colors_of(chosen.transfer_function, wishes.colormap);
+        return chosen;
+    }
+    const Padding padding = find_padding(values, whole_numbers);
+    const auto [function, reason] = in_own_colors(padding, whole_numbers);
+    TransferFunction colored = in_colors_of(function, wishes.colormap);
+    if (padding.below) colored = shown_above(colored, padding.edge_below());
+    if (padding.above) colored = shown_below(colored, padding.edge_above());
+    return {colored, padding_text(padding) + reason};
 }
 
 }  // namespace lamina

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "choice/changed_transfer.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "base/error.h"
@@ -8,14 +10,15 @@
 namespace lamina {
 namespace {
 
-// A straight line that leads both ends exactly to theirs.
+// A straight line that leads both ends exactly to theirs, and no value before one that it was
+// behind.
 class Stretch {
   public:
     Stretch(double from_lo, double from_hi, const ValueRange& to)
         : lo_(from_lo), width_(from_hi - from_lo), to_(to) {}
     double operator()(double value) const {
         const double place = (value - lo_) / width_;
-        return to_.lo * (1 - place) + to_.hi * place;
+        return place == 1 ? to_.hi : std::min(to_.lo + (to_.hi - to_.lo) * place, to_.hi);
     }
 
   private:
@@ -35,6 +38,12 @@ TransferFunction stretched(const TransferFunction& transfer_function, const Valu
             knots.front().value);
     const Stretch stretch(knots.front().value, knots.back().value, range);
     for (TransferKnot& knot : knots) knot.value = stretch(knot.value);
+    for (std::size_t i = 2; i < knots.size(); ++i) {
+        if (knots[i].value == knots[i - 2].value) {
+            fail("range from {} to {}: is too narrow for the {} points of the transfer function",
+                 range.lo, range.hi, knots.size());
+        }
+    }
     return TransferFunction::linear(knots);
 }
 

@@ -8,7 +8,8 @@
 namespace lamina {
 
 // The function with its first and its last point moved to the ends of the range, lo < hi, and all
-// others in proportion. Throws Error where it has one point alone.
+// others in proportion. Throws Error where it has one point alone, or where the range is so narrow
+// that three of them would get one value.
 TransferFunction stretched(const TransferFunction& transfer_function, const ValueRange& range);
 
 // The function with the colours of a map, which is spread from its first to its last point unless

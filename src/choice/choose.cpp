@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
+#include "base/error.h"
+#include "base/number_text.h"
 #include "choice/changed_transfer.h"
 #include "image/srgb.h"
 
@@ -33,8 +36,22 @@ std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,
     return {corners.begin(), corners.end()};
 }
 
-std::string vector_text(const glm::dvec3& v) {
-    return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z);
+std::string vector_text(const glm::dvec3& v, double fineness) {
+    return fmt::format("({}, {}, {})", number_text(v.x, fineness), number_text(v.y, fineness),
+                       number_text(v.z, fineness));
+}
+
+std::string camera_text(const Camera& camera) {
+    const double fineness = fineness_of(0, glm::distance(camera.eye, camera.center));
+    return fmt::format("camera: from {} to {}, up {}, fov_y {:.4g}",
+                       vector_text(camera.eye, fineness), vector_text(camera.center, fineness),
+                       vector_text(camera.up, fineness_of(0, 1)), camera.fov_y);
+}
+
+// A file has a name.
+std::string name_of_data(const Scene& scene) {
+    const auto& file = scene.volume_file.empty() ? scene.mesh_file : scene.volume_file;
+    return file.empty() ? "data" : file.string();
 }
 
 // Rays with less than this share of the deepest one's optical depth meet noise alone.
@@ -71,9 +88,9 @@ void change_transfer_function(Scene& scene, const Wishes& wishes) {
 }  // namespace
 
 Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
-    if (field.range().empty()) {  // no number: whoever draws this says so
-        scene.automatic_transfer_function = scene.automatic_camera = false;
-        return scene;
+    if (field.range().empty()) {
+        fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
+             name_of_data(scene));
     }
     std::string reason;
     if (scene.automatic_transfer_function) {
@@ -88,7 +105,7 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
     }
     if (scene.automatic_camera) {
         scene.camera = fitted_camera(points_to_fit(scene.transfer_function, field), field.axes(),
-                                     wishes.turn, scene.width, scene.height);
+                                     wishes.turn, scene.width, scene.height, wishes.all_around);
     } else {
         scene.camera = turned(scene.camera, wishes.turn);
     }
@@ -105,9 +122,7 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(scene.camera, wishes.zoom);
     if (scene.automatic_camera) {
-        scene.chosen.push_back(fmt::format(
-            "camera: from {} to {}, up {}, fov_y {:.4g}", vector_text(scene.camera.eye),
-            vector_text(scene.camera.center), vector_text(scene.camera.up), scene.camera.fov_y));
+        scene.chosen.push_back(camera_text(scene.camera));
     }
     scene.automatic_transfer_function = scene.automatic_camera = false;
     return scene;

@@ -17,6 +17,7 @@ struct Wishes {
     double density = 1;  // factor on extinction
     ViewTurn turn{};
     double zoom = 1;
+    bool all_around = false;  // an automatic camera fits what shows from wherever it is turned to
 
     bool transfer_function() const { return transfer.colormap || transfer.range || density != 1; }
     bool camera() const { return turn.azimuth != 0 || turn.elevation != 0 || zoom != 1; }
@@ -24,7 +25,8 @@ struct Wishes {
 
 // The scene with its transfer function and camera chosen, where they are automatic, and changed as
 // wished. Nothing is automatic in the result, and `chosen` says what was. The same data and wishes
-// give the same scene.
+// give the same scene. Throws Error where there is something to choose and the field has no finite
+// value.
 Scene choose(Scene scene, const Field& field, const Wishes& wishes = {});
 
 // The first lines of an explanation of the plan: they say what was chosen.

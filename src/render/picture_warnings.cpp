@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/warning.h"
 #include "scene/camera.h"
 
@@ -29,7 +30,8 @@ std::string name_of_scene(const Scene& scene) {
 }
 
 std::string range_text(const ValueRange& range) {
-    return fmt::format("{:.6g} to {:.6g}", range.lo, range.hi);
+    const double fineness = fineness_of(range.lo, range.hi);
+    return number_text(range.lo, fineness, 6) + " to " + number_text(range.hi, fineness, 6);
 }
 
 // The values that the transfer function shows, from the first to the last, constant beyond its
@@ -40,8 +42,11 @@ std::string shown_values(const TransferFunction& transfer_function) {
     while (first < last && knots[first].optics.extinction == 0) ++first;
     while (last > first && knots[last - 1].optics.extinction == 0) --last;
     if (first == last) return "no values at all";
-    const std::string from = fmt::format("{:.6g}", knots[first > 0 ? first - 1 : 0].value);
-    const std::string to = fmt::format("{:.6g}", knots[std::min(last, knots.size() - 1)].value);
+    const ValueRange shown{knots[first > 0 ? first - 1 : 0].value,
+                           knots[std::min(last, knots.size() - 1)].value};
+    const double fineness = fineness_of(shown.lo, shown.hi);
+    const std::string from = number_text(shown.lo, fineness, 6);
+    const std::string to = number_text(shown.hi, fineness, 6);
     if (first == 0) return last == knots.size() ? "all values" : "values up to " + to;
     return last == knots.size() ? "values above " + from : "values from " + from + " to " + to;
 }

@@ -80,8 +80,8 @@ class Crosschecker {
     std::vector<double> all_tolerances() {
         if (!scene_.mesh_file.empty()) return {0.0};
         made_.tolerance = scene_.mesh_request.value_or(MeshSettings{}).tolerance;
-        std::vector<double> tolerances = settings_.tolerances;
-        if (scene_.mesh_request && scene_.mesh_request->kuhn) tolerances.clear();
+        std::vector<double> tolerances;
+        if (makes_meshes(scene_)) tolerances = settings_.tolerances;
         tolerances.push_back(made_.tolerance);
         std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
         tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
@@ -184,6 +184,10 @@ class Crosschecker {
 };
 
 }  // namespace
+
+bool makes_meshes(const Scene& scene) {
+    return scene.mesh_file.empty() && !(scene.mesh_request && scene.mesh_request->kuhn);
+}
 
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
                       const Capabilities& capabilities) {

@@ -59,6 +59,10 @@ struct Crosscheck {
     std::vector<std::vector<Pair>> pairs;  // [projection][slicing]
 };
 
+// Whether meshes of several tolerances are made from the scene's volume: its mesh is no file, and
+// not Kuhn's, which has none.
+bool makes_meshes(const Scene& scene);
+
 // Draws and traces all pictures. The scene must have a volume; without a mesh, one of tolerance .02
 // is made from it. Throws Error.
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "image/pixel_text.h"
 
 namespace lamina {
@@ -27,8 +28,8 @@ class Chart {
         for (std::size_t i = 0; i < of_.histogram.counts.size(); ++i) draw_bar(i);
         fill_rectangle(image_, room, bottom, bars_wide(), 1, ink);
         const std::vector<double>& edges = of_.histogram.edges;
-        draw_text(image_, room, bottom + 4, short_number(edges.front()), dot, ink);
-        const std::string last = short_number(edges.back());
+        draw_text(image_, room, bottom + 4, label(edges.front()), dot, ink);
+        const std::string last = label(edges.back());
         draw_text(image_, image_.width - room - text_width(last, dot), bottom + 4, last, dot, ink);
         draw_marks();
         return std::move(image_);
@@ -40,6 +41,10 @@ class Chart {
     static constexpr PixelColor paper{255, 255, 255}, ink{40, 40, 40}, bar_color{70, 110, 160},
         mark_color{200, 60, 40};
 
+    std::string label(double value) const {
+        const std::vector<double>& edges = of_.histogram.edges;
+        return number_text(value, fineness_of(edges.front(), edges.back()));
+    }
     int bars_wide() const { return image_.width - 2 * room; }
     int column(double value) const {
         const double lo = of_.histogram.edges.front(), hi = of_.histogram.edges.back();
@@ -67,7 +72,7 @@ class Chart {
             fill_rectangle(image_, column(of_.percentiles[i]), bottom - bars_high, 1, bars_high + 4,
                            mark_color);
             text += fmt::format(" {:g}%={}", 0.1 * ValueStatistics::places[i],
-                                short_number(of_.percentiles[i]));
+                                label(of_.percentiles[i]));
         }
         draw_text(image_, room, bottom + line + 2, text, dot, mark_color);
     }
@@ -77,10 +82,6 @@ class Chart {
 };
 
 }  // namespace
-
-std::string short_number(double value) {
-    return fmt::format("{:.4g}", value);
-}
 
 CodedImage histogram_picture(const ValueStatistics& statistics, int width) {
     return Chart(statistics, width).draw();

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "image/coded_image.h"
 #include "volume/value_statistics.h"
 
 namespace lamina {
-
-// A number in few letters, for labels.
-std::string short_number(double value);
 
 // The histogram as a picture with white paper: a bar an interval, as high as the logarithm of 1 +
 // its count, the range of values below, and marks at the median and the outermost percentiles.

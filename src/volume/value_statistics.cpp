@@ -14,30 +14,71 @@
 namespace lamina {
 namespace {
 
-// The leading bits of a float32: sign, exponent and 11 bits of the mantissa, so that keys ascend
-// with the values.
+// Whole numbers that ascend with the finite values of float32. Percentiles are found by their
+// leading bits first, and then by the rest.
 struct FloatKeys {
-    static constexpr int dropped_bits = 12;
-    static constexpr std::size_t count = std::size_t{1} << (32 - dropped_bits);
-    static constexpr std::uint32_t negative = count / 2;
+    static constexpr std::uint32_t negative = std::uint32_t{1} << 31;
+    static constexpr int rest_bits = 12;
+    static constexpr std::size_t leading_count = std::size_t{1} << (32 - rest_bits);
+    static constexpr std::size_t rest_count = std::size_t{1} << rest_bits;
 
-    static std::size_t key(float sample) {
-        const std::uint32_t bits = std::bit_cast<std::uint32_t>(sample) >> dropped_bits;
-        return bits < negative ? bits + negative : count - 1 - bits;
+    static std::uint32_t key(float sample) {
+        const auto bits = std::bit_cast<std::uint32_t>(sample);
+        return bits < negative ? bits + negative : ~bits;
     }
-    // The value of the key that is nearest to zero.
-    static double value(std::size_t key) {
-        const auto bits =
-            static_cast<std::uint32_t>(key >= negative ? key - negative : count - 1 - key);
-        return static_cast<double>(std::bit_cast<float>(bits << dropped_bits));
+    static std::size_t leading(float sample) { return key(sample) >> rest_bits; }
+    static std::size_t rest(float sample) { return key(sample) % rest_count; }
+    static double value(std::size_t leading, std::size_t rest) {
+        const auto key = static_cast<std::uint32_t>(leading * rest_count + rest);
+        return static_cast<double>(std::bit_cast<float>(key >= negative ? key - negative : ~key));
     }
 };
 
-// The key of the value with this rank.
-std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
+// The key of the value with this rank, and its rank among those of its key.
+struct RankedKey {
     std::size_t key = 0;
-    for (std::int64_t below = counts[0]; below < rank; below += counts[key]) ++key;
-    return key;
+    std::int64_t rank = 0;
+};
+RankedKey ranked_key(std::span<const std::int64_t> counts, std::int64_t rank) {
+    std::size_t key = 0;
+    while (counts[key] < rank) rank -= counts[key++];
+    return {key, rank};
+}
+std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
+    return ranked_key(counts, rank).key;
+}
+
+// The values with these ranks. `leading`: how many samples have which leading bits.
+std::vector<double> values_of_ranks(const float* samples, std::int64_t count,
+                                    std::span<const std::int64_t> leading,
+                                    const std::vector<std::int64_t>& ranks) {
+    std::vector<RankedKey> wanted;
+    for (const std::int64_t rank : ranks) wanted.push_back(ranked_key(leading, rank));
+    // The rests of the samples with each of the leading bits that are wanted. Ranks ascend.
+    std::vector<std::size_t> keys;
+    for (const RankedKey& one : wanted) {
+        if (keys.empty() || keys.back() != one.key) keys.push_back(one.key);
+    }
+    const Counts rests = count_in_parts(
+        count, keys.size() * FloatKeys::rest_count,
+        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
+            for (std::int64_t i = first; i < end; ++i) {
+                if (!std::isfinite(samples[i])) continue;
+                const auto place = std::ranges::lower_bound(keys, FloatKeys::leading(samples[i]));
+                if (place == keys.end() || *place != FloatKeys::leading(samples[i])) continue;
+                const auto row = static_cast<std::size_t>(place - keys.begin());
+                ++into[row * FloatKeys::rest_count + FloatKeys::rest(samples[i])];
+            }
+        });
+    std::vector<double> values;
+    for (const RankedKey& one : wanted) {
+        const auto row =
+            static_cast<std::size_t>(std::ranges::lower_bound(keys, one.key) - keys.begin());
+        const auto part = std::span<const std::int64_t>(rests).subspan(row * FloatKeys::rest_count,
+                                                                       FloatKeys::rest_count);
+        values.push_back(FloatKeys::value(one.key, ranked_key(part, one.rank).key));
+    }
+    return values;
 }
 
 template <typename T>
@@ -66,26 +107,28 @@ ValueStatistics measure_floats(const float* samples, std::int64_t count, const V
     ValueStatistics found;
     if (range.empty()) return found;
     found.histogram = Histogram::of_range(range);
-    // The keys, then the intervals.
+    // The leading bits, then the intervals.
     const Counts counts =
-        count_in_parts(count, FloatKeys::count + found.histogram.counts.size(),
+        count_in_parts(count, FloatKeys::leading_count + found.histogram.counts.size(),
                        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
                            for (std::int64_t i = first; i < end; ++i) {
                                if (!std::isfinite(samples[i])) continue;
-                               ++into[FloatKeys::key(samples[i])];
+                               ++into[FloatKeys::leading(samples[i])];
                                const auto value = static_cast<double>(samples[i]);
-                               ++into[FloatKeys::count + found.histogram.place(value)];
+                               ++into[FloatKeys::leading_count + found.histogram.place(value)];
                            }
                        });
     for (std::size_t i = 0; i < found.histogram.counts.size(); ++i) {
-        found.histogram.counts[i] = counts[FloatKeys::count + i];
+        found.histogram.counts[i] = counts[FloatKeys::leading_count + i];
         found.count += found.histogram.counts[i];
     }
-    for (const int place : ValueStatistics::places) {
-        const std::size_t key = key_of_rank(counts, ValueStatistics::rank(place, found.count));
-        // Adding 0 makes a zero without a sign.
-        found.percentiles.push_back(std::clamp(FloatKeys::value(key), range.lo, range.hi) + 0.0);
-    }
+    std::vector<std::int64_t> ranks;
+    for (const int place : ValueStatistics::places)
+        ranks.push_back(ValueStatistics::rank(place, found.count));
+    found.percentiles = values_of_ranks(
+        samples, count, std::span<const std::int64_t>(counts).first(FloatKeys::leading_count),
+        ranks);
+    for (double& value : found.percentiles) value += 0.0;  // makes a zero without a sign
     return found;
 }
 

@@ -29,11 +29,9 @@ struct ValueStatistics {
     }
 };
 
-// In one parallel pass. Exact for samples of 8 and 16 bits: the histogram's edges are whole
-// numbers, and an interval as many values. For float32 the histogram is exact, and a percentile is
-// the exact one with all but the leading 12 bits of its mantissa set to zero: at most 1/2048 of
-// itself nearer to zero, and whole numbers up to 4096 are exact. It takes 4 MiB a thread. `range`:
-// of the finite samples.
+// Exact. In one parallel pass for samples of 8 and 16 bits, where the histogram's edges are whole
+// numbers, and an interval as many values. For float32 in two, with 4 MiB a thread. `range`: of the
+// finite samples.
 ValueStatistics measure_values(const Volume& volume, const ValueRange& range);
 
 // Exact; takes as much memory as the values.

@@ -63,6 +63,30 @@ TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
     }
 }
 
+// Turned by any angle about its up, all points are in the picture, and by one of 720 two opposite
+// edges are as good as touched: between two of these angles a point moves by at most 1 - cos(1/4
+// degree) = 1e-5 of its distance from the axis, of which the picture's half is no less than a
+// fifth (its width is 3/2 of its height, and clouds are 40 times as high as wide at most: 1e-5 *
+// 40 of its width).
+TEST(FittedCamera, AllAroundEveryViewHoldsAllPoints) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        const auto points =
+            cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});
+        const ViewTurn turn{37. * seed, 3. * seed - 80};
+        const WorldAxes axes =
+            seed % 2 == 0 ? WorldAxes::unnamed : WorldAxes::left_posterior_superior;
+        const Camera camera = fitted_camera(points, axes, turn, width, height, true);
+        constexpr double edge = 1 - 1. / 25;
+        double most = 0;
+        for (int view = 0; view < 720; ++view) {
+            const Reach reach(points, turned(camera, 0.5 * view));
+            most = std::max({most, -reach.left, reach.right, -reach.down, reach.up});
+        }
+        EXPECT_LE(most, edge + rounding) << seed;
+        EXPECT_GE(most, edge - 4e-4) << seed;
+    }
+}
+
 glm::dvec3 toward_eye(WorldAxes axes) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 1, 1}};
     const Camera camera = fitted_camera(points, axes, {}, width, height);

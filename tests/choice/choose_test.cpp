@@ -14,6 +14,7 @@
 #include "scene/camera.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
+#include "support/expect_error.h"
 #include "support/split_box.h"
 #include "support/volume_of.h"
 
@@ -116,6 +117,40 @@ TEST(Choose, DoesAsWished) {
     EXPECT_LT(choose(open_scene(), one.field, {.zoom = 3}).camera.fov_y, plain.camera.fov_y / 2);
 }
 
+TEST(Choose, NothingFromNoNumber) {
+    const Volume volume = test::volume_of(test::grid_of({9, 9, 9}, Centering::node),
+                                          [](double, double, double) { return NAN; });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    Scene scene = open_scene();
+    scene.volume_file = "none.nrrd";
+    expect_error([&] { choose(scene, VolumeField(volume, bricks)); },
+                 {"none.nrrd: all values are NaN or infinite, expected numbers"});
+}
+
+TEST(Choose, ACameraThatIsTurnedAllAroundFitsAllViews) {
+    const Ball one;
+    const Scene plain = choose(open_scene(), one.field);
+    const Scene around = choose(open_scene(), one.field, {.all_around = true});
+    // The ball's bricks reach farther from its axis than from the front.
+    EXPECT_GT(glm::distance(around.camera.eye, around.camera.center),
+              glm::distance(plain.camera.eye, plain.camera.center));
+}
+
+// What is said has the digits that tell values and places apart.
+TEST(Choose, FarFromZeroNumbersAreToldApart) {
+    Grid grid = test::grid_of({40, 40, 40}, Centering::node);
+    grid.origin = {5e6, 0, 0};
+    const Volume volume = test::volume_of<float>(grid, [](double x, double y, double z) {
+        return 1e6 + 4 * ball({x, y, z}, 39);
+    });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
+    EXPECT_NE(scene.chosen[0].find("from 1000000 to 1000000"), std::string::npos)
+        << scene.chosen[0];
+    EXPECT_NE(scene.chosen[0].find("up to 1000003."), std::string::npos) << scene.chosen[0];
+    EXPECT_NE(scene.chosen[1].find("to (50000"), std::string::npos) << scene.chosen[1];
+}
+
 // What no picture should fail on: every kind of degenerate data has a transfer function and a
 // camera with finite numbers.
 TEST(Choose, OddData) {
@@ -135,7 +170,6 @@ TEST(Choose, OddData) {
     check(test::volume_of(flat, x), "a sheet");
     check(test::volume_of(small, x), "a few samples");
     check(test::volume_of(cube, [](double, double, double) { return 4.5; }), "constant");
-    check(test::volume_of(cube, [](double, double, double) { return NAN; }), "no number");
     check(test::volume_of(cube, [](double i, double, double) { return i < 1 ? NAN : i; }),
           "some that are none");
     check(test::volume_of<std::uint8_t>(

@@ -43,6 +43,7 @@ class Crosschecks : public testing::Test {
         const ProgramResult result = run(options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         out = result.out;
+        err = result.err;
         return json::parse(read_bytes_of(folder / "out" / "budget.json"));
     }
     Image picture(const char* name) const {
@@ -51,7 +52,7 @@ class Crosschecks : public testing::Test {
 
     TemporaryFolder folder;
     json scene;
-    std::string out;
+    std::string out, err;
 };
 
 // Of one channel, or of all: -1.
@@ -239,6 +240,18 @@ TEST_F(Crosschecks, AMeshOfAFileIsTheOnlyStep) {
     ASSERT_EQ(budget["ladder"]["projection"].size(), 1u);
     EXPECT_EQ(budget["ladder"]["pairs"].size(), 2u);
     EXPECT_GT(budget["ladder"]["projection"][0]["tets"], 100);
+    EXPECT_NE(err.find("lamina: --tolerances: not used: the scene's mesh is a file, "),
+              std::string::npos)
+        << err;
+    EXPECT_NE(err.find("blobs.vtu\n"), std::string::npos) << err;
+    // Kuhn's mesh follows no tolerance, either.
+    scene["mesh"] = {{"kuhn", true}};
+    EXPECT_EQ(run_well()["ladder"]["projection"].size(), 1u);
+    EXPECT_NE(err.find("--tolerances: not used: the scene's mesh is Kuhn's"), std::string::npos)
+        << err;
+    scene["mesh"] = json::object();
+    run_well({}, ".2");
+    EXPECT_EQ(err.find("not used"), std::string::npos) << err;
 }
 
 // With commas, as the help shows them, and each of them drawn.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // lamina info: what it says of values and places. (What is wrong with meshes: mesh_files_test.cpp.)
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,6 +63,37 @@ TEST_F(Info, TextHasPercentilesAndAHistogram) {
         << shown;
     // 16 lines, of all values together.
     EXPECT_EQ(std::count(shown.begin(), shown.end(), '%'), 9 + 16) << shown;
+}
+
+// Far from zero six digits would all be the same.
+TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
+    std::string values;
+    for (int i = 0; i < 64; ++i) values += fmt::format(" {}", 1000000 + .0625 * i);
+    write_bytes_to(
+        folder / "far.nrrd",
+        "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: ascii\n\n" + values + "\n");
+    const std::string shown = text("far.nrrd");
+    // Sample 32 of 64, from 1: 1000000 + 31 / 16. Within a thousandth of the range of 3.94.
+    EXPECT_NE(shown.find("50 %: 1000001.94,"), std::string::npos) << shown;
+    std::set<std::string> begins;
+    std::size_t rows = 0;
+    for (std::size_t at = shown.find(" .. "); at != std::string::npos;
+         at = shown.find(" .. ", at + 1), ++rows)
+        begins.insert(shown.substr(shown.rfind(' ', at - 1), at - shown.rfind(' ', at - 1)));
+    EXPECT_EQ(rows, 16u) << shown;
+    EXPECT_EQ(begins.size(), rows) << shown;
+}
+
+// 17 whole numbers make nine rows, of two numbers each but for the last.
+TEST_F(Info, RowsOfTheHistogramAreAsWide) {
+    std::string values;
+    for (int i = 0; i < 17; ++i) values += fmt::format(" {}", i);
+    write_bytes_to(
+        folder / "w.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 17 1 1\nencoding: ascii\n\n" + values + "\n");
+    const std::string shown = text("w.nrrd");
+    EXPECT_NE(shown.find("14 .. 16         11.765 %"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("16 .. 17          5.882 %"), std::string::npos) << shown;
 }
 
 TEST_F(Info, OfAMeshItIsTheFirstScalarPointByPoint) {

@@ -87,6 +87,43 @@ TEST_F(Pipes, ExplanationsGoToStderr) {
     EXPECT_EQ(piped.out.substr(1, 5), "NUMPY");
 }
 
+// "-" is stdout wherever a text is written, and a file of this name nowhere.
+TEST_F(Pipes, TextsGoToStdout) {
+    ASSERT_EQ(run({"generate", "gaussians", "-o", "g.nrrd", "--size", "8,8,8"}).exit_code, 0);
+    ASSERT_EQ(run({"scene", "g.nrrd", "-o", "g.json"}).exit_code, 0);
+    const ProgramResult scene = run({"scene", "g.nrrd", "-o", "-"});
+    EXPECT_EQ(scene.exit_code, 0) << scene.err;
+    EXPECT_EQ(scene.out, read_bytes_of(folder / "g.json"));
+    EXPECT_EQ(scene.err.find("wrote"), std::string::npos) << scene.err;
+    const ProgramResult stats =
+        run({"render", "scene.json", "-o", "a.png", "--stats", "-", "--explain"});
+    EXPECT_EQ(stats.exit_code, 0) << stats.err;
+    EXPECT_TRUE(nlohmann::json::parse(stats.out).contains("frame_ms"));
+    EXPECT_NE(stats.err.find("omitted"), std::string::npos) << stats.err;  // the explanation
+    const ProgramResult profile = run({"render", "scene.json", "-o", "a.png", "--profile", "-"});
+    EXPECT_EQ(profile.exit_code, 0) << profile.err;
+    EXPECT_TRUE(nlohmann::json::parse(profile.out).contains("traceEvents"));
+    write_bytes_to(folder / "cases.json",
+                   R"([{"transfer_function": {"points": [{"value": 0, "extinction": 1}]},
+                        "sf": 0, "sb": 0, "length": 1}])");
+    const ProgramResult integral = run({"integrate", "cases.json", "-o", "-"});
+    EXPECT_EQ(integral.exit_code, 0) << integral.err;
+    EXPECT_EQ(integral.out, run({"integrate", "cases.json"}).out);
+    EXPECT_FALSE(std::filesystem::exists(folder / "-"));
+    // Two files in one pipe.
+    for (const std::vector<std::string>& both :
+         {std::vector<std::string>{"-o", "-", "--format", "png", "--stats", "-"},
+          {"-o", "a.png", "--profile", "-", "--stats", "-"}}) {
+        std::vector<std::string> arguments{"render", "scene.json"};
+        arguments.insert(arguments.end(), both.begin(), both.end());
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_EQ(result.out, "");
+        EXPECT_NE(result.err.find("-, stdout: would be written twice"), std::string::npos)
+            << result.err;
+    }
+}
+
 // NPY holds the numbers of the EXR file, in float32; of the tracer in double precision.
 TEST_F(Pipes, NumpyFilesOfEveryMethod) {
     ASSERT_EQ(run({"render", "scene.json", "-o", "a.exr"}).exit_code, 0);

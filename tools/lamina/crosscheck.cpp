@@ -82,6 +82,15 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
         print_result("{}\n", printable(finding));
 }
 
+// Tolerances that were asked for and are not drawn are said.
+void say_of_one_mesh(const CrosscheckOptions& options, const Scene& scene) {
+    if (options.quiet || options.settings.stop_when_agreed || study::makes_meshes(scene)) return;
+    print_message("lamina: --tolerances: not used: {}\n",
+                  scene.mesh_file.empty()
+                      ? "the scene's mesh is Kuhn's, which has no tolerance"
+                      : "the scene's mesh is a file, " + printable(scene.mesh_file.string()));
+}
+
 void run(const CrosscheckOptions& options) {
     check_ladder(options.settings);
     nlohmann::json ignored;
@@ -92,6 +101,7 @@ void run(const CrosscheckOptions& options) {
              scene.file.string());
     const std::filesystem::path folder = options.output;
     expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
+    say_of_one_mesh(options, scene);
     choose_for_volume(scene);
     if (!options.quiet) {
         for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
@@ -134,8 +144,8 @@ void add_crosscheck(CLI::App& app, int&) {
                 "--tolerances", options->settings.tolerances,
                 "Of the meshes to compare, beside the scene's own, with commas between: all of "
                 "them are drawn; by default .1,.05,.02,.01,.005,.002,.001, until both methods "
-                "agree "
-                "within render.max_error")
+                "agree within render.max_error. Not used where the scene has a mesh file, or a "
+                "mesh with \"kuhn\"")
             ->option_text("T,T,...")
             ->delimiter(',')
             ->allow_extra_args(false);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "named_output.h"
 
 namespace lamina {
 namespace {
@@ -34,7 +35,8 @@ void expect_different_files(const std::vector<std::filesystem::path>& read,
     std::set<std::filesystem::path> made;
     for (const std::filesystem::path& path : written) {
         if (path.empty()) continue;
-        const auto identity = identity_of(path);
+        const bool piped = path == standard_stream;
+        const auto identity = piped ? std::nullopt : identity_of(path);
         const auto found = identity ? kept.find(*identity) : kept.end();
         if (found != kept.end()) {
             throw UsageError(
@@ -43,8 +45,8 @@ void expect_different_files(const std::vector<std::filesystem::path>& read,
         }
         std::error_code ignored;
         if (!made.insert(std::filesystem::weakly_canonical(path, ignored)).second) {
-            throw UsageError(
-                fmt::format("{}: would be written twice: expected different files", path.string()));
+            throw UsageError(fmt::format("{}: would be written twice: expected different files",
+                                         piped ? "-, stdout" : path.string()));
         }
     }
 }

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
+#include "named_output.h"
 #include "optics/segment_integral.h"
 #include "scene_files/integration_case.h"
 #include "scene_files/json_reader.h"
@@ -36,8 +36,7 @@ std::string text_of(const std::vector<SegmentIntegral>& results) {
 }
 
 void integrate(const std::string& cases_file, const std::string& output) {
-    std::unique_ptr<AtomicFile> file;
-    if (!output.empty()) file = std::make_unique<AtomicFile>(output);
+    const auto file = open_named(output);
     const std::filesystem::path path = cases_file;
     const nlohmann::json cases = load_json(path);
     if (!cases.is_array()) {
@@ -59,12 +58,8 @@ void integrate(const std::string& cases_file, const std::string& output) {
     }
     expect_different_files(read, {output});
     for (const std::string& warning : warnings) print_message("lamina: warning: {}\n", warning);
-    if (file) {
-        file->write(text_of(results));
-        file->commit();
-    } else {
-        write_result(text_of(results));
-    }
+    file->write(text_of(results));
+    file->commit();
 }
 
 }  // namespace
@@ -74,12 +69,13 @@ void add_integrate(CLI::App& app, int& exit_code) {
     auto* verb = app.add_subcommand(
         "integrate", "Integrate emission and absorption along segments with a linear scalar");
     const auto cases = std::make_shared<std::string>();
-    const auto output = std::make_shared<std::string>();
+    const auto output = std::make_shared<std::string>(standard_stream);
     verb->add_option("CASES.json", *cases,
                      R"(array of {"transfer_function", "sf", "sb", "length"}: the scalar at the )"
                      "front and at the back, and the length in world units")
         ->required();
-    verb->add_option("-o,--output", *output, "write the results here (default: stdout)");
+    verb->add_option("-o,--output", *output,
+                     "write the results here; - is stdout, and the default");
     verb->callback([cases, output] { integrate(*cases, *output); });
 }
 

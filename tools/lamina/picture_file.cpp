@@ -3,21 +3,19 @@
 
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/error.h"
-#include "base/piped_file.h"
 #include "image/exr.h"
 #include "image/npy.h"
 #include "image/png.h"
+#include "named_output.h"
 
 namespace lamina {
 namespace {
 
 std::unique_ptr<OutputFile> open_file(const std::string& output) {
-    if (output != standard_stream) return std::make_unique<AtomicFile>(output);
-    if (isatty(STDOUT_FILENO) != 0)
+    if (output == standard_stream && isatty(STDOUT_FILENO) != 0)
         throw UsageError("-o -: stdout is a terminal, expected a pipe or a file");
-    return std::make_unique<PipedFile>();
+    return open_named(output);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "named_output.h"
 
 namespace lamina {
 namespace {

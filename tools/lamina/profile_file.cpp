@@ -52,12 +52,12 @@ Json event(const Profile::Span& span, std::int64_t start_ns) {
 std::int64_t ProfileFile::write(const std::string& title, const std::string& context) {
     Json other{{"context", context}};
     if (profile_.spans_left_out() > 0) other["spans_left_out"] = profile_.spans_left_out();
-    file_.write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
-                ",\"traceEvents\":[\n");
+    file_->write("{\"displayTimeUnit\":\"ms\",\"otherData\":" + json_text(other) +
+                 ",\"traceEvents\":[\n");
     // Events are written one after the other: a document of all would take twenty times the memory
     // of the spans.
-    file_.write(json_text(metadata("process_name", Profile::first_row, "name", title)));
-    const auto write_event = [&](const Json& event) { file_.write(",\n" + json_text(event)); };
+    file_->write(json_text(metadata("process_name", Profile::first_row, "name", title)));
+    const auto write_event = [&](const Json& event) { file_->write(",\n" + json_text(event)); };
     const auto has_spans = [&](int row) {
         return std::ranges::any_of(profile_.spans(),
                                    [&](const Profile::Span& span) { return span.row == row; });
@@ -70,8 +70,8 @@ std::int64_t ProfileFile::write(const std::string& title, const std::string& con
         write_event(metadata("thread_sort_index", row, "sort_index", place));
     }
     for (const Profile::Span& span : profile_.spans()) write_event(event(span, start_ns_));
-    file_.write("\n]}\n");
-    file_.commit();
+    file_->write("\n]}\n");
+    file_->commit();
     return profile_.spans_left_out();
 }
 

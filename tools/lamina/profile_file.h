@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <memory>
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/output_file.h"
 #include "base/profile.h"
+#include "named_output.h"
 
 namespace lamina {
 
@@ -13,14 +14,15 @@ namespace lamina {
 // Perfetto and chrome://tracing open.
 class ProfileFile {
   public:
-    explicit ProfileFile(const std::filesystem::path& path) : file_(path) {}  // throws Error
+    // Throws Error where the file cannot be written.
+    explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
 
     // The title of it all, and what drew. Returns how many spans were too many to be kept: the file
     // says so, too.
     std::int64_t write(const std::string& title, const std::string& context);
 
   private:
-    AtomicFile file_;
+    std::unique_ptr<OutputFile> file_;
     Profile profile_;
     std::int64_t start_ns_ = Stopwatch::now();
 };

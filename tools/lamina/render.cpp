@@ -13,6 +13,7 @@
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
+#include "named_output.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
 #include "render_job.h"
@@ -69,9 +70,11 @@ void write_profile(ProfileFile& profile, const RenderOptions& options, const Ren
                                      Profile::most_spans, left_out));
 }
 
-// The explanation goes to stdout; to stderr, line by line, where the picture goes to stdout.
+// The explanation goes to stdout; to stderr, line by line, where a file goes to stdout.
 void print_explanation(const RenderOptions& options, const std::string& explanation) {
-    if (!options.output.piped()) return write_result(explanation);
+    const bool taken = options.output.piped() || options.stats == standard_stream ||
+                       options.profile == standard_stream;
+    if (!taken) return write_result(explanation);
     std::istringstream lines(explanation);
     for (std::string line; std::getline(lines, line);) write_message(line + "\n");
 }
@@ -84,7 +87,8 @@ void run(const RenderOptions& options) {
     Stage reading("scene");
     nlohmann::json document;
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
-    const Wishes wishes = wishes_of(options.view, scene.color_space);
+    Wishes wishes = wishes_of(options.view, scene.color_space);
+    wishes.all_around = options.output.views > 1;
     reading.end();
     for (const std::string& warning : scene.warnings) message(options, warning);
     const OmissionSwitch omissions = omission_switch(options);
@@ -92,8 +96,8 @@ void run(const RenderOptions& options) {
     restrict_instructions_as_asked();
     const auto output =
         open_output(options.output, {scene, omissions, watch}, {options.stats, options.profile});
-    std::optional<AtomicFile> stats_file;
-    if (!options.stats.empty()) stats_file.emplace(options.stats);
+    std::unique_ptr<OutputFile> stats_file;
+    if (!options.stats.empty()) stats_file = open_named(options.stats);
 
     const auto say = [&](const std::string& text) { message(options, text); };
     RenderStats stats;
@@ -145,7 +149,7 @@ void add_render(CLI::App& app, int&) {
         ->allow_extra_args(false);
     add_view_options(*verb, options->view);
     verb->add_option("--stats", options->stats,
-                     "Write times, counts and the plan to this JSON file");
+                     "Write times, counts and the plan to this JSON file; - is stdout");
     verb->add_option(
         "--profile", options->profile,
         "Write when each stage ran to this JSON file, for Perfetto (ui.perfetto.dev) or "

@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "base/stage.h"
 #include "different_files.h"
+#include "named_output.h"
 #include "scene_files.h"
 #include "turntable.h"
 
@@ -93,7 +94,7 @@ std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const Ou
                                           std::vector<std::filesystem::path> others) {
     const std::vector<std::filesystem::path> read = files_of(scene.scene);
     if (options.views > 0) return std::make_unique<Turntable>(options, scene, read, others);
-    if (!options.piped()) others.emplace_back(options.output);
+    others.emplace_back(options.output);
     expect_different_files(read, others);
     if (options.output.empty()) return nullptr;
     return std::make_unique<SinglePicture>(options, scene);

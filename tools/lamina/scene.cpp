@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "base/atomic_file.h"
 #include "base/json_text.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "different_files.h"
+#include "named_output.h"
 #include "scene_data.h"
 #include "scene_files.h"
 #include "scene_options.h"
@@ -31,14 +31,14 @@ void run(const SceneVerbOptions& options) {
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
     const Wishes wishes = wishes_of(options.view, scene.color_space);
     expect_different_files(files_of(scene), {options.output});
-    AtomicFile output(options.output);
+    const auto output = open_named(options.output);
     RenderStats ignored;
     load_data(scene, wishes, ignored);
-    output.write(json_text(document_of(scene, document), 2) + "\n");
-    output.commit();
+    output->write(json_text(document_of(scene, document), 2) + "\n");
+    output->commit();
     if (options.quiet) return;
     for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
-    print_message("lamina: wrote {}\n", options.output);
+    if (options.output != standard_stream) print_message("lamina: wrote {}\n", options.output);
 }
 
 }  // namespace
@@ -51,7 +51,9 @@ void add_scene(CLI::App& app, int&) {
                      "Volume (NRRD), mesh (.vtu, .vtk, .node, .ele), or scene (JSON) that leaves "
                      "something open")
         ->required();
-    verb->add_option("-o,--output", options->output, "Scene file to write (JSON)")->required();
+    verb->add_option("-o,--output", options->output,
+                     "Scene file to write (JSON); - writes to stdout")
+        ->required();
     verb->add_option("--method", options->scene.method,
                      "slice, project or trace; as --set render.method=...");
     verb->add_option("--set", options->scene.settings,

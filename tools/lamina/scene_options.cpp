@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/json_stdin.h"
 #include "base/shortened.h"
-#include "picture_format.h"
+#include "named_output.h"
 #include "scene_files/json_reader.h"
 #include "scene_files/scene_document.h"
 #include "scene_files/scene_reader.h"

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/number_text.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace lamina {
+
+std::string number_text(double value, double fineness, int digits) {
+    std::string text = fmt::format("{:.{}g}", value, digits);
+    for (int more = digits + 1; more <= std::numeric_limits<double>::max_digits10; ++more) {
+        double shown = 0;
+        std::from_chars(text.data(), text.data() + text.size(), shown);
+        // Not a number, or infinite: no digits help.
+        if (!std::isfinite(value) || std::abs(shown - value) <= fineness) break;
+        text = fmt::format("{:.{}g}", value, more);
+    }
+    return text;
+}
+
+double fineness_of(double lo, double hi) {
+    const double fineness = hi / 1000 - lo / 1000;
+    return fineness > 0 ? fineness : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace lamina

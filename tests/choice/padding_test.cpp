@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/padding.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "choice/automatic_transfer.h"
+
+namespace lamina {
+namespace {
+
+// Of a CT: a peak of air, and tissue above it.
+std::vector<WeightedValue> scan() {
+    std::vector<WeightedValue> values;
+    for (int i = -1024; i <= 3000; i += 8) {
+        values.push_back({1. * i, 50 * std::exp(-std::pow((i + 1000) / 15., 2)) +
+                                      10 * std::exp(-std::pow((i - 40) / 60., 2)) + .02});
+    }
+    return values;
+}
+
+ValueDistribution with(std::vector<WeightedValue> values, double value, double weight) {
+    values.push_back({value, weight});
+    return ValueDistribution(values);
+}
+
+TEST(Padding, IsFarFromAllOtherValues) {
+    for (const double value : {-2000., -3024., -9999., -32768., 32767., 1e20, 9.96921e36}) {
+        const ValueDistribution all = with(scan(), value, 40);
+        const Padding found = find_padding(all, true);
+        ASSERT_EQ(found.values, std::vector{value}) << value;
+        EXPECT_NEAR(found.share, all.share(value, value), 1e-15) << value;
+        EXPECT_EQ(found.rest.lowest(), -1024);
+        EXPECT_EQ(found.rest.highest(), 3000);
+        EXPECT_EQ(found.below.has_value(), value < 0);
+        EXPECT_EQ(found.above.has_value(), value > 0);
+        if (found.below)
+            EXPECT_TRUE(value < found.edge_below() && found.edge_below() < -1024) << value;
+        if (found.above)
+            EXPECT_TRUE(value > found.edge_above() && found.edge_above() > 3000) << value;
+    }
+}
+
+TEST(Padding, OfTwoKinds) {
+    auto values = scan();
+    values.push_back({-9999, 5});
+    const Padding found = find_padding(with(values, 1e30, 5), false);
+    EXPECT_EQ(found.values.size(), 2u);
+    EXPECT_TRUE(found.below && found.above);
+}
+
+TEST(Padding, IsNoneOfThese) {
+    const auto none = [](const ValueDistribution& all) {
+        return find_padding(all, true).values.empty();
+    };
+    EXPECT_TRUE(none(ValueDistribution(scan())));
+    EXPECT_TRUE(none(with(scan(), -3024, 1e-6)));  // a speck
+    EXPECT_TRUE(none(with(scan(), 5000, 2)));      // an implant
+    EXPECT_TRUE(none(with({{0, 5}, {1, 5}}, 10, 5)));
+    EXPECT_TRUE(none(ValueDistribution({{0, 1}})));
+    EXPECT_TRUE(none(ValueDistribution()));
+    // What is left when a brain was cut out: 0 is its background, and no code for it.
+    std::vector<WeightedValue> brain{{0, 700}};
+    for (int i = 0; i < 200; ++i) brain.push_back({900. + i, 1});
+    EXPECT_TRUE(none(ValueDistribution(brain)));
+}
+
+// Cells that lie across the border of padding and data show nothing of the padding.
+TEST(Padding, IsTransparent) {
+    const ValueDistribution below = with(scan(), -3024, 40);
+    const auto chosen = choose_transfer_function(below, true);
+    const TransferFunction& function = chosen.transfer_function;
+    EXPECT_TRUE(function.transparent(-3024, -990));  // the air, too
+    EXPECT_GT(function.at(40).extinction, 0);
+    EXPECT_EQ(chosen.reason.find("-3024, "), 0u) << chosen.reason;
+    // Fields that go both ways from a common value, with padding on either side.
+    std::vector<WeightedValue> flow;
+    for (int i = -100; i <= 100; ++i) flow.push_back({1. * i, i == 0 ? 400. : 2.});
+    for (const double value : {-9999., 9999.}) {
+        const auto both = choose_transfer_function(with(flow, value, 100), false);
+        EXPECT_GT(both.transfer_function.at(-100).extinction, 0) << value;
+        EXPECT_GT(both.transfer_function.at(100).extinction, 0) << value;
+        EXPECT_EQ(both.transfer_function.at(value).extinction, 0);
+        EXPECT_EQ(both.transfer_function.at(.02 * value).extinction, 0);
+    }
+    // Nearer padding would make a thick shell of the values between it and the common one, so
+    // these do not show, if others do.
+    const auto near = choose_transfer_function(with(flow, -999, 100), false).transfer_function;
+    EXPECT_EQ(near.at(-50).extinction, 0);
+    EXPECT_GT(near.at(50).extinction, 0);
+    // A wished range is taken as it is.
+    const auto wished = choose_transfer_function(below, true, {.range = ValueRange{-4000, 3000}});
+    EXPECT_GT(wished.transfer_function.at(-3000).extinction, 0);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/output_file.h"
+
+namespace lamina {
+
+// The name that means stdout for what is written, and stdin for scenes.
+inline constexpr const char* standard_stream = "-";
+
+// What an option names: a file, or stdout. Throws Error where it cannot be written.
+std::unique_ptr<OutputFile> open_named(const std::string& name);
+
+}  // namespace lamina
