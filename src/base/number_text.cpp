@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,9 @@
 namespace lamina {
 
 std::string number_text(double value, double fineness, int digits) {
+    // Beside others like it, 1000000 is easier to read than 1e+06.
+    if (fineness < 1e-4 * std::abs(value) && std::abs(value) < 1e15)
+        digits = std::max(digits, static_cast<int>(std::log10(std::abs(value))) + 1);
     std::string text = fmt::format("{:.{}g}", value, digits);
     for (int more = digits + 1; more <= std::numeric_limits<double>::max_digits10; ++more) {
         double shown = 0;

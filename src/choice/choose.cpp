@@ -57,6 +57,13 @@ std::string name_of_data(const Scene& scene) {
 // Rays with less than this share of the deepest one's optical depth meet noise alone.
 constexpr double least_depth = 0.002;
 
+// Depths are measured in float32: in the data's own unit of length they neither vanish nor
+// overflow.
+TransferFunction per_diagonal(const TransferFunction& transfer_function, const Field& field) {
+    const auto corners = field.corners();
+    return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
+}
+
 // The factor that makes the median ray as opaque as wanted; 1 where no ray meets anything.
 double density_of(const Scene& scene, const Field& field) {
     std::vector<double> depths = field.optical_depths(scene);
@@ -110,6 +117,7 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
         scene.camera = turned(scene.camera, wishes.turn);
     }
     if (scene.automatic_transfer_function) {
+        scene.transfer_function = per_diagonal(scene.transfer_function, field);
         const double density = density_of(scene, field);
         scene.transfer_function = scene.transfer_function.attenuated(density);
         scene.chosen.push_back(

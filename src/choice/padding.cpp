@@ -42,6 +42,7 @@ bool is_padding(double value, double share, const ValueDistribution& rest, bool 
 Padding find_padding(const ValueDistribution& all, bool whole_numbers) {
     Padding found;
     found.rest = all;
+    if (all.empty()) return found;
     const auto take = [&](double value, const ValueDistribution& rest) {
         if (rest.distinct() <= few_values) return false;
         const double share = found.rest.share(value, value);

@@ -12,6 +12,7 @@ namespace {
 TEST(NumberText, HasTheDigitsThatAreNeeded) {
     EXPECT_EQ(number_text(1234567, fineness_of(0, 1e7)), "1.235e+06");
     EXPECT_EQ(number_text(1234567, 0.5), "1234567");
+    EXPECT_EQ(number_text(1000000, fineness_of(1e6, 1e6 + 4)), "1000000");
     EXPECT_EQ(number_text(1000000.25, fineness_of(1e6, 1e6 + 4)), "1000000.25");
     EXPECT_EQ(number_text(-3024, fineness_of(-3024, 3071)), "-3024");
     EXPECT_EQ(number_text(.5, 1e-300), "0.5");

@@ -16,7 +16,7 @@ namespace {
 TransferFunction function_of(const std::vector<double>& values) {
     std::vector<TransferKnot> knots;
     for (std::size_t i = 0; i < values.size(); ++i)
-        knots.push_back({values[i], {glm::dvec3(i % 2), i % 3 + 1.}});
+        knots.push_back({values[i], {glm::dvec3(i % 2 == 0 ? 0 : 1), i % 3 == 0 ? 1. : 2.}});
     return TransferFunction::linear(knots);
 }
 
@@ -57,9 +57,9 @@ TEST(StretchedTransfer, HasNoRangeOfOneValue) {
     expect_error([] { stretched(function_of({5}), {0, 1}); }, {"has a single value, 5"});
     expect_error(
         [] {
-            stretched(function_of({0, 1, 2, 3}), {1, std::nextafter(1, 2)});
+            stretched(function_of({0, 1, 2, 3, 4}), {1, std::nextafter(1, 2)});
         },
-        {"range from 1 to 1.0000000000000002: is too narrow for the 4 points"});
+        {"range from 1 to 1.0000000000000002: is too narrow for the 5 points"});
 }
 
 }  // namespace

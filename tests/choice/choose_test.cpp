@@ -73,6 +73,24 @@ TEST(Choose, TheMedianRayIsNineTenthsOpaque) {
     expect_median_opacity(choose(open_scene(), MeshField(mesh)), MeshField(mesh));
 }
 
+// A picture does not depend on the unit of length, which may be one in which depths that are
+// measured in float32 would not be finite, or vanish.
+TEST(Choose, TheUnitOfLengthDoesNotMatter) {
+    const auto extinction = [](double spacing) {
+        Grid grid = test::grid_of({40, 40, 40}, Centering::node);
+        for (glm::dvec3& step : grid.step) step *= spacing;
+        const Volume volume = test::volume_of<float>(grid, [](double x, double y, double z) {
+            return ball({x, y, z}, 39);
+        });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const Scene scene = choose(open_scene(), VolumeField(volume, bricks));
+        return spacing * scene.transfer_function.max_extinction(0, 1);
+    };
+    // Depths are sums of some 100 numbers of float32.
+    for (const double spacing : {1e-90, 1e-40, 1e40, 1e90})
+        EXPECT_NEAR(extinction(spacing) / extinction(1), 1, 2e-5) << spacing;
+}
+
 TEST(Choose, OnlyWhatIsOpenIsChosen) {
     const Ball one;
     Scene scene = open_scene();

@@ -35,10 +35,9 @@ TEST(Padding, IsFarFromAllOtherValues) {
         EXPECT_EQ(found.rest.highest(), 3000);
         EXPECT_EQ(found.below.has_value(), value < 0);
         EXPECT_EQ(found.above.has_value(), value > 0);
-        if (found.below)
-            EXPECT_TRUE(value < found.edge_below() && found.edge_below() < -1024) << value;
-        if (found.above)
-            EXPECT_TRUE(value > found.edge_above() && found.edge_above() > 3000) << value;
+        const double edge = value < 0 ? found.edge_below() : found.edge_above();
+        EXPECT_LT(value < 0 ? value : 3000, edge) << value;
+        EXPECT_GT(value < 0 ? -1024 : value, edge) << value;
     }
 }
 
