@@ -50,6 +50,9 @@ int run(int argc, char** argv) {
     int exit_code = 0;
     CLI::App app("lamina: volume rendering by slicing, with the error of each picture", "lamina");
     app.set_version_flag("--version", version);
+    app.footer(
+        "A first picture: lamina render head.nrrd -o head.png\n"
+        "What a verb takes: lamina VERB --help");
     app.require_subcommand(1);
     lamina::add_verbs(app, exit_code);
     for (CLI::App* const verb : app.get_subcommands({}))

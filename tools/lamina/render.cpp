@@ -135,6 +135,7 @@ void add_render(CLI::App& app, int&) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* const verb =
         app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
+    verb->footer("The shortest: lamina render head.nrrd -o head.png");
     verb->add_option(
             "SCENE", options->scene.file,
             "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .vtk, .node, "
@@ -149,11 +150,13 @@ void add_render(CLI::App& app, int&) {
         ->allow_extra_args(false);
     add_view_options(*verb, options->view);
     verb->add_option("--stats", options->stats,
-                     "Write times, counts and the plan to this JSON file; - is stdout");
+                     "Write times, counts and the plan to this JSON file; - is stdout")
+        ->option_text("FILE");
     verb->add_option(
-        "--profile", options->profile,
-        "Write when each stage ran to this JSON file, for Perfetto (ui.perfetto.dev) or "
-        "chrome://tracing");
+            "--profile", options->profile,
+            "Write when each stage ran to this JSON file, for Perfetto (ui.perfetto.dev) or "
+            "chrome://tracing; - is stdout")
+        ->option_text("FILE");
     verb->add_flag("--explain", options->explain, "Print what runs and what is left out, and why");
     verb->add_flag("--no-omit{all}", options->kept,
                    "Leave out nothing, or with =NAME keep one thing in");

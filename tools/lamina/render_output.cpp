@@ -76,8 +76,9 @@ void OutputOptions::check() const {
 void add_output_options(CLI::App& verb, OutputOptions& options) {
     constexpr int most_frames = 1000000, most_views = 100000;
     verb.add_option("-o,--output", options.output,
-                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe");
-    verb.add_option("--format", options.format, "With -o -: png, exr or npy");
+                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe")
+        ->option_text("FILE");
+    verb.add_option("--format", options.format, "With -o -: png, exr or npy")->option_text("NAME");
     verb.add_option("--frames", options.frames,
                     "Time this many frames, the camera turning a little")
         ->check(CLI::Range(1, most_frames));

@@ -53,11 +53,13 @@ void add_scene(CLI::App& app, int&) {
         ->required();
     verb->add_option("-o,--output", options->output,
                      "Scene file to write (JSON); - writes to stdout")
+        ->option_text("FILE")
         ->required();
     verb->add_option("--method", options->scene.method,
                      "slice, project or trace; as --set render.method=...");
     verb->add_option("--set", options->scene.settings,
-                     "Set a key of the scene: KEY=VALUE, as in render.slice.samples=512")
+                     "Set a key of the scene, as in render.slice.samples=512")
+        ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
     add_view_options(*verb, options->view);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");

@@ -43,21 +43,34 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
     const char* const group = "Look";
     verb.add_option("--azimuth", options.turn.azimuth,
                     "Go around what shows, this many degrees to the right")
+        ->option_text("DEGREES")
         ->group(group);
-    verb.add_option("--elevation", options.turn.elevation, "The same, upwards")->group(group);
-    verb.add_option("--zoom", options.zoom, "Show things this many times as large")->group(group);
-    verb.add_option("--size", options.size, "Pixels of the picture, WxH (800x600)")->group(group);
+    verb.add_option("--elevation", options.turn.elevation, "The same, upwards")
+        ->option_text("DEGREES")
+        ->group(group);
+    verb.add_option("--zoom", options.zoom, "Show things this many times as large")
+        ->option_text("FACTOR")
+        ->group(group);
+    verb.add_option("--size", options.size, "Pixels of the picture (800x600)")
+        ->option_text("WxH")
+        ->group(group);
     verb.add_option("--colormap", options.colormap,
                     "Colours: viridis, inferno, cividis, cool-warm, greys, ct-bone or "
                     "ct-soft-tissue, or a ParaView preset (JSON), spread over the values that show")
+        ->option_text("NAME|FILE")
         ->group(group);
-    verb.add_option("--range", options.range,
-                    "Values that colours and density are spread over, LO,HI")
+    verb.add_option(
+            "--range", options.range,
+            "Values that show: nothing below LO; colours and density are spread from LO to HI")
+        ->option_text("LO,HI")
         ->allow_extra_args(false)
         ->group(group);
-    verb.add_option("--density", options.density, "Factor on the extinction")->group(group);
+    verb.add_option("--density", options.density, "Factor on the extinction")
+        ->option_text("FACTOR")
+        ->group(group);
     verb.add_option("--background", options.background,
                     "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]")
+        ->option_text("COLOR")
         ->group(group);
 }
 
