@@ -92,8 +92,8 @@ TEST_F(Info, RowsOfTheHistogramAreAsWide) {
         folder / "w.nrrd",
         "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 17 1 1\nencoding: ascii\n\n" + values + "\n");
     const std::string shown = text("w.nrrd");
-    EXPECT_NE(shown.find("14 .. 16         11.765 %"), std::string::npos) << shown;
-    EXPECT_NE(shown.find("16 .. 17          5.882 %"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("14 .. 16        11.765 %"), std::string::npos) << shown;
+    EXPECT_NE(shown.find("16 .. 17         5.882 %"), std::string::npos) << shown;
 }
 
 TEST_F(Info, OfAMeshItIsTheFirstScalarPointByPoint) {
