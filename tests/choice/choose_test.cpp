@@ -205,7 +205,7 @@ TEST(Choose, DataOfOneValueHaveSomeSmallestGradient) {
         const Volume volume = test::volume_of(test::grid_of({3, 3, 3}, Centering::node),
                                               [&](double, double, double) { return value; });
         const MinMaxBricks bricks = measure_bricks(volume);
-        Scene scene = open_scene();
+        Scene scene;
         scene.lighting = Lighting{};
         EXPECT_EQ(choose(scene, VolumeField(volume, bricks)).lighting->smallest_gradient, 1);
     }

@@ -165,8 +165,11 @@ TEST_F(TurntableRun, StoppedAndContinued) {
     while (!std::filesystem::exists(third) && !program.has_ended())
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     program.send(SIGINT);
-    EXPECT_EQ(program.wait().exit_code, 130);
+    const ProgramResult ended = program.wait();
+    EXPECT_EQ(ended.exit_code, 130);
     const auto stopped = files();
+    const std::string there = std::to_string(stopped.size() - 3) + " of 300 views are there";
+    EXPECT_NE(ended.err.find(there), std::string::npos) << ended.err << there;
     ASSERT_LT(stopped.size(), 300u);
     EXPECT_FALSE(stopped.contains("s_299.png"));
     const ProgramResult rest = turn("300", "s_%03d.png");

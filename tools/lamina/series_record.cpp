@@ -27,6 +27,12 @@ Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
 
 }  // namespace
 
+Client finishing_client() {
+    Client client = ClientScope::current();
+    client.stop = {};
+    return client;
+}
+
 SeriesRecord::SeriesRecord(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(std::move(key)) {
     if (!std::filesystem::exists(file_)) return;
@@ -45,6 +51,7 @@ bool SeriesRecord::has(const std::string& name) const {
 }
 
 void SeriesRecord::add(const std::string& name) {
+    const ClientScope scope(finishing_client());
     hashes_[name] = hash_of_file(file_.parent_path() / name);
     if (since_written_.seconds() > 1) write();
 }

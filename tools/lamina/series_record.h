@@ -5,9 +5,13 @@
 #include <map>
 #include <string>
 
+#include "base/client.h"
 #include "base/stopwatch.h"
 
 namespace lamina {
+
+// The thread's client without its wish to stop, for what is done with a series after that.
+Client finishing_client();
 
 // What a series of pictures has written, in a file beside them: what the pictures were made of, and
 // a hash of each file. So a later run knows which ones are there, whole, and its own.

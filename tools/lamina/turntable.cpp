@@ -117,6 +117,7 @@ std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats
     try {
         draw_missing(views, record, job, plan, stats, attributes);
     } catch (const Interrupted&) {
+        const ClientScope scope(finishing_client());
         record.write();
         const auto missing_now = static_cast<int>(missing(record).size());
         throw Interrupted(
