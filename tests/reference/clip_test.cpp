@@ -145,7 +145,8 @@ TEST(ClippedTracer, ClippedNoiseIsCroppedNoise) {
                                                     {200, {glm::dvec3(.3, 1, .2), .3}}});
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         const View view(camera_at(grid, projection, {.5, .3, 1}, .8), 40, 30);
-        const TraceResult one = trace_volume(whole, transfer, view, {1e-10, half_spaces(clip)});
+        const TraceResult one =
+            trace_volume(whole, transfer, view, {.tolerance = 1e-10, .clip = half_spaces(clip)});
         const TraceResult other = trace_volume(cropped, transfer, view, {1e-10});
         double largest = 0;
         for (std::size_t i = 0; i < one.image.rgba.size(); ++i) {
