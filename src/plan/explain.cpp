@@ -176,6 +176,11 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification",
             with_reason(name_of(slice.classification), slice.classification_reason));
+        if (slice.lighting) {
+            row("light", fmt::format("{} lights, gradients of 8 bytes a sample; off by up to "
+                                     "{:.2g} / 255",
+                                     slice.lighting->lights.size(), slice.light_error));
+        }
         row("order", name_of(slice.order));
         if (!slice.clip.empty()) row("clip", fmt::format("{} planes", slice.clip.size()));
         row("rays", slice.precise_rays ? "double" : "float");

@@ -36,18 +36,36 @@ HWY_INLINE Floats low_half(Words v) {
     return hn::PromoteTo(FloatTag(), hn::BitCast(numbers, hn::TruncateTo(halves, v)));
 }
 
-// Loads them one by one, which is faster than gathers.
-HWY_INLINE GradientPair fetch_gradients(const std::uint64_t* gradients, std::size_t next,
-                                        const std::int32_t* index) {
-    constexpr std::size_t words = 4;
-    alignas(64) std::uint32_t pairs[words * most_lanes];
+// Four words of 32 bits for each lane and each of a cell's four rows along x, in the order of
+// Corners.
+using GradientRows = std::uint32_t[4][4 * most_lanes];
+
+// Loads pairs one by one, which is faster than gathers. Where samples have no neighbour along x,
+// they are their own.
+inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
+                                         GradientRows& rows) {
+    const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
+                                  static_cast<std::size_t>(brick.slice),
+                                  static_cast<std::size_t>(brick.row + brick.slice)};
+    constexpr std::size_t size = sizeof(std::uint64_t);
+    const bool pairs = brick.last_sample[0] > 0;
     for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
-        const std::uint64_t* const from = gradients + static_cast<std::size_t>(index[lane]);
-        std::memcpy(pairs + words * lane, from, sizeof(std::uint64_t));
-        std::memcpy(pairs + words * lane + 2, from + next, sizeof(std::uint64_t));
+        const std::uint64_t* const from = brick.gradients + static_cast<std::size_t>(index[lane]);
+        for (std::size_t row = 0; row < 4; ++row) {
+            std::uint32_t* const to = rows[row] + 4 * lane;
+            if (pairs) {
+                std::memcpy(to, from + steps[row], 2 * size);
+            } else {
+                std::memcpy(to, from + steps[row], size);
+                std::memcpy(to + 2, from + steps[row], size);
+            }
+        }
     }
+}
+
+HWY_INLINE GradientPair unpack_gradients(const std::uint32_t* row) {
     Words lower_xy, lower_z, upper_xy, upper_z;
-    hn::LoadInterleaved4(WordTag(), pairs, lower_xy, lower_z, upper_xy, upper_z);
+    hn::LoadInterleaved4(WordTag(), row, lower_xy, lower_z, upper_xy, upper_z);
     return {{low_half(lower_xy), low_half(hn::ShiftRight<16>(lower_xy)), low_half(lower_z)},
             {low_half(upper_xy), low_half(hn::ShiftRight<16>(upper_xy)), low_half(upper_z)}};
 }
@@ -58,11 +76,11 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, st
     alignas(64) std::int32_t index[most_lanes] = {};
     std::memcpy(index, parts.index + i,
                 std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
-    const std::size_t next = brick.last_sample[0] > 0 ? 1 : 0;
-    const std::int32_t rows[4] = {0, brick.row, brick.slice, brick.row + brick.slice};
+    alignas(64) GradientRows rows;
+    fetch_gradients(brick, index, rows);
     Corners corners[3];
     for (std::size_t row = 0; row < 4; ++row) {
-        const GradientPair pair = fetch_gradients(brick.gradients + rows[row], next, index);
+        const GradientPair pair = unpack_gradients(rows[row]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             corners[axis].lower[row] = pair.lower[axis];
             corners[axis].upper[row] = pair.upper[axis];
