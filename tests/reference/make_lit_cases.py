@@ -1,13 +1,10 @@
-#!/ usr / bin / python3
-#SPDX - License - Identifier : Apache - 2.0
-""
-    "Writes lit_cases.json: lit rays through small volumes and meshes, integrated with 30 digits by a program that shares
-    nothing with the C++.Every double of the input counts as the exact number that it is.
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes lit_cases.json: lit rays through small volumes and meshes, integrated with 30 digits by a program that shares
+nothing with the C++. Every double of the input counts as the exact number that it is.
 
-    The formulas are those of docs /
-    numerics.md,
-    section 10. A ray is cut at faces, at the points of the transfer function,
-    at the kinks of the light and where the gradient is shortest; tanh-sinh quadrature of each part.
+The formulas are those of docs/numerics.md, section 10. A ray is cut at faces, at the points of the transfer function,
+at the kinks of the light and where the gradient is shortest; tanh-sinh quadrature of each part.
 
 Usage: make_lit_cases.py lit_cases.json (takes some minutes; needs python3-mpmath)
 """
@@ -42,7 +39,9 @@ def cross(a, b):
 def unit(a):
     length = mp.sqrt(dot(a, a))
     return [x / length for x in a]
-#Polynomials are lists of coefficients, lowest first.
+
+
+# Polynomials are lists of coefficients, lowest first.
 def times(a, b):
     result = [mpf(0)] * (len(a) + len(b) - 1)
     for i, x in enumerate(a):
@@ -286,8 +285,7 @@ def eighths(lo, hi):
 
 def random_points(hidden):
     values = sorted(DICE.sample(range(1, 16), DICE.randint(1, 3)))
-    points = [{
-    "value" : 0, "color" : [ 1, 0.5, 0.25 ], "extinction" : 0 if hidden else 0.5}]
+    points = [{"value": 0, "color": [1, 0.5, 0.25], "extinction": 0 if hidden else 0.5}]
     for v in values:
         points.append({"value": v / 16, "color": [DICE.random() for _ in range(3)], "extinction": DICE.choice([0, 1, 4, 30])})
     return points + [{"value": 1, "color": [0.25, 1, 0.5], "extinction": DICE.choice([0, 2, 8])}]
@@ -305,7 +303,7 @@ def random_lighting():
 
 def random_volume(number):
     size = [DICE.randint(2, 4) for _ in range(3)]
-#A turned, mirrored grid with three spacings, orthogonal without rounding.
+    # A turned, mirrored grid with three spacings, orthogonal without rounding.
     axes = [[2, 1, 2], [-2, 2, 1], [1, 2, -2]]
     step = [[c * f for c in axis] for axis, f in zip(axes, DICE.sample([.125, .25, .5], 3))]
     samples = [DICE.randint(0, 64) / 64 for _ in range(math.prod(size))]
@@ -313,11 +311,11 @@ def random_volume(number):
     index = [DICE.uniform(.2, .8) * (n - 1) for n in size]
     target = [sum(i * axis[c] for i, axis in zip(index, step)) for c in range(3)]
     return {"size": size, "step": step, "centering": centering, "samples": samples, "points": random_points(number % 2),
-            "lighting": random_lighting(), "eye": [t + 12 * DICE.uniform(-1, 1) for t in target], "center": target
-}
+            "lighting": random_lighting(), "eye": [t + 12 * DICE.uniform(-1, 1) for t in target], "center": target}
+
 
 def random_mesh(number):
-#A tet, and one more on each of two of its faces.
+    # A tet, and one more on each of two of its faces.
     base = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     points = [[c + DICE.uniform(-.2, .2) for c in p] for p in base]
     points += [[DICE.uniform(.8, 1.2)] * 3, [DICE.uniform(-.8, -.4), DICE.uniform(.2, .5), DICE.uniform(.2, .5)]]
@@ -325,11 +323,11 @@ def random_mesh(number):
     middle = [sum(p[c] for p in points[:4]) / 4 for c in range(3)]
     return {"points_at": points, "tets": tets, "scalar": [DICE.randint(0, 64) / 64 for _ in points],
             "points": random_points(number % 2), "lighting": random_lighting(),
-            "eye": [m + 4 * DICE.uniform(-1, 1) for m in middle], "center": middle
-}
+            "eye": [m + 4 * DICE.uniform(-1, 1) for m in middle], "center": middle}
+
 
 def finished(case, trace):
-#The ray of the one pixel of an orthographic picture.
+    # The ray of the one pixel of an orthographic picture.
     origin, center = vector(case["eye"]), vector(case["center"])
     direction = unit(minus(center, origin))
     ray = trace(case, Model(case["points"], case["lighting"], direction), origin, direction)
