@@ -35,8 +35,11 @@ LinearPart linear_part(Interval interval, vec4 scalar, float world_length) {
     return LinearPart(share, interval.left.a * world_length, interval.change.a * world_length);
 }
 
-// Returns the optical depth. It is exact, because the extinction is a cubic.
-float depth_of(LinearPart part) { return max(part.extinction + part.change * cubic_mean(part.share), 0.0); }
+// Returns the optical depth. It is exact, because the extinction is a cubic. In an interval whose extinction changes, the
+// share is one; beside samples far outside the range it may be less exact than that.
+float depth_of(LinearPart part) {
+    return max(part.extinction + part.change * clamp(cubic_mean(part.share), 0.0, 1.0), 0.0);
+}
 
 // Returns 1 - exp(-depth) for depths up to largest_part_depth with a relative error of 2e-5: interpolated at
 // Chebyshev's nodes.

@@ -8,6 +8,9 @@
 namespace lamina {
 namespace {
 
+// What lies farther away meets the range within 1e-9 of a cell, wherever exactly it is.
+constexpr double farthest = 0x1p30;
+
 bool changes(const TransferKnot& from, const TransferKnot& to) {
     if (from.optics.extinction == 0 && to.optics.extinction == 0) return false;
     return !(from.optics == to.optics);
@@ -48,6 +51,12 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
     return {range.lo, range.hi + std::max(1e-6 * (range.hi - range.lo), rounding)};
 }
 
+float normalised_sample(double value, const ValueRange& range) {
+    if (!std::isfinite(value)) return std::numeric_limits<float>::quiet_NaN();
+    const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
+    return static_cast<float>(std::clamp((value - range.lo) * scale, -farthest, farthest));
+}
+
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type) {
     const ValueRange drawn = drawn_range(transfer_function, range);
@@ -57,9 +66,11 @@ ValueRange exact_range(const TransferFunction& transfer_function, const ValueRan
     const ValueRange whole{lo, lo + std::exp2(std::ceil(std::log2(drawn.hi - lo)))};
     if (inner.empty()) return whole;
     ValueRange found = whole;
-    // Floats near a value are no closer to each other than that.
+    // Floats near a value have digits enough at this width. A step alone, at 0 say, has no width of
+    // its own: no sample may be too far from it (`farthest`).
     const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
-    const double least = whole_numbers ? 4 : std::max(0x1p-22 * largest, 0x1p-120);
+    const double narrowest = inner.lo < inner.hi ? 0x1p-120 : 0x1p-28 * (whole.hi - whole.lo);
+    const double least = whole_numbers ? 4 : std::max(0x1p-10 * largest, narrowest);
     while (found.hi - found.lo > least) {
         const ValueRange half = half_around(found, inner, whole);
         if (half == found) break;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/gl_volume_textures.h"
 
-#include <cmath>
-#include <limits>
-
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "facts/drawn_range.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -56,12 +54,7 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
                   const TextureBrick& brick, gl::Texture& texture, Progress& progress) {
     const Grid& grid = volume.grid();
     if (as_float) {
-        const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;
-        const auto normalise = [&](auto sample) {
-            const double value = sample;
-            return std::isfinite(value) ? static_cast<float>((value - range.lo) * scale)
-                                        : std::numeric_limits<float>::quiet_NaN();
-        };
+        const auto normalise = [&](auto sample) { return normalised_sample(sample, range); };
         volume.visit([&](const auto* samples) {
             upload_converted<float>(grid, brick, samples, normalise, texture, progress);
         });

@@ -85,8 +85,12 @@ struct LinearPart {
     CubicLanes share;
     Number extinction, change;
 
-    // Exact: the extinction is a cubic.
-    HWY_INLINE Number depth() const { return max(extinction + change * share.mean(), Number(0)); }
+    // Exact: the extinction is a cubic. In an interval whose extinction changes, the share is one;
+    // beside samples far outside the range it may be less exact than that.
+    HWY_INLINE Number depth() const {
+        const Number mean = min(max(share.mean(), Number(0)), Number(1));
+        return max(extinction + change * mean, Number(0));
+    }
 };
 
 // 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "base/parallel.h"
+#include "facts/drawn_range.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -84,7 +84,6 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
         4 * static_cast<std::int64_t>(copy.size()) - 4, std::numeric_limits<std::int32_t>::max()));
     volume_.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
-        const double scale = 1 / (range_.hi - range_.lo);
         for_each_row(part, [&](std::int64_t y, std::int64_t z) {
             const BrickRow own = row_of(part, grid, y, z);
             const Sample* const row = samples + own.first;
@@ -96,12 +95,8 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
                 return;
             }
             for (std::int64_t x = own.begin; x < own.end; ++x) {
-                const double value = row[x - own.begin];
-                const float normalised = std::isfinite(value)
-                                             ? static_cast<float>((value - range_.lo) * scale)
-                                             : std::numeric_limits<float>::quiet_NaN();
                 copy[static_cast<std::size_t>(place + x)] =
-                    std::bit_cast<std::uint32_t>(normalised);
+                    std::bit_cast<std::uint32_t>(normalised_sample(row[x - own.begin], range_));
             }
             own.repeat_ends(copy.data() + place, part.size[0]);
         });

@@ -214,6 +214,43 @@ TEST_P(ExactTest, LabelsAtStepsShowTheirLaterSide) {
     }
 }
 
+// Values that stand for nothing (NetCDF's fill value) lie farther away than float32 has digits.
+TEST_P(ExactTest, FillValuesShowNothing) {
+    const Volume floats = noise<float>({13, 9, 11}, Centering::cell, 1);
+    for (const float fill : {1e12f, 1e20f, 9.96921e36f, -3.4e38f}) {
+        std::vector<float> samples(static_cast<const float*>(floats.data()),
+                                   static_cast<const float*>(floats.data()) + 13 * 9 * 11);
+        for (const std::size_t i : {200u, 500u, 501u, 900u}) samples[i] = fill;
+        const Volume volume = reference_test::make_volume(floats.grid(), samples);
+        // The tracer's double precision ends before: it is asked about values that mean the same.
+        for (const std::size_t i : {200u, 500u, 501u, 900u}) samples[i] = fill > 0 ? 1e9f : -1e9f;
+        const Volume same = reference_test::make_volume(floats.grid(), samples);
+        const auto shown = TransferFunction::linear(
+            {knot(0, {1, .2, .1}, 0), knot(.001, {1, .2, .1}, .02), knot(.5, {.1, .9, .4}, .25),
+             knot(1, {.2, .1, 1}, .1), knot(1, {.2, .1, 1}, 0)});
+        Scene scene = exact_scene(shown, Projection::perspective);
+        look_from(volume, {.4, -.7, .9}, 1.2, scene);
+        const Image picture = draw(volume, scene);
+        // No channel exceeds the largest colour, and opacity not 1, but for roundings.
+        for (const float channel : picture.rgba) ASSERT_LE(std::abs(channel), 1 + 1e-5) << fill;
+        // The native engine's pixels beside such values may be off (docs/precision.md).
+        if (is_native()) continue;
+        EXPECT_LE(linf(picture, trace(same, scene, 1e-8)), promised) << fill;
+    }
+}
+
+// A step alone has no width of its own.
+TEST_P(ExactTest, AStepAtZeroIsWhereItIs) {
+    const Volume volume = test::volume_of<float>(
+        test::grid_of({12, 10, 11}, Centering::node),
+        [](double x, double y, double z) { return std::sin(.9 * x + .3 * y * y) * (z - 4.3); });
+    Scene scene = exact_scene(
+        TransferFunction::linear({knot(0, {.2, .9, .1}, 0), knot(0, {.2, .9, .1}, .01)}),
+        Projection::perspective);
+    look_from(volume, {.4, -.7, .9}, 1.2, scene);
+    EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
+}
+
 // A few odd values take no digits of those that show.
 TEST_P(ExactTest, OutliersChangeOnlyTheirOwnCells) {
     const Volume floats = noise<float>({13, 9, 11}, Centering::cell, 1);
