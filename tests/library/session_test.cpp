@@ -205,9 +205,9 @@ TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     Session session(scene, volume, native);
     EXPECT_FALSE(session.scene().lighting->smallest_gradient);
     EXPECT_NEAR(session.resolved_scene().lighting->smallest_gradient.value(), .01, 1e-5);
-    EXPECT_GT(error_of(session.draw(), unlit.trace()).linf, 20);
-    for (std::size_t i = 3; i < unlit.trace().rgba.size(); i += 4)
-        EXPECT_EQ(session.trace().rgba[i], unlit.trace().rgba[i]);
+    const auto plain = unlit.trace(), lit = session.trace();
+    EXPECT_GT(error_of(session.draw(), plain).linf, 20);
+    for (std::size_t i = 3; i < plain.rgba.size(); i += 4) EXPECT_EQ(lit.rgba[i], plain.rgba[i]);
     scene.lighting->power = NAN;
     expect_error([&] { session.set_scene(scene); }, {"lighting.power: found nan"});
     expect_error([&] { Session(scene, volume, native); }, {"lighting.power: found nan"});
