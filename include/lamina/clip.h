@@ -24,7 +24,7 @@ struct ClipBox {
     friend bool operator==(const ClipBox&, const ClipBox&) = default;
 };
 
-// What of the data is drawn: what lies on the kept side of all planes and in the box.
+// A clip keeps the part of the data that lies on the kept side of all planes and in the box.
 struct Clip {
     static constexpr std::size_t most_planes = 32;
 

@@ -8,7 +8,8 @@
 // Parts of larger optical depth are split, because up to here seen_share() is good to .01 / 255.
 const float largest_part_depth = 0.75;
 
-// Of an interval, in which colour and extinction are linear in the share, 0 at its left end and 1 at its right.
+// One interval of the transfer function. Colour and extinction are linear in the share, which is 0 at the left end and
+// 1 at the right.
 struct Interval {
     float left_end, right_end;  // the right end of the last one lies beyond all scalars
     float inverse_width;
@@ -24,7 +25,8 @@ Interval interval_at(int number) {
     return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
 }
 
-// Of a part in one interval: its share, and extinction times the part's length at share 0 and its change to share 1.
+// A part of a ray whose scalar stays in one interval: its share as a cubic, and extinction times the part's length, at
+// share 0 and as the change to share 1.
 struct LinearPart {
     vec4 share;
     float extinction, change;

@@ -3,7 +3,7 @@
 // transfer function, or that are too deep for one rule, are cut.
 #include "optics/cell_optics.glsl"
 
-// What a ray has passed: associated colour, optical depth, and what light still comes through.
+// The sum of the parts that a ray has passed: associated colour, optical depth and transmittance.
 struct PartSum {
     vec3 color;
     float depth;

@@ -86,7 +86,7 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
-// Of the range of values over the spacing: less steep parts are taken for noise.
+// Gradients below this share of the range of values over the spacing are taken for noise.
 constexpr double smallest_gradient_share = .01;
 
 bool leaves_gradient_open(const Scene& scene) {

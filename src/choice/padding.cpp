@@ -11,7 +11,7 @@ namespace lamina {
 namespace {
 
 constexpr std::size_t most_values = 4;
-// What was measured has more different values than this.
+// Measured data have more different values than this.
 constexpr std::size_t few_values = 24;
 constexpr double least_padding = 1e-3;
 

@@ -9,7 +9,6 @@ namespace lamina {
 namespace {
 
 constexpr double max_inverse_width = 1e30;
-constexpr float beyond_all = 3e38f;  // scalars are at most 1
 
 bool is_step(const OpticalProperties& before, const OpticalProperties& after) {
     return before.extinction != after.extinction || before.color != after.color;
@@ -24,7 +23,7 @@ void append_optics(const OpticalProperties& optics, std::vector<float>& row) {
 // For each interval its right end, and from where on, at its left end or later, something shows.
 void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
               const std::vector<float>& left, const std::vector<float>& right) {
-    float right_end = beyond_all, shown_beyond = beyond_all;
+    float right_end = beyond_all_scalars, shown_beyond = beyond_all_scalars;
     for (std::size_t i = places.size(); i > 0;) {
         i -= 4;
         if (left[i + 3] > 0 || right[i + 3] > 0) shown_beyond = places[i];

@@ -13,6 +13,8 @@ namespace lamina {
 // The largest extinction in shaders. Extinction times length must stay finite in float32, and with
 // this extinction everything is opaque.
 inline constexpr double max_shader_extinction = 1e30;
+// Larger than all normalised scalars.
+inline constexpr float beyond_all_scalars = 3e38f;
 
 // The transfer function over a volume's range as shaders read it (shaders/optics/intervals.glsl).
 // It consists of intervals on which it is linear, over scalars normalised so that the range is [0,

@@ -8,8 +8,6 @@
 namespace lamina {
 namespace {
 
-constexpr float beyond_all = 3e38f;  // scalars are at most 1
-
 // Coloured tables are read entry by entry, so extinction stands beside emission.
 TileTransfer::Aligned with_extinction(const PreintegrationTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
@@ -79,14 +77,13 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
         for (std::size_t i = 0; i < left[c].size(); ++i) change[c][i] -= left[c][i];
     }
     right_extinction = component(2, 3);
-    for (int i = 0; i < padded; ++i)
-        right_end.push_back(i + 1 < intervals ? end[static_cast<std::size_t>(i) + 1] : beyond_all);
+    right_end = component(3, 3);
     records = records_of(*this);
     float before = 0;
     for (std::size_t i = 0; i < right_extinction.size(); ++i) {
         const bool at_left = left[3][i] > 0, shows = at_left || right_extinction[i] > 0;
         shown_before.push_back(before);
-        shown_beyond.push_back(!shows ? beyond_all : at_left ? -1 : end[i]);
+        shown_beyond.push_back(!shows ? beyond_all_scalars : at_left ? -1 : end[i]);
         if (shows) ++before;
     }
     left_rest = component(3, 0);

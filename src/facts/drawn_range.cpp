@@ -8,7 +8,8 @@
 namespace lamina {
 namespace {
 
-// What lies farther away meets the range within 1e-9 of a cell, wherever exactly it is.
+// Samples farther away, in widths of the range, are moved here. Between such a sample and one in
+// the range, a ray is in the range for less than 1e-9 of the cell in either case.
 constexpr double farthest = 0x1p30;
 
 bool changes(const TransferKnot& from, const TransferKnot& to) {

@@ -97,7 +97,7 @@ double faint_extinction(const Facts& facts) {
     return faint_depth / (box_diagonal(facts.grid) * std::max(facts.max_color, 1.0));
 }
 
-// Of the volume's box, what the bricks first .. last hold.
+// Returns the part of the volume's box that the bricks first .. last hold.
 IndexBox box_of_bricks(const Grid& grid, const std::array<std::int64_t, 3>& count,
                        const std::array<std::int64_t, 3>& first,
                        const std::array<std::int64_t, 3>& last) {

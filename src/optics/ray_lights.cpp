@@ -14,15 +14,14 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-// Neither overflows nor underflows on the way.
-glm::dvec3 unit(const glm::dvec3& v) {
-    return glm::normalize(v / largest(glm::abs(v)));
-}
-
 // Sums of two unit vectors shorter than this are rounding: the vectors are opposite.
 constexpr double opposite = 1e-12;
 
 }  // namespace
+
+glm::dvec3 unit_vector(const glm::dvec3& v) {
+    return glm::normalize(v / largest(glm::abs(v)));
+}
 
 RayLights::RayLights(const Lighting& lighting, const glm::dvec3& to_eye)
     : ambient_(lighting.ambient),
@@ -31,11 +30,11 @@ RayLights::RayLights(const Lighting& lighting, const glm::dvec3& to_eye)
       power_(lighting.power),
       smallest_gradient_(lighting.smallest_gradient.value_or(0)) {
     assert(smallest_gradient_ > 0);
-    const glm::dvec3 eye = unit(to_eye);
+    const glm::dvec3 eye = unit_vector(to_eye);
     glm::dvec3 sum(0);
     for (const Light& light : lighting.lights) {
         Direction& direction = directions_.emplace_back();
-        direction.light = light.direction ? unit(*light.direction) : eye;
+        direction.light = light.direction ? unit_vector(*light.direction) : eye;
         const glm::dvec3 halfway = direction.light + eye;
         if (glm::length(halfway) > opposite) direction.halfway = glm::normalize(halfway);
         direction.color = light.color;

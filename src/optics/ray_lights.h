@@ -10,6 +10,9 @@
 
 namespace lamina {
 
+// The direction of a vector, which is not 0, however long it is.
+glm::dvec3 unit_vector(const glm::dvec3& v);
+
 // A lighting as one viewing ray sees it (docs/numerics.md, section 10), in double precision.
 class RayLights {
   public:

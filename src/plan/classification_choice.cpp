@@ -12,7 +12,8 @@
 namespace lamina {
 namespace {
 
-// Of exact segments: the scene's own, that of a tree, or what the context's loops need.
+// Returns the number of slabs of exact segments: the scene's own, that of a tree, or `least`, which
+// the context's loops need.
 int slabs_of(const Scene& scene, int least) {
     const SliceSettings& slice = scene.slice;
     if (slice.samples) return *slice.samples;

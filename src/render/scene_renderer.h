@@ -29,8 +29,7 @@ namespace lamina {
 //                       over the same; OpenGL compiles where the transfer function has another
 //                       number of points or its tables have other sizes
 //   clip                the facts of the data, too, and a renderer, which takes over the same; a
-//   mesh
-//                       is cut again
+//                       mesh is cut again
 //   settings, choose_again()   the same, and what is automatic is tried and chosen again
 //
 // What is automatic is chosen for the first picture and kept: resolved_scene() has it written out.

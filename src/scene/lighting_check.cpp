@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "lamina/scene.h"
+#include "scene/largest_scene_coordinate.h"
 
 namespace lamina {
 namespace {
@@ -46,9 +47,8 @@ class Check {
 
   private:
     static bool is_direction(const glm::dvec3& v) {
-        constexpr double largest = 1e100;
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(v[axis]) <= largest)) return false;
+            if (!(std::abs(v[axis]) <= largest_scene_coordinate)) return false;
         }
         return v != glm::dvec3(0);
     }

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scene/largest_scene_coordinate.h"
+
 namespace lamina {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Squares of distances far beyond this would overflow.
-constexpr double most_coordinate = 1e100;
 
 Json triple(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -19,7 +18,7 @@ Json triple(const glm::dvec3& v) {
 glm::dvec3 read_place(JsonReader& reader, const char* key) {
     const glm::dvec3 place = reader.vector(key);
     for (int axis = 0; axis < 3; ++axis) {
-        if (std::abs(place[axis]) > most_coordinate)
+        if (std::abs(place[axis]) > largest_scene_coordinate)
             reader.reject(key, "coordinates from -1e100 to 1e100");
     }
     return place;

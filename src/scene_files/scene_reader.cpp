@@ -10,6 +10,7 @@
 #include "base/shortened.h"
 #include "image/image_limits.h"
 #include "scene/camera.h"
+#include "scene/largest_scene_coordinate.h"
 #include "scene_files/clip_json.h"
 #include "scene_files/color_json.h"
 #include "scene_files/data_range.h"
@@ -22,9 +23,6 @@
 
 namespace lamina {
 namespace {
-
-// Squares of distances far beyond this would overflow.
-constexpr double max_coordinate = 1e100;
 
 Camera read_camera(JsonReader reader) {
     Camera camera;
@@ -43,11 +41,12 @@ Camera read_camera(JsonReader reader) {
     for (const char* key : {"eye", "center", "up"}) {
         const glm::dvec3 place = reader.vector_or(key, camera.up);
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(place[axis]) > max_coordinate)
+            if (std::abs(place[axis]) > largest_scene_coordinate)
                 reader.reject(key, "coordinates up to 1e100");
         }
     }
-    if (camera.height > max_coordinate) reader.reject("height", "at most 1e100 world units");
+    if (camera.height > largest_scene_coordinate)
+        reader.reject("height", "at most 1e100 world units");
     reader.close();
     return camera;
 }

@@ -17,17 +17,13 @@ constexpr double most_growth = 0.7;
 // lies within 1.2 times that of any peak.
 constexpr double peak_widths = 3;
 
-glm::dvec3 unit(const glm::dvec3& v) {
-    return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
-}
-
 TileLight::Direction direction_of(const Light& light, const Grid& grid) {
     TileLight::Direction direction;
     direction.to_eye = !light.direction;
     for (std::size_t i = 0; i < 3; ++i) {
         direction.color[i] = static_cast<float>(light.color[static_cast<int>(i)]);
         if (light.direction) {
-            const double along = glm::dot(unit(*light.direction), unit(grid.step[i]));
+            const double along = glm::dot(unit_vector(*light.direction), unit_vector(grid.step[i]));
             direction.to_light[i] = static_cast<float>(along);
         }
     }
