@@ -30,4 +30,8 @@ double fineness_of(double lo, double hi) {
     return fineness > 0 ? fineness : std::numeric_limits<double>::infinity();
 }
 
+std::string percent_text(double share) {
+    return fmt::format("{:.3g} %", 100 * share);
+}
+
 }  // namespace lamina

@@ -13,4 +13,7 @@ std::string number_text(double value, double fineness, int digits = 4);
 // 0.
 double fineness_of(double lo, double hi);
 
+// A share as a percentage with three digits.
+std::string percent_text(double share);
+
 }  // namespace lamina

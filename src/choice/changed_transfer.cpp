@@ -58,7 +58,7 @@ TransferFunction recolored(const TransferFunction& transfer_function, Colormap c
     }
     std::vector<ExtinctionPoint> extinctions;
     for (const TransferKnot& knot : knots)
-        extinctions.push_back({knot.value, knot.optics.extinction});
+        extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
     if (from < to && !colormap.own_range) stretch(colormap, lo, hi);
     return TransferFunction::linear(combine(colormap, extinctions));
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "optics/linear_pieces.h"
-
 namespace lamina {
 namespace {
 
@@ -44,6 +42,13 @@ float low_part(const OpticalProperties& optics) {
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
                                const std::vector<PreintegrationTable::Anchor>& anchors,
                                double step_advance) {
+    return make_intervals(pieces_between(transfer_function, range.lo, range.hi, false), range,
+                          anchors, step_advance);
+}
+
+ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const ValueRange& range,
+                               const std::vector<PreintegrationTable::Anchor>& anchors,
+                               double step_advance) {
     ShaderIntervals intervals;
     const double width = range.hi - range.lo;
     const auto normalised = [&](double value) {
@@ -51,31 +56,27 @@ ShaderIntervals make_intervals(const TransferFunction& transfer_function, const 
     };
     std::vector<float> places, left, right, low;
     std::size_t anchor = 0;
-    OpticalProperties before = transfer_function.at(range.lo);
-    for_each_linear_piece(
-        transfer_function.knots(), range.lo, range.hi, [&](const LinearPiece& piece) {
-            const double piece_width = normalised(piece.to) - normalised(piece.from);
-            const double advance =
-                !places.empty() && is_step(before, piece.at_from) ? step_advance : 0;
-            before = piece.at_to;
-            places.push_back(static_cast<float>(normalised(piece.from) - advance));
-            places.push_back(piece_width > 0
-                                 ? static_cast<float>(std::min(1 / piece_width, max_inverse_width))
-                                 : 0.0f);
-            // A step is two anchors at one value: pieces lie between anchors of different value.
-            while (anchor + 2 < anchors.size() &&
-                   anchors[anchor].value == anchors[anchor + 1].value)
-                ++anchor;
-            const bool has_table = anchor + 1 < anchors.size();
-            const int node = has_table ? anchors[anchor].node : 0;
-            places.push_back(static_cast<float>(node));
-            places.push_back(has_table ? static_cast<float>(anchors[anchor + 1].node - node)
-                                       : 0.0f);
-            append_optics(piece.at_from, left);
-            append_optics(piece.at_to, right);
-            low.insert(low.end(), {low_part(piece.at_from), low_part(piece.at_to), 0.0f, 0.0f});
+    OpticalProperties before = pieces.front().at_from;
+    for (const CurvedPiece& piece : pieces) {
+        const double piece_width = normalised(piece.to) - normalised(piece.from);
+        const double advance = !places.empty() && is_step(before, piece.at_from) ? step_advance : 0;
+        before = piece.at_to;
+        places.push_back(static_cast<float>(normalised(piece.from) - advance));
+        places.push_back(piece_width > 0
+                             ? static_cast<float>(std::min(1 / piece_width, max_inverse_width))
+                             : 0.0f);
+        // A step is two anchors at one value: pieces lie between anchors of different value.
+        while (anchor + 2 < anchors.size() && anchors[anchor].value == anchors[anchor + 1].value)
             ++anchor;
-        });
+        const bool has_table = anchor + 1 < anchors.size();
+        const int node = has_table ? anchors[anchor].node : 0;
+        places.push_back(static_cast<float>(node));
+        places.push_back(has_table ? static_cast<float>(anchors[anchor + 1].node - node) : 0.0f);
+        append_optics(piece.at_from, left);
+        append_optics(piece.at_to, right);
+        low.insert(low.end(), {low_part(piece.at_from), low_part(piece.at_to), 0.0f, 0.0f});
+        ++anchor;
+    }
     set_ends(low, places, left, right);
     intervals.count = static_cast<int>(places.size() / 4);
     int interval = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lamina/transfer_function.h"
+#include "optics/curved_pieces.h"
 #include "optics/preintegration_table.h"
 #include "volume/min_max_bricks.h"
 
@@ -42,6 +43,10 @@ inline constexpr double sampled_step_advance = 0x1p-22;
 // `anchors`: those of the pre-integration table that goes with it, or empty. `step_advance`: by how
 // much steps lie earlier, in scalars normalised to [0, 1].
 ShaderIntervals make_intervals(const TransferFunction& transfer_function, const ValueRange& range,
+                               const std::vector<PreintegrationTable::Anchor>& anchors,
+                               double step_advance);
+// The same of the pieces over that range, as straight ones.
+ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const ValueRange& range,
                                const std::vector<PreintegrationTable::Anchor>& anchors,
                                double step_advance);
 

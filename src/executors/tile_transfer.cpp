@@ -24,6 +24,18 @@ TileTransfer::Aligned with_extinction(const PreintegrationTable& table) {
     return texels;
 }
 
+// For `count` intervals, of which the last ones are copies.
+std::array<std::vector<float>, 2> bends_of(const std::vector<CurvedPiece>& pieces,
+                                           std::size_t count) {
+    std::array<std::vector<float>, 2> bends;
+    for (std::size_t i = 0; i < count; ++i) {
+        const CurvedPiece& piece = pieces[std::min(i, pieces.size() - 1)];
+        for (std::size_t k = 0; k < bends.size(); ++k)
+            bends[k].push_back(static_cast<float>(piece.bend[k]));
+    }
+    return bends;
+}
+
 TileTransfer::Aligned records_of(const TileTransfer& transfer) {
     const std::size_t size = TileTransfer::record_size;
     TileTransfer::Aligned records(size * transfer.end.size());
@@ -34,6 +46,7 @@ TileTransfer::Aligned records_of(const TileTransfer& transfer) {
                                   transfer.inverse_width[i], left[0][i], left[1][i], left[2][i],
                                   change[0][i], change[1][i], change[2][i]})
             *to++ = value;
+        for (const std::vector<float>& row : transfer.bend) *to++ = row.empty() ? 0 : row[i];
     }
     return records;
 }
@@ -41,7 +54,7 @@ TileTransfer::Aligned records_of(const TileTransfer& transfer) {
 }  // namespace
 
 TileTransfer::TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                           const TablePlan* wanted, double step_advance) {
+                           const TablePlan* wanted, double step_advance, bool curved) {
     std::vector<PreintegrationTable::Anchor> anchors;
     if (wanted != nullptr) {
         table = preintegration_table(transfer_function,
@@ -54,7 +67,8 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
                 static_cast<float>((wanted->length_layers - 1) / wanted->max_length);
         }
     }
-    const ShaderIntervals shader = make_intervals(transfer_function, range, anchors, step_advance);
+    const auto pieces = pieces_between(transfer_function, range.lo, range.hi, curved);
+    const ShaderIntervals shader = make_intervals(pieces, range, anchors, step_advance);
     intervals = shader.count;
     const int padded = std::max(intervals, 0) + few;
     const auto component = [&](int row, int channel) {
@@ -78,6 +92,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
     }
     right_extinction = component(2, 3);
     right_end = component(3, 3);
+    if (curved) bend = bends_of(pieces, end.size());
     records = records_of(*this);
     float before = 0;
     for (std::size_t i = 0; i < right_extinction.size(); ++i) {
@@ -92,7 +107,7 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
 }
 
 std::int64_t TileTransfer::byte_count() const {
-    const std::size_t per_interval = 4 + 8 + 6 + record_size;
+    const std::size_t per_interval = 4 + 8 + 6 + (bend[0].empty() ? 0 : 2) + record_size;
     return static_cast<std::int64_t>(sizeof(float) * (per_interval * end.size() + texels.size()) +
                                      sizeof(std::int32_t) * starts.size()) +
            (table ? table->byte_count() : 0);

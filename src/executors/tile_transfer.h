@@ -22,9 +22,10 @@ struct TileTransfer {
     static constexpr int few = 16;  // up to so many intervals are searched by comparisons
 
     // `range`: the scalars that become [0, 1]; lo < hi. `table`: the plan of the pre-integration
-    // table, or null. `step_advance`: see make_intervals().
+    // table, or null. `step_advance`: see make_intervals(). `curved`: intervals are curves where
+    // points are smooth (optics/curved_pieces.h); not with a table.
     TileTransfer(const TransferFunction& transfer_function, const ValueRange& range,
-                 const TablePlan* table, double step_advance);
+                 const TablePlan* table, double step_advance, bool curved = false);
 
     int intervals = 0;
     std::vector<float> end, inverse_width;  // left end, 1 / width
@@ -33,6 +34,9 @@ struct TileTransfer {
     std::array<std::vector<float>, 4> left;    // colour and extinction at the left end
     std::array<std::vector<float>, 4> change;  // from the left end to the right end
     std::vector<float> right_extinction;
+    // Of curves, empty where all intervals are straight: at the share u of the way the extinction
+    // is that of the straight line plus u (1 - u) (bend[0] + u bend[1]).
+    std::array<std::vector<float>, 2> bend;
     std::vector<float> right_end;  // of the last interval: beyond all scalars
     // Remainders of the extinctions that float does not hold.
     std::vector<float> left_rest, right_rest;
@@ -42,7 +46,8 @@ struct TileTransfer {
     std::vector<std::int32_t> starts;  // ShaderIntervals::starts
 
     // What is looked up of an interval together, in a line of the cache for each: extinction at the
-    // left end, its change, left end, right end; 1 / width, colour at the left end; its change.
+    // left end, its change, left end, right end; 1 / width, colour at the left end; its change,
+    // bend[0]; bend[1].
     static constexpr std::size_t record_size = 16;
     using Aligned = std::vector<float, tbb::cache_aligned_allocator<float>>;
     Aligned records;

@@ -189,6 +189,11 @@ auto limits(const std::vector<Point>& points, double value, const Mix& mix) {
     return std::pair(between, between);
 }
 
+bool is_smooth(const std::vector<ExtinctionPoint>& extinctions, double value) {
+    const auto there = std::ranges::lower_bound(extinctions, value, {}, &ExtinctionPoint::value);
+    return there != extinctions.end() && there->value == value && there->smooth;
+}
+
 }  // namespace
 
 Colormap read_paraview_colormap(const std::filesystem::path& file, ImageColorSpace space) {
@@ -241,7 +246,7 @@ std::vector<TransferKnot> combine(const Colormap& colormap,
     for (const double value : values) {
         const auto [color_below, color_above] = limits(colormap.colors, value, mix_colors);
         const auto [below, above] = limits(extinctions, value, mix_extinctions);
-        knots.push_back({value, {color_below, below}});
+        knots.push_back({value, {color_below, below}, is_smooth(extinctions, value)});
         if (color_below != color_above || below != above) {
             knots.push_back({value, {color_above, above}});
         }
@@ -256,7 +261,7 @@ std::vector<TransferKnot> combine(const Colormap& colormap, double unit_length) 
     }
     std::vector<ExtinctionPoint> extinctions;
     for (const TransferKnot& knot : linear_in_opacity(given_points(colormap), unit_length))
-        extinctions.push_back({knot.value, knot.optics.extinction});
+        extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
     return combine(colormap, extinctions);
 }
 

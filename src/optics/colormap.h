@@ -27,6 +27,7 @@ struct OpacityPoint {
 struct ExtinctionPoint {
     double value = 0;
     double extinction = 0;  // per world unit
+    bool smooth = false;    // as in TransferKnot
 };
 
 // Piecewise linear functions of the scalar, constant outside their points; two points at one value

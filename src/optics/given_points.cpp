@@ -58,7 +58,7 @@ class KnotBuilder {
         const bool ends_step = before != nullptr && before->value == point.value;
         const bool begins_step = after != nullptr && after->value == point.value;
         const double below = at_side(point, before), above = at_side(point, after);
-        if (!ends_step) knots_.push_back({point.value, {point.color, below}});
+        if (!ends_step) knots_.push_back({point.value, {point.color, below}, point.smooth});
         if (ends_step || (!begins_step && above != below))
             knots_.push_back({point.value, {point.color, above}});
     }
@@ -71,7 +71,8 @@ class KnotBuilder {
             if (!(value > knots_.back().value && value < b.value)) continue;
             knots_.push_back(
                 {value,
-                 {glm::mix(a.color, b.color, knot.share), knot.optical_depth / unit_length_}});
+                 {glm::mix(a.color, b.color, knot.share), knot.optical_depth / unit_length_},
+                 knot.optical_depth < steepest_optical_depth});
         }
     }
 
@@ -86,7 +87,8 @@ std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& po
                                                double unit_length) {
     std::vector<TransferKnot> knots;
     for (const GivenPoint& point : points)
-        knots.push_back({point.value, {point.color, extinction_of(point, unit_length)}});
+        knots.push_back(
+            {point.value, {point.color, extinction_of(point, unit_length)}, point.smooth});
     return knots;
 }
 

@@ -17,7 +17,8 @@ struct GivenPoint {
     double value = 0;
     glm::dvec3 color{0};
     Density given_as = Density::extinction;
-    double density = 0;  // per world unit, or 0..1 over a unit length
+    double density = 0;   // per world unit, or 0..1 over a unit length
+    bool smooth = false;  // as in TransferKnot; of extinction
 };
 
 // The points with opacity turned into extinction, one by one: extinction is linear between them.

@@ -43,9 +43,10 @@ class TableMemory {
 
     static std::vector<double> numbers_of(const TransferFunction& transfer_function) {
         std::vector<double> numbers;
-        for (const auto& [value, optics] : transfer_function.knots()) {
-            numbers.insert(numbers.end(), {value, optics.color.r, optics.color.g, optics.color.b,
-                                           optics.extinction});
+        for (const TransferKnot& knot : transfer_function.knots()) {
+            const OpticalProperties& optics = knot.optics;
+            numbers.insert(numbers.end(), {knot.value, optics.color.r, optics.color.g,
+                                           optics.color.b, optics.extinction});
         }
         return numbers;
     }

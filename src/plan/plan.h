@@ -86,11 +86,14 @@ struct SlicePlan : CompositingPlan {
     // Parts of rays along which light bends by more are cut (slicing/tile_light-inl.h).
     double most_bend = 0;
     double light_error = 0;  // that this leaves, in 1/255
+    // Exact segments follow curves where points of the transfer function are smooth, if > 0; it is
+    // what that may cost, in 1/255.
+    double curve_error = 0;
 
     // The error that slabs, filter and table were found to make, in 1/255, as far as it was
     // measured; that of exact segments.
     double found_error() const {
-        if (integrates_cells()) return exact_segment_error + light_error;
+        if (integrates_cells()) return exact_segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }

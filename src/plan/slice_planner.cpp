@@ -8,11 +8,13 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "compositing/tree_shape.h"
 #include "facts/ray_shares.h"
 #include "facts/world_unit.h"
 #include "optics/front_weights.h"
 #include "plan/brick_cuts.h"
+#include "plan/curve_choice.h"
 #include "plan/light_choice.h"
 #include "plan/march_limit.h"
 #include "plan/picture_limits.h"
@@ -37,10 +39,6 @@ constexpr double thin_box_ratio = 20;
 constexpr double least_empty_in_tiles = 0.01, least_empty_in_shaders = 0.2;
 
 constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float copies of small types
-
-std::string percent(double share) {
-    return fmt::format("{:.3g} %", 100 * share);
-}
 
 class SlicePlanner {
   public:
@@ -69,6 +67,8 @@ class SlicePlanner {
         choose_filter();
         choose_precision();
         choose_sampling();
+        const CurveChoice curves = choose_curves(scene_, facts_, slice, capabilities_);
+        if (leave_out(curves.pay, "smooth_points", curves.reason)) slice.curve_error = curves.error;
         choose_table();
         choose_bricks();
         choose_compositing();
@@ -151,7 +151,7 @@ class SlicePlanner {
         const bool by_brick = skips_bricks();
         if (leave_out((smaller || by_brick) && !facts_.occupied.empty(), "empty_space",
                       fmt::format("only {} of the bricks of {}^3 cells can be seen: {}",
-                                  percent(facts_.occupied_share), MinMaxBricks::edge,
+                                  percent_text(facts_.occupied_share), MinMaxBricks::edge,
                                   by_brick ? fmt::format("rays leap over the others, by a map of "
                                                          "{} bytes",
                                                          facts_.occupied_bricks.distance.size())
@@ -190,7 +190,7 @@ class SlicePlanner {
             !constant.kinds.empty() && !scene_.lighting, "constant_regions",
             fmt::format("{} of the bricks that show something have one colour and one extinction: "
                         "rays take them in one step, by maps of {} bytes",
-                        percent(constant.share), 2 * constant.kind.size()));
+                        percent_text(constant.share), 2 * constant.kind.size()));
     }
 
     // In a tree, what is behind one leaf's part of a ray is another leaf's; on GL, of several

@@ -44,6 +44,7 @@ Json transfer_function_json(const TransferFunction& transfer_function) {
         points.push_back({{"value", knot.value},
                           {"color", vector_json(knot.optics.color)},
                           {"extinction", knot.optics.extinction}});
+        if (knot.smooth) points.back()["smooth"] = true;
     }
     return {{"points", points}};
 }

@@ -51,6 +51,7 @@ void read_density(JsonReader& reader, GivenPoint& point) {
     if (reader.has("extinction")) {
         point.density = reader.number("extinction");
         if (point.density < 0) reader.reject("extinction", "a number >= 0");
+        point.smooth = reader.flag_or("smooth", false);
         return;
     }
     point.given_as = GivenPoint::Density::opacity;
@@ -197,7 +198,7 @@ TransferFunction read_with_colormap(JsonReader& reader, const PointRules& rules,
     try {
         std::vector<ExtinctionPoint> extinctions;
         for (const TransferKnot& knot : rules.knots(points))
-            extinctions.push_back({knot.value, knot.optics.extinction});
+            extinctions.push_back({knot.value, knot.optics.extinction, knot.smooth});
         return TransferFunction::linear(combine(colormap, extinctions));
     } catch (const Error& error) {
         reader.fail_at(own ? "colormap" : "points", error.what());

@@ -22,9 +22,18 @@ namespace lamina::HWY_NAMESPACE {
 // Parts of larger optical depth are split: up to here seen_share() is good to .01 / 255.
 inline constexpr float largest_part_depth = 0.75f;
 
-// One interval of the transfer function for each lane. Colour and extinction are linear in the
-// share, which is 0 at the left end and 1 at the right.
-struct IntervalLanes {
+// The bends of an interval (TileTransfer::bend).
+template <bool curved>
+struct IntervalBend {};
+template <>
+struct IntervalBend<true> {
+    Number bend[2];
+};
+
+// One interval of the transfer function for each lane. Colour is linear in the share, which is 0 at
+// the left end and 1 at the right. Extinction is, too, or a curve.
+template <bool curved>
+struct IntervalLanes : IntervalBend<curved> {
     Number left_end, right_end;  // the right end of the last interval lies beyond all scalars
     Number inverse_width;
     Number left[4], change[4];  // colour and extinction
@@ -40,24 +49,11 @@ struct IntervalLanes {
     }
 };
 
-template <Lookup kind>
-HWY_INLINE IntervalLanes interval_lanes(const TileTransfer& transfer, Ints number) {
-    IntervalLanes lanes;
-    lanes.left_end = look_up<kind>(transfer.end, number);
-    lanes.right_end = look_up<kind>(transfer.right_end, number);
-    lanes.inverse_width = look_up<kind>(transfer.inverse_width, number);
-    for (std::size_t channel = 0; channel < 4; ++channel) {
-        lanes.left[channel] = look_up<kind>(transfer.left[channel], number);
-        lanes.change[channel] = look_up<kind>(transfer.change[channel], number);
-    }
-    return lanes;
-}
-
 // Records are fetched one by one and transposed, which is faster than a gather for each number.
-template <>
-HWY_INLINE IntervalLanes interval_lanes<Lookup::gather>(const TileTransfer& transfer, Ints number) {
+template <bool curved>
+HWY_INLINE IntervalLanes<curved> fetched_intervals(const TileTransfer& transfer, Ints number) {
     const FloatTag d;
-    constexpr std::size_t parts = 3, size = 4;
+    constexpr std::size_t parts = curved ? 4 : 3, size = 4;
     alignas(64) std::int32_t numbers[most_lanes];
     alignas(64) float records[parts][size * most_lanes];
     hn::Store(number, IntTag(), numbers);
@@ -68,36 +64,37 @@ HWY_INLINE IntervalLanes interval_lanes<Lookup::gather>(const TileTransfer& tran
         for (std::size_t part = 0; part < parts; ++part)
             std::memcpy(records[part] + size * lane, from + size * part, size * sizeof(float));
     }
-    IntervalLanes lanes;
+    IntervalLanes<curved> lanes;
     Floats unused;
     hn::LoadInterleaved4(d, records[0], lanes.left[3].v, lanes.change[3].v, lanes.left_end.v,
                          lanes.right_end.v);
     hn::LoadInterleaved4(d, records[1], lanes.inverse_width.v, lanes.left[0].v, lanes.left[1].v,
                          lanes.left[2].v);
+    Number bend[2];
     hn::LoadInterleaved4(d, records[2], lanes.change[0].v, lanes.change[1].v, lanes.change[2].v,
-                         unused);
+                         bend[0].v);
+    if constexpr (curved) {
+        hn::LoadInterleaved4(d, records[3], bend[1].v, unused, unused, unused);
+        for (std::size_t i = 0; i < 2; ++i) lanes.bend[i] = bend[i];
+    }
     return lanes;
 }
 
-// A part of a ray in one interval: its share, and extinction times the part's length at share 0 and
-// its change to share 1.
-struct LinearPart {
-    CubicLanes share;
-    Number extinction, change;
-
-    // Exact: the extinction is a cubic. In an interval whose extinction changes, the share is one;
-    // beside samples far outside the range it may be less exact than that.
-    HWY_INLINE Number depth() const {
-        const Number mean = min(max(share.mean(), Number(0)), Number(1));
-        return max(extinction + change * mean, Number(0));
+template <Lookup kind, bool curved>
+HWY_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, Ints number) {
+    if constexpr (kind == Lookup::gather) return fetched_intervals<curved>(transfer, number);
+    IntervalLanes<curved> lanes;
+    lanes.left_end = look_up<kind>(transfer.end, number);
+    lanes.right_end = look_up<kind>(transfer.right_end, number);
+    lanes.inverse_width = look_up<kind>(transfer.inverse_width, number);
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        lanes.left[channel] = look_up<kind>(transfer.left[channel], number);
+        lanes.change[channel] = look_up<kind>(transfer.change[channel], number);
     }
-};
-
-// 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
-// at Chebyshev's nodes.
-HWY_INLINE Number shallow_opacity(Number depth) {
-    return depth * Number(polynomial(FloatTag(), depth.v,
-                                     {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f}));
+    if constexpr (curved) {
+        for (std::size_t i = 0; i < 2; ++i) lanes.bend[i] = look_up<kind>(transfer.bend[i], number);
+    }
+    return lanes;
 }
 
 // Gauss' rule on 0 .. 1.
@@ -114,25 +111,106 @@ struct GaussRule<4> {
     static constexpr float weights[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
 };
 
+// A part of a ray in one interval: its share, and its extinction times its length.
+template <bool curved>
+struct RayPart;
+
+// A straight interval: extinction at share 0, and its change to share 1.
+template <>
+struct RayPart<false> {
+    CubicLanes share;
+    Number extinction, change;
+
+    RayPart() = default;
+    HWY_INLINE RayPart(const IntervalLanes<false>& interval, const CubicLanes& part_share,
+                       Number length)
+        : share(part_share),
+          extinction(interval.left[3] * length),
+          change(interval.change[3] * length) {}
+
+    // Exact: the extinction is a cubic. In an interval whose extinction changes, the share is one;
+    // beside samples far outside the range it may be less exact than that.
+    HWY_INLINE Number depth() const {
+        const Number mean = min(max(share.mean(), Number(0)), Number(1));
+        return max(extinction + change * mean, Number(0));
+    }
+    // The optical depth up to t is t times this at t.
+    HWY_INLINE CubicLanes mean_depth() const {
+        return {{extinction + change * share.c[0], change * (Number(1 / 2.0f) * share.c[1]),
+                 change * (Number(1 / 3.0f) * share.c[2]),
+                 change * (Number(1 / 4.0f) * share.c[3])}};
+    }
+    // Where the share is `there`.
+    HWY_INLINE Number extinction_at(Number, Number there) const {
+        return max(extinction + change * there, Number(0));
+    }
+};
+
+// A curved interval. The extinction is the cubic that has its values at four nodes of Gauss' rule,
+// so that the optical depth is good where the curve and the share are a polynomial of degree 7.
+template <>
+struct RayPart<true> {
+    CubicLanes share;
+    CubicLanes extinction;
+
+    RayPart() = default;
+    HWY_INLINE RayPart(const IntervalLanes<true>& interval, const CubicLanes& part_share,
+                       Number length)
+        : share(part_share) {
+        for (Number& c : extinction.c) c = Number(0);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Number u =
+                min(max(share.at(Number(GaussRule<4>::nodes[i])), Number(0)), Number(1));
+            const Number bend = interval.bend[0] + u * interval.bend[1];
+            const Number there =
+                interval.left[3] + u * (interval.change[3] + (Number(1) - u) * bend);
+            const Number amount = max(there, Number(0)) * length;
+            for (std::size_t power = 0; power < 4; ++power)
+                extinction.c[power] =
+                    extinction.c[power] + Number(through_nodes[power][i]) * amount;
+        }
+    }
+
+    HWY_INLINE Number depth() const { return max(extinction.mean(), Number(0)); }
+    HWY_INLINE CubicLanes mean_depth() const {
+        return {{extinction.c[0], Number(1 / 2.0f) * extinction.c[1],
+                 Number(1 / 3.0f) * extinction.c[2], Number(1 / 4.0f) * extinction.c[3]}};
+    }
+    HWY_INLINE Number extinction_at(Number t, Number) const {
+        return max(extinction.at(t), Number(0));
+    }
+
+  private:
+    // The coefficients of the cubic that is 1 at one node of GaussRule<4> and 0 at the others.
+    static constexpr float through_nodes[4][4] = {
+        {1.52678813f, -0.813632449f, 0.40076152f, -0.113917196f},
+        {-8.54602361f, 13.8071669f, -7.41707042f, 2.1559271f},
+        {14.3258584f, -31.3882224f, 24.9981259f, -7.93576185f},
+        {-7.42054007f, 18.7954494f, -18.7954494f, 7.42054007f}};
+};
+
+// 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
+// at Chebyshev's nodes.
+HWY_INLINE Number shallow_opacity(Number depth) {
+    return depth * Number(polynomial(FloatTag(), depth.v,
+                                     {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f}));
+}
+
 // The share that reaches a part's front: the integral of share times emission times transmittance,
 // for `opacity` of `depth`, which is at most largest_part_depth. Integrated by parts, so that only
 // the share's slope is left for Gauss' rule (docs/numerics.md, section 9), and a constant share is
 // exact.
-template <std::size_t points>
-HWY_INLINE Number seen_share(const LinearPart& part, Number depth, Number opacity) {
+template <std::size_t points, bool curved>
+HWY_INLINE Number seen_share(const RayPart<curved>& part, Number depth, Number opacity) {
     using Rule = GaussRule<points>;
     const CubicLanes& share = part.share;
-    // The optical depth up to t is t (d[0] + t (d[1] + t (d[2] + t d[3]))).
-    const Number d[4] = {part.extinction + part.change * share.c[0],
-                         part.change * (Number(1 / 2.0f) * share.c[1]),
-                         part.change * (Number(1 / 3.0f) * share.c[2]),
-                         part.change * (Number(1 / 4.0f) * share.c[3])};
+    const CubicLanes mean_depth = part.mean_depth();
     const Number all = shallow_opacity(depth);
     Number sum = opacity * share.c[0];
     for (std::size_t i = 0; i < points; ++i) {
         constexpr auto& nodes = Rule::nodes;
         const Number t(nodes[i]);
-        const Number before = t * (d[0] + t * (d[1] + t * (d[2] + t * d[3])));
+        const Number before = t * mean_depth.at(t);
         const float weight = Rule::weights[i];
         const Number slope = Number(weight) * share.c[1] +
                              Number(2 * weight * nodes[i]) * share.c[2] +

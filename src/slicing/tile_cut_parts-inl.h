@@ -33,11 +33,11 @@ class CutParts {
 
     // Sets colour, opacity and depth of the parts that were added. `light`: null where nothing is
     // lit.
-    template <Lookup kind>
+    template <Lookup kind, bool curved>
     void run(const TileTransfer& transfer, const TileLight* light, bool colored, CellParts& parts) {
         light_ = light;
-        run_round<kind, true>(transfer, colored, parts);
-        while (count_ > 0) run_round<kind, false>(transfer, colored, parts);
+        run_round<kind, curved, true>(transfer, colored, parts);
+        while (count_ > 0) run_round<kind, curved, false>(transfer, colored, parts);
     }
 
   private:
@@ -61,8 +61,9 @@ class CutParts {
     };
 
     // The next monotone stretch of each part, as far as it stays in one interval.
+    template <bool curved>
     struct Stretch {
-        IntervalLanes interval;
+        IntervalLanes<curved> interval;
         Number end, at_end, knot;
         FloatMask rising, crosses;
         RootLanes root;
@@ -79,7 +80,7 @@ class CutParts {
     }
 
     // Composites the next piece of each part.
-    template <Lookup kind, bool first>
+    template <Lookup kind, bool curved, bool first>
     void run_round(const TileTransfer& transfer, bool colored, CellParts& parts) {
         const FloatTag d;
         const std::size_t count = count_, step = hn::Lanes(d);
@@ -93,7 +94,7 @@ class CutParts {
                 lanes[i] = first ? begin<kind>(transfer, place, members) : load(place, members);
             }
             FloatMask done[vectors];
-            add_pieces<kind>(transfer, parts, colored, used, lanes, done);
+            add_pieces<kind, curved>(transfer, parts, colored, used, lanes, done);
             for (std::size_t i = 0; i < used; ++i) {
                 const FloatMask members = hn::FirstN(d, count - from - i * step);
                 finish(lanes[i], hn::And(members, done[i]), parts);
@@ -191,15 +192,15 @@ class CutParts {
     }
 
     // Finds the lanes that have reached the end.
-    template <Lookup kind>
+    template <Lookup kind, bool curved>
     HWY_INLINE void add_pieces(const TileTransfer& transfer, const CellParts& parts, bool colored,
                                std::size_t used, Lanes (&lanes)[vectors],
                                FloatMask (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
-        Stretch stretches[vectors];
+        Stretch<curved> stretches[vectors];
         for (std::size_t i = 0; i < used; ++i)
-            stretches[i] = next_stretch<kind>(transfer, lanes[i]);
+            stretches[i] = next_stretch<kind, curved>(transfer, lanes[i]);
         const auto found = [&] HWY_ATTR {
             return stretches[0].root.found() && (used == 1 || stretches[1].root.found());
         };
@@ -210,16 +211,17 @@ class CutParts {
             done[i] = add_piece(parts, colored, stretches[i], lanes[i]);
     }
 
-    template <Lookup kind>
-    static HWY_INLINE Stretch next_stretch(const TileTransfer& transfer, const Lanes& lanes) {
+    template <Lookup kind, bool curved>
+    static HWY_INLINE Stretch<curved> next_stretch(const TileTransfer& transfer,
+                                                   const Lanes& lanes) {
         const FloatTag d;
         const IntTag di;
-        Stretch next;
+        Stretch<curved> next;
         next.end = select(lanes.at < lanes.turns[0], lanes.turns[0],
                           select(lanes.at < lanes.turns[1], lanes.turns[1], Number(1)));
         next.at_end = lanes.cubic.at(next.end);
         next.rising = next.at_end >= lanes.scalar;
-        next.interval = interval_lanes<kind>(transfer, lanes.interval);
+        next.interval = interval_lanes<kind, curved>(transfer, lanes.interval);
         const FloatMask lowest = hn::RebindMask(d, hn::Eq(lanes.interval, hn::Zero(di)));
         const Number left_end = select(lowest, Number(-3e38f), next.interval.left_end);
         next.knot = select(next.rising, next.interval.right_end, left_end);
@@ -230,8 +232,9 @@ class CutParts {
     }
 
     // Returns the lanes that have reached the end.
-    HWY_INLINE FloatMask add_piece(const CellParts& parts, bool colored, const Stretch& stretch,
-                                   Lanes& lanes) const {
+    template <bool curved>
+    HWY_INLINE FloatMask add_piece(const CellParts& parts, bool colored,
+                                   const Stretch<curved>& stretch, Lanes& lanes) const {
         const IntTag di;
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
@@ -242,8 +245,10 @@ class CutParts {
             extent = min(extent, lanes.longest);
             at_back = select(whole, at_to, lanes.cubic.at(lanes.at + extent));
         }
-        LinearPart part = part_of(stretch.interval, lanes, extent, at_back);
-        whole = hn::And(whole, shorten(part, extent));
+        RayPart<curved> part(stretch.interval,
+                             share_of_piece(stretch.interval, lanes, extent, at_back),
+                             lanes.length * extent);
+        whole = hn::And(whole, shorten(stretch.interval, lanes.length, part, extent));
         if (light_ == nullptr || !colored) {
             composite(stretch.interval, part, colored, lanes);
         } else {
@@ -266,22 +271,24 @@ class CutParts {
         return hn::Or(lanes.at >= Number(1), lanes.transmittance < Number(least_transmittance));
     }
 
-    // The piece of `extent` from where the parts are, up to where the scalar is `at_to`.
-    static HWY_INLINE LinearPart part_of(const IntervalLanes& interval, const Lanes& lanes,
-                                         Number extent, Number at_to) {
+    // The share along the piece of `extent` from where the parts are, up to where the scalar is
+    // `at_to`.
+    template <bool curved>
+    static HWY_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
+                                                const Lanes& lanes, Number extent, Number at_to) {
         const CubicLanes& cubic = lanes.cubic;
         CubicLanes piece;
         piece.c[0] = lanes.scalar;
         piece.c[2] = (cubic.c[2] + Number(3) * cubic.c[3] * lanes.at) * extent * extent;
         piece.c[3] = cubic.c[3] * extent * extent * extent;
         piece.c[1] = (at_to - lanes.scalar) - (piece.c[2] + piece.c[3]);
-        const Number length = lanes.length * extent;
-        return {interval.share_along(piece), interval.left[3] * length,
-                interval.change[3] * length};
+        return interval.share_along(piece);
     }
 
     // Shortens pieces that are too deep, from their backs. Returns the lanes that stay whole.
-    static HWY_INLINE FloatMask shorten(LinearPart& part, Number& extent) {
+    template <bool curved>
+    static HWY_INLINE FloatMask shorten(const IntervalLanes<curved>& interval, Number length,
+                                        RayPart<curved>& part, Number& extent) {
         const FloatTag d;
         FloatMask whole = hn::FirstN(d, hn::Lanes(d));
         while (true) {
@@ -297,18 +304,18 @@ class CutParts {
                 min(hn::Sqrt((Number(0.7f) / max(depth, Number(1e-3f))).v), Number(0.5f));
             share = select(deep, max(share, min(least, Number(0.5f))), Number(1));
             extent = extent * share;
-            part.extinction = part.extinction * share;
-            part.change = part.change * share;
             Number power = share;
             for (std::size_t i = 1; i < 4; ++i) {
                 part.share.c[i] = part.share.c[i] * power;
                 power = power * share;
             }
+            part = RayPart<curved>(interval, part.share, length * extent);
         }
     }
 
-    static HWY_INLINE void composite(const IntervalLanes& interval, const LinearPart& part,
-                                     bool colored, Lanes& lanes) {
+    template <bool curved>
+    static HWY_INLINE void composite(const IntervalLanes<curved>& interval,
+                                     const RayPart<curved>& part, bool colored, Lanes& lanes) {
         const Number depth = part.depth();
         const Number opacity = opacity_from_depth(FloatTag(), depth.v);
         const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
@@ -327,8 +334,10 @@ class CutParts {
 
     // The same of pieces that are lit. Returns those that are not composited, because their light
     // bends too much for one rule.
-    HWY_INLINE FloatMask composite_lit(const IntervalLanes& interval, const LinearPart& part,
-                                       Number extent, const CellParts& parts, Lanes& lanes) const {
+    template <bool curved>
+    HWY_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
+                                       const RayPart<curved>& part, Number extent,
+                                       const CellParts& parts, Lanes& lanes) const {
         const Number depth = part.depth();
         const Number opacity = opacity_from_depth(FloatTag(), depth.v);
         const FloatMask deep = depth > Number(largest_part_depth);
@@ -337,8 +346,9 @@ class CutParts {
         Number color[3];
         for (std::size_t channel = 0; channel < 3; ++channel)
             color[channel] = interval.color(channel, opacity, share);
-        const Number bend = add_light(*light_, gather_gradients(parts, lanes.part),
-                                      {part, interval, lanes.at, extent, depth, opacity}, color);
+        const Number bend =
+            add_light(*light_, gather_gradients(parts, lanes.part),
+                      LitPart<curved>{part, interval, lanes.at, extent, depth, opacity}, color);
         const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
         const FloatMask again =
             hn::And(extent > Number(shortest_lit_piece), bends(*light_, bend, weight));

@@ -78,7 +78,11 @@ class CellIntegrator {
         if (parts_.count > 0) {
             set_cubics();
             with_lookup(*slabs_.transfer, [&](auto kind) HWY_ATTR {
-                integrate<decltype(kind)::value>(*slabs_.transfer);
+                if (slabs_.transfer->bend[0].empty()) {
+                    integrate<decltype(kind)::value, false>(*slabs_.transfer);
+                } else {
+                    integrate<decltype(kind)::value, true>(*slabs_.transfer);
+                }
             });
         }
         if (colored_) {
@@ -189,7 +193,7 @@ class CellIntegrator {
 
     // Parts in one interval of the transfer function are integrated by one rule; the others are
     // cut.
-    template <Lookup kind>
+    template <Lookup kind, bool curved>
     void integrate(const TileTransfer& transfer) {
         const FloatTag d;
         cut_.clear();
@@ -200,11 +204,10 @@ class CellIntegrator {
             const RangeLanes range = range_of(cubic);
             const Floats lowest = clamp01(d, range.lo.v);
             const Ints number = find_interval<kind>(transfer, lowest);
-            const IntervalLanes interval = interval_lanes<kind>(transfer, number);
+            const IntervalLanes<curved> interval = interval_lanes<kind, curved>(transfer, number);
             const FloatMask crosses = range.hi > interval.right_end;
             const Number length = load_number(parts_.length + i);
-            const LinearPart part{interval.share_along(cubic), interval.left[3] * length,
-                                  interval.change[3] * length};
+            const RayPart<curved> part(interval, interval.share_along(cubic), length);
             const Number depth = part.depth();
             const FloatMask stored = members_from(i);
             FloatMask hard = crosses;
@@ -221,13 +224,15 @@ class CellIntegrator {
                 longest = add_light_to(interval, part, shown_depth, i, hard);
             if (!hn::AllFalse(d, hard)) cut_.add(hard, cubic, length, longest, i);
         });
-        if (!cut_.empty()) cut_.run<kind>(transfer, slabs_.light, colored_, parts_);
+        if (!cut_.empty()) cut_.run<kind, curved>(transfer, slabs_.light, colored_, parts_);
     }
 
     // Adds light to the colours of parts that show something, and those whose light bends to the
     // `hard` ones. Returns how long their pieces may be.
-    HWY_INLINE Number add_light_to(const IntervalLanes& interval, const LinearPart& part,
-                                   Number depth, std::size_t i, FloatMask& hard) {
+    template <bool curved>
+    HWY_INLINE Number add_light_to(const IntervalLanes<curved>& interval,
+                                   const RayPart<curved>& part, Number depth, std::size_t i,
+                                   FloatMask& hard) {
         const FloatTag d;
         const FloatMask seen = hn::And(members_from(i), depth > Number(0));
         if (hn::AllFalse(d, hn::Or(seen, hard))) return Number(1);
@@ -235,16 +240,18 @@ class CellIntegrator {
         Number color[3] = {load_number(parts_.color[0] + i), load_number(parts_.color[1] + i),
                            load_number(parts_.color[2] + i)};
         const Number opacity = load_number(parts_.opacity + i);
-        const Number bend = add_light(
-            *slabs_.light, gradient, {part, interval, Number(0), Number(1), depth, opacity}, color);
+        const Number bend =
+            add_light(*slabs_.light, gradient,
+                      LitPart<curved>{part, interval, Number(0), Number(1), depth, opacity}, color);
         for (std::size_t channel = 0; channel < 3; ++channel)
             store_number(zero_unless(seen, color[channel]), parts_.color[channel] + i);
         hard = hn::Or(hard, hn::And(seen, bends(*slabs_.light, bend, opacity)));
         return longest_piece(*slabs_.light, bend);
     }
 
-    HWY_INLINE void set_colors(const IntervalLanes& interval, const LinearPart& part, Number depth,
-                               std::size_t i) {
+    template <bool curved>
+    HWY_INLINE void set_colors(const IntervalLanes<curved>& interval, const RayPart<curved>& part,
+                               Number depth, std::size_t i) {
         const FloatTag d;
         const FloatMask seen = depth > Number(0);
         if (hn::AllFalse(d, seen)) {

@@ -204,25 +204,23 @@ HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradi
 }
 
 // A part of a ray, or a piece of one: of `extent` from `at` on.
+template <bool curved>
 struct LitPart {
-    const LinearPart& part;
-    const IntervalLanes& interval;
+    const RayPart<curved>& part;
+    const IntervalLanes<curved>& interval;
     Number at, extent, depth, opacity;
 };
 
 // Adds light to the part's colour by Gauss' rule with three nodes, whose weights add up to the
 // part's opacity. Returns by how much light bends from node to node to node: what the rule misses
 // of a kink is .045 times that.
-template <std::size_t channels>
+template <std::size_t channels, bool curved>
 HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& gradient,
-                               const LitPart& lit, Number (&color)[3]) {
+                               const LitPart<curved>& lit, Number (&color)[3]) {
     using Rule = GaussRule<3>;
-    const LinearPart& part = lit.part;
+    const RayPart<curved>& part = lit.part;
     const CubicLanes& share = part.share;
-    const Number d[4] = {part.extinction + part.change * share.c[0],
-                         part.change * (Number(1 / 2.0f) * share.c[1]),
-                         part.change * (Number(1 / 3.0f) * share.c[2]),
-                         part.change * (Number(1 / 4.0f) * share.c[3])};
+    const CubicLanes mean_depth = part.mean_depth();
     const FloatMask deep = lit.depth > Number(largest_part_depth);
     Number total(1e-37f), change[channels], shared[channels], highlight[channels], bend[channels];
     for (std::size_t c = 0; c < channels; ++c)
@@ -230,10 +228,8 @@ HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& grad
     for (std::size_t i = 0; i < 3; ++i) {
         const Number t(Rule::nodes[i]);
         const Number there = share.at(t);
-        const Number before = t * (d[0] + t * (d[1] + t * (d[2] + t * d[3])));
-        const Number extinction = max(part.extinction + part.change * there, Number(0));
-        const Number seen =
-            Number(Rule::weights[i]) * extinction * (Number(1) - shallow_opacity(before));
+        const Number seen = Number(Rule::weights[i]) * part.extinction_at(t, there) *
+                            (Number(1) - shallow_opacity(t * mean_depth.at(t)));
         const Number amount = select(deep, Number(i == 0 ? 1.0f : 0.0f), seen);
         const EffectLanes<channels> effect =
             effect_at<channels>(light, gradient, lit.at + t * lit.extent);
@@ -259,8 +255,9 @@ HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& grad
     return most;
 }
 
+template <bool curved>
 HWY_INLINE Number add_light(const TileLight& light, const GradientLanes& gradient,
-                            const LitPart& lit, Number (&color)[3]) {
+                            const LitPart<curved>& lit, Number (&color)[3]) {
     return light.gray ? add_light_of<1>(light, gradient, lit, color)
                       : add_light_of<3>(light, gradient, lit, color);
 }

@@ -60,7 +60,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     const ValueRange unit =
         exact ? exact_range(transfer_function, facts.range, volume.type()) : range;
     transfer_.emplace(transfer_function, unit, plan_.uses_table() ? &plan_.table : nullptr,
-                      exact ? 0 : sampled_step_advance);
+                      exact ? 0 : sampled_step_advance, plan_.curve_error > 0);
     slabs_.transfer = &*transfer_;
     table_ms_ = tables.end();
     if (!volume_ || !volume_->serves(volume, unit, plan_)) {

@@ -39,6 +39,7 @@ std::string transfer_function_key(const TransferFunction& transfer_function) {
         hash.add(knot.value);
         add(hash, knot.optics.color);
         hash.add(knot.optics.extinction);
+        if (knot.smooth) hash.add("smooth");
     }
     return hash.hex();
 }

@@ -20,6 +20,7 @@ void expect_kept(const Scene& scene, const std::string& name) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(before[i].value, after[i].value) << name;
         EXPECT_EQ(before[i].optics, after[i].optics) << name;
+        EXPECT_EQ(before[i].smooth, after[i].smooth) << name;
     }
 }
 
@@ -41,6 +42,7 @@ TEST(SceneJson, KeepsEveryKey) {
         {"/mesh", {{"tolerance", .1 + .2}, {"max_tets", 77}, {"kuhn", true}}},
         {"/transfer_function/interpolation", "nearest"},
         {"/transfer_function/points/0", {{"value", 0}, {"opacity", 1}}},
+        {"/transfer_function/points/0", {{"value", 0}, {"extinction", 1}, {"smooth", true}}},
         {"/camera/projection", "perspective"},
         {"/camera/up", {.1, 1, 1. / 3}},
         {"/camera/fov_y", 33.3},
