@@ -55,8 +55,9 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
     }
     if (scene.slice.filter == Filter::hardware)
         return {Classification::post, 1, "exact segments have no use for the hardware's filter"};
-    // A tree's leaves may be longer than a slab.
-    if (slabs_of(scene, 1) < least || (scene.slice.tree && least > 1)) {
+    // Where neither samples nor a tree are asked for, segments get as short as they must be. A
+    // tree's leaves may be longer than a slab.
+    if (slabs_of(scene, least) < least || (scene.slice.tree && least > 1)) {
         return {Classification::post, 1,
                 fmt::format("rays may cross so many cells and points of the transfer function that "
                             "exact segments need {} slabs in this context",
@@ -69,7 +70,7 @@ ClassificationChoice choose_classification(const Scene& scene, const Facts& fact
                             "keep the error",
                             quicker->slabs, quicker_slabs_per_voxel)};
     }
-    return {Classification::exact, 1,
+    return {Classification::exact, least,
             "a ray is integrated cell by cell: no number of slabs has to be tried"};
 }
 

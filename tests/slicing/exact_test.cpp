@@ -325,6 +325,10 @@ TEST_P(ExactTest, RaysOfManyCellsAndPointsArePartedWhereLoopsAreLimited) {
     EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
     scene.slice.classification = Classification::automatic;
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
+              Classification::exact);
+    EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
+    scene.slice.samples = 1;  // too few
+    EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.classification,
               limited ? Classification::post : Classification::exact);
     scene.slice.tree = TreeSettings{.factors = {2}};
     scene.slice.samples = 64;

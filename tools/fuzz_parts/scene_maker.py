@@ -95,7 +95,8 @@ def omissions(dice):
     if kind == "all":
         return []
     return ["--no-omit"] if kind == "none" else ["--no-omit=" + dice.pick(
-        "empty_space", "early_termination", "constant_regions", "blending", "table", "length_layers", "color")]
+        "empty_space", "early_termination", "constant_regions", "blending", "table", "length_layers", "color",
+        "smooth_points")]
 
 
 def world_scale(dice):
