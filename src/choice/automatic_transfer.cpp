@@ -231,12 +231,15 @@ TransferFunction in_colors_of(const TransferFunction& function,
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferWishes& wishes) {
-    if (wishes.range) {
-        AutomaticTransfer chosen = within(values, *wishes.range);
-        chosen.transfer_function = in_colors_of(chosen.transfer_function, wishes.colormap);
-        return chosen;
-    }
     const Padding padding = find_padding(values, whole_numbers);
+    if (wishes.range) {
+        auto [function, reason] = within(values, *wishes.range);
+        function = in_colors_of(function, wishes.colormap);
+        // Below the range nothing shows. Padding inside it was asked for.
+        if (!padding.above || *padding.above <= wishes.range->hi) return {function, reason};
+        const double edge = std::max(padding.edge_above(), wishes.range->hi);
+        return {shown_below(function, edge), padding_text(padding) + reason};
+    }
     const auto [function, reason] = in_own_colors(padding, whole_numbers);
     TransferFunction colored = in_colors_of(function, wishes.colormap);
     if (padding.below) colored = shown_above(colored, padding.edge_below());

@@ -91,6 +91,13 @@ TEST(Padding, IsTransparent) {
     // A wished range is taken as it is.
     const auto wished = choose_transfer_function(below, true, {.range = ValueRange{-4000, 3000}});
     EXPECT_GT(wished.transfer_function.at(-3000).extinction, 0);
+    // Above one, values show as at its end, but for padding.
+    const auto part =
+        choose_transfer_function(with(flow, 9999, 100), false, {.range = ValueRange{20, 60}});
+    EXPECT_GT(part.transfer_function.at(100).extinction, 0);
+    EXPECT_EQ(part.transfer_function.at(9999).extinction, 0);
+    EXPECT_EQ(part.transfer_function.at(1000).extinction, 0);
+    EXPECT_EQ(part.reason.find("9999, "), 0u) << part.reason;
 }
 
 }  // namespace
