@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from . import cameras, emission, mesh_oracle, transfer, volume_oracle
+from . import cameras, emission, lights, mesh_oracle, transfer, volume_oracle
 from .program import Program
 
 EXACT = 0.05  # of exact segments, in 1/255
+CURVES = 0.17  # of cubics in place of pieces (docs/omissions.md, smooth_points), in 1/255
 CODES = {"float32": 2.0 ** -24, "float16": 2.0 ** -11, "fixed16": 0.5 / 65535, "fixed8": 0.5 / 255}
 TRACE = ["--method", "trace", "--set", "render.trace.tolerance=1e-7"]
 OF_MESH = ["--set", "render.trace.of=mesh"]
@@ -41,6 +42,9 @@ class Judge:
         self.program = Program(lamina, folder, seconds * max(1, pixels / MANY_PIXELS))
         self.verdict = Verdict(made.seed, made.labels, self.program.findings, commands=self.program.commands)
         self.optics = transfer.Optics(made.scene["transfer_function"])
+        self.lit = "lighting" in made.scene
+        if self.lit:
+            self.optics.brightest = lights.brightest(made.scene["lighting"], self.optics.brightest)
         self.render = made.scene["render"]
         self.max_error = self.render.get("max_error", 1)
         self.rays = cameras.Rays(made.scene["camera"], size["width"], size["height"])
@@ -64,7 +68,7 @@ class Judge:
         drawn = self.program.render("drawn", self.made.arguments)
         if drawn is None:
             self.verdict.refusal = getattr(self.program, "refusal", "")
-        if traced is not None:
+        if traced is not None and not self.lit:  # lit rays have cases of their own (tests/reference/lit_cases.json)
             self.tracer(traced)
         if traced is not None and drawn is not None:
             self.drawn(drawn, traced)
@@ -139,8 +143,9 @@ class Judge:
         if plan["target"] == "float32" and plan["classification"] == "exact":
             # Rays that graze a surface where extinction jumps may be off by more (docs/precision.md).
             most = numpy.quantile(error, 0.99)
-            self.check("exact", most, EXACT / 255 + self.left_out(plan), f" in all but a hundredth of {error.size} pixels")
-        elif plan["target"] == "float32" and exact:
+            promised = EXACT + (self.max_error if self.lit else 0) + (CURVES if "smooth_points" in self.names(drawn) else 0)
+            self.check("exact", most, promised / 255 + self.left_out(plan), f" in all but a hundredth of {error.size} pixels")
+        elif plan["target"] == "float32" and exact and not self.lit:
             self.slabs(drawn, plan)
         if plan["target"] != "float32":
             self.codes(drawn, plan, rounding)
@@ -216,15 +221,20 @@ class Judge:
         self.check("codes", numpy.abs(drawn.picture - exact.picture).max(2), bound + 2 * self.left_out(plan),
                    f" by {plan['slabs']} slabs")
 
+    @staticmethod
+    def names(drawn):
+        return {omission["name"] for omission in drawn.stats["omitted"]}
+
     def omitted(self, drawn, plan):
         """docs/omissions.md says what each changes; of tables it is not said by how much."""
-        names = {omission["name"] for omission in drawn.stats["omitted"]}
+        names = self.names(drawn)
         if not names or names & {"table", "length_layers"}:
             return
         full = self.program.render("full", [*self.made.arguments, "--no-omit", "--set",
                                             f"render.slice.samples={plan['slabs']}"])
         if full is not None:
-            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), self.left_out(plan),
+            bound = self.left_out(plan) + (CURVES / 255 if "smooth_points" in names else 0)
+            self.check("omit", numpy.abs(drawn.picture - full.picture).max(2), bound,
                        ": " + ", ".join(sorted(names)))
 
     # Projected tetrahedra.
@@ -242,7 +252,7 @@ class Judge:
             claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
         # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).
         error = numpy.abs(drawn.picture - traced).max(2)
-        claimed += self.optics.brightest * 5e-4
+        claimed += self.optics.brightest * 5e-4 + (self.max_error / 255 if self.lit else 0)
         self.check("tets", error, claimed + self.placed(traced, plan["geometry"] == "triangles", error - claimed),
                    f" by {plan['source']}, {plan['geometry']}")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from . import cameras, clips, meshes, transfer, volumes
+from . import cameras, clips, lights, meshes, transfer, volumes
 from .dice import Dice
 
 
@@ -116,7 +116,7 @@ def image(dice):
     return {"width": width, "height": height}
 
 
-def assembled(seed, dice, data, corner, edges, made):
+def assembled(seed, dice, data, corner, edges, made, lit):
     length = float(numpy.linalg.norm(edges.sum(1))) or float(numpy.abs(edges).max())
     made.scene["transfer_function"], made.labels["transfer"] = transfer.make(dice, data.finite_range(), length)
     made.scene["camera"], made.labels["camera"] = cameras.make(dice, corner, edges)
@@ -125,6 +125,10 @@ def assembled(seed, dice, data, corner, edges, made):
     if cuts.chance(0.2):
         made.scene["clip"] = clips.make(cuts, corner, edges, made.scene["camera"]["eye"])
         made.labels["clip"] = " and ".join(made.scene["clip"])
+    lamps = Dice(seed + (1 << 34))
+    if lamps.chance(0.12) or lit:
+        made.scene["lighting"] = lights.make(lamps, data.finite_range(), length)
+        made.labels["light"] = str(len(made.scene["lighting"].get("lights", [0])))
     if dice.chance(0.04):
         made.arguments += ["--context", "osmesa"]
     else:
@@ -132,7 +136,7 @@ def assembled(seed, dice, data, corner, edges, made):
     return made
 
 
-def volume_scene(seed, dice):
+def volume_scene(seed, dice, lit):
     volume = volumes.make(dice, world_scale(dice))
     low, high = volume.corners()
     corner, edges = volume.to_world(low), volume.steps * (high - low)
@@ -142,7 +146,7 @@ def volume_scene(seed, dice):
         volume.kind += " with NaN"
     made = RandomScene(seed, scene, {"volume.nrrd": volumes.nrrd(volume, dice)}, [], volume=volume,
                        labels={"data": f"{volume.type} {volume.kind}"})
-    made = assembled(seed, dice, volume, corner, edges, made)
+    made = assembled(seed, dice, volume, corner, edges, made, lit)
     if dice.chance(0.05) and volume.samples.size < 2000:
         made.scene["mesh"] = {"kuhn": True} if dice.chance(0.5) else {"tolerance": dice.log_between(0.005, 0.3),
                                                                       "max_tets": 3000}
@@ -152,7 +156,7 @@ def volume_scene(seed, dice):
     return made
 
 
-def mesh_scene(seed, dice):
+def mesh_scene(seed, dice, lit):
     mesh = meshes.make(dice, world_scale(dice))
     corner = mesh.points.min(0)
     edges = numpy.diag(mesh.points.max(0) - corner)
@@ -162,7 +166,7 @@ def mesh_scene(seed, dice):
         scene["nan"] = "transparent"
         mesh.kind += ", NaN"
     made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
-    made = assembled(seed, dice, mesh, corner, edges, made)
+    made = assembled(seed, dice, mesh, corner, edges, made, lit)
     if dice.chance(0.1):  # on a corner
         eye = mesh.points[dice.whole(0, len(mesh.points) - 1)]
         if numpy.linalg.norm(eye - made.scene["camera"]["center"]) > 1e-3 * numpy.abs(edges).max():
@@ -175,6 +179,6 @@ def mesh_scene(seed, dice):
     return made
 
 
-def make(seed):
+def make(seed, lit=False):
     dice = Dice(seed)
-    return volume_scene(seed, dice) if dice.chance(0.68) else mesh_scene(seed, dice)
+    return volume_scene(seed, dice, lit) if dice.chance(0.68) else mesh_scene(seed, dice, lit)
