@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""VTK's mappers on a scene of lamina's: same camera, same transfer function, black background, no shading.
+"""VTK's mappers on a scene of lamina's: same camera, same transfer function, black background. A lit volume is shaded
+with the same numbers and VTK's headlight. VTK shades flat regions, too, where lamina's light fades out: its errors are
+those of another definition there.
 
 A frame runs from the camera's change to glFinish; no files, no read-back. Frames are timed as VTK draws them, into 8
 bits. For its errors the same picture is drawn once more into a float32 target that takes the place of the window's
@@ -75,6 +77,22 @@ def mesh_property(scene):
     points = transfer_points(scene)
     unit = 1 / (max(extinction for _, _, extinction in points) or 1)
     return make_property(points, [(value, unit * extinction) for value, _, extinction in points], unit)
+
+
+def shade(scene, properties):
+    """Light as VTK has it, where the scene has a headlight alone."""
+    lighting = scene.json.get("lighting")
+    if lighting is None:
+        return properties
+    lights = lighting.get("lights", [{}])
+    if len(lights) != 1 or lights[0].get("direction", "headlight") != "headlight" or "color" in lights[0]:
+        raise SystemExit(f"bench: {scene.path}: lighting.lights: expected one white headlight, as VTK's own light is")
+    properties.ShadeOn()
+    properties.SetAmbient(lighting.get("ambient", 0.1))
+    properties.SetDiffuse(lighting.get("diffuse", 0.7))
+    properties.SetSpecular(lighting.get("specular", 0.2))
+    properties.SetSpecularPower(lighting.get("power", 10))
+    return properties
 
 
 class Window:
@@ -168,12 +186,14 @@ def volume_window(scene, size, steps_a_voxel):
     mapper.SetInputData(image)
     mapper.AutoAdjustSampleDistancesOff()  # else it may draw fewer pixels
     mapper.SetSampleDistance(min(spacings) / steps_a_voxel)
-    return Window(scene, mapper, volume_property(scene), size)
+    return Window(scene, mapper, shade(scene, volume_property(scene)), size)
 
 
 def mesh_window(scene, size):
     """Projected tetrahedra: sorted by cell centres, classified at the vertices, interpolated without perspective."""
     path = scene.data_file()
+    if "lighting" in scene.json:
+        raise SystemExit(f"bench: {scene.path}: lighting: VTK's mapper of tets has no shading")
     if path.suffix not in (".vtu", ".vtk"):
         raise SystemExit(f"bench: {scene.path}: mesh: expected a .vtu or .vtk file, which VTK can read")
     reader = vtk.vtkXMLUnstructuredGridReader() if path.suffix == ".vtu" else vtk.vtkUnstructuredGridReader()
