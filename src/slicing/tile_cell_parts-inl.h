@@ -77,8 +77,7 @@ struct CellParts {
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit: cubic[0] + t (cubic[1] + ...), t from 0 to 1.
     alignas(64) float cubic[4][capacity];
-    // Of parts that are lit: the gradient as cubics likewise, and the direction to the eye.
-    alignas(64) float gradient[3][4][capacity];
+    // Of parts that are lit: the direction to the eye.
     alignas(64) float to_eye[3][capacity];
     // Associated colour, opacity and optical depth that the part adds to its ray.
     alignas(64) float color[3][capacity];

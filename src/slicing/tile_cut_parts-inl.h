@@ -26,7 +26,8 @@ class CutParts {
     // Adds the `members` of a vector of parts, of which `first` is the number of the first.
     // `longest`: share of the part that a piece may have; of lit parts alone.
     HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length, Number longest,
-                        std::size_t first) {
+                        std::size_t first, const GradientLanes* gradient) {
+        if (gradient != nullptr) append_gradient(members, *gradient);
         append(members, cubic, length, longest,
                hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
     }
@@ -58,6 +59,7 @@ class CutParts {
         Ints interval;
         Number color[3], opacity, depth, transmittance;
         Ints part;
+        GradientLanes gradient;  // of lit parts alone
     };
 
     // The next monotone stretch of each part, as far as it stays in one interval.
@@ -79,6 +81,16 @@ class CutParts {
         count_ += hn::CountTrue(FloatTag(), members);
     }
 
+    // Before append().
+    HWY_INLINE void append_gradient(FloatMask members, const GradientLanes& gradient) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t power = 0; power < 4; ++power)
+                store_members(gradient.along[axis].c[power].v, members,
+                              gradient_[axis][power] + count_);
+            store_members(gradient.to_eye[axis].v, members, to_eye_[axis] + count_);
+        }
+    }
+
     // Composites the next piece of each part.
     template <Lookup kind, bool curved, bool first>
     void run_round(const TileTransfer& transfer, bool colored, CellParts& parts) {
@@ -94,7 +106,7 @@ class CutParts {
                 lanes[i] = first ? begin<kind>(transfer, place, members) : load(place, members);
             }
             FloatMask done[vectors];
-            add_pieces<kind, curved>(transfer, parts, colored, used, lanes, done);
+            add_pieces<kind, curved>(transfer, colored, used, lanes, done);
             for (std::size_t i = 0; i < used; ++i) {
                 const FloatMask members = hn::FirstN(d, count - from - i * step);
                 finish(lanes[i], hn::And(members, done[i]), parts);
@@ -110,6 +122,12 @@ class CutParts {
             lanes.cubic.c[i] = zero_unless(members, hn::LoadU(FloatTag(), cubic_[i] + from));
         lanes.length = zero_unless(members, hn::LoadU(FloatTag(), length_ + from));
         lanes.longest = hn::LoadU(FloatTag(), longest_ + from);
+        for (std::size_t axis = 0; light_ != nullptr && axis < 3; ++axis) {
+            for (std::size_t power = 0; power < 4; ++power)
+                lanes.gradient.along[axis].c[power] =
+                    hn::LoadU(FloatTag(), gradient_[axis][power] + from);
+            lanes.gradient.to_eye[axis] = hn::LoadU(FloatTag(), to_eye_[axis] + from);
+        }
         // Those outside `members` are places, too.
         lanes.part = hn::IfThenElseZero(hn::RebindMask(IntTag(), members),
                                         hn::LoadU(IntTag(), part_ + from));
@@ -163,6 +181,7 @@ class CutParts {
     HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (hn::AllFalse(FloatTag(), members)) return;
         const std::size_t to = count_;
+        if (light_ != nullptr) append_gradient(members, lanes.gradient);
         append(members, lanes.cubic, lanes.length, lanes.longest, lanes.part);
         store_members(lanes.turns[0].v, members, turns_[0] + to);
         store_members(lanes.turns[1].v, members, turns_[1] + to);
@@ -193,9 +212,8 @@ class CutParts {
 
     // Finds the lanes that have reached the end.
     template <Lookup kind, bool curved>
-    HWY_INLINE void add_pieces(const TileTransfer& transfer, const CellParts& parts, bool colored,
-                               std::size_t used, Lanes (&lanes)[vectors],
-                               FloatMask (&done)[vectors]) {
+    HWY_INLINE void add_pieces(const TileTransfer& transfer, bool colored, std::size_t used,
+                               Lanes (&lanes)[vectors], FloatMask (&done)[vectors]) {
         constexpr int usual_steps = 2, most_steps = 30;
         static_assert(vectors == 2);
         Stretch<curved> stretches[vectors];
@@ -207,8 +225,7 @@ class CutParts {
         for (int i = 0; i < usual_steps || (i < most_steps && !found()); ++i) {
             for (std::size_t j = 0; j < used; ++j) stretches[j].root.refine(lanes[j].cubic);
         }
-        for (std::size_t i = 0; i < used; ++i)
-            done[i] = add_piece(parts, colored, stretches[i], lanes[i]);
+        for (std::size_t i = 0; i < used; ++i) done[i] = add_piece(colored, stretches[i], lanes[i]);
     }
 
     template <Lookup kind, bool curved>
@@ -233,8 +250,8 @@ class CutParts {
 
     // Returns the lanes that have reached the end.
     template <bool curved>
-    HWY_INLINE FloatMask add_piece(const CellParts& parts, bool colored,
-                                   const Stretch<curved>& stretch, Lanes& lanes) const {
+    HWY_INLINE FloatMask add_piece(bool colored, const Stretch<curved>& stretch,
+                                   Lanes& lanes) const {
         const IntTag di;
         const Number to = select(stretch.crosses, stretch.root.t, stretch.end);
         const Number at_to = select(stretch.crosses, stretch.knot, stretch.at_end);
@@ -252,7 +269,7 @@ class CutParts {
         if (light_ == nullptr || !colored) {
             composite(stretch.interval, part, colored, lanes);
         } else {
-            const FloatMask again = composite_lit(stretch.interval, part, extent, parts, lanes);
+            const FloatMask again = composite_lit(stretch.interval, part, extent, lanes);
             lanes.longest =
                 select(again, extent * Number(0.5f), max(lanes.longest, extent * Number(2)));
             // These stay where they are.
@@ -337,7 +354,7 @@ class CutParts {
     template <bool curved>
     HWY_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
                                        const RayPart<curved>& part, Number extent,
-                                       const CellParts& parts, Lanes& lanes) const {
+                                       Lanes& lanes) const {
         const Number depth = part.depth();
         const Number opacity = opacity_from_depth(FloatTag(), depth.v);
         const FloatMask deep = depth > Number(largest_part_depth);
@@ -347,7 +364,7 @@ class CutParts {
         for (std::size_t channel = 0; channel < 3; ++channel)
             color[channel] = interval.color(channel, opacity, share);
         const Number bend =
-            add_light(*light_, gather_gradients(parts, lanes.part),
+            add_light(*light_, lanes.gradient,
                       LitPart<curved>{part, interval, lanes.at, extent, depth, opacity}, color);
         const Number transmittance = lanes.transmittance, weight = transmittance * opacity;
         const FloatMask again =
@@ -370,6 +387,8 @@ class CutParts {
     alignas(64) float length_[capacity];
     alignas(64) float longest_[capacity];
     alignas(64) std::int32_t part_[capacity];
+    alignas(64) float gradient_[3][4][capacity];
+    alignas(64) float to_eye_[3][capacity];
     // From the second round on:
     alignas(64) float turns_[2][capacity];
     alignas(64) float at_[capacity];

@@ -219,10 +219,12 @@ class CellIntegrator {
             hard = hn::And(stored, hard);
             store_number(shown_depth, parts_.depth + i);
             if (colored_) set_colors(interval, part, shown_depth, i);
+            const bool lit = slabs_.light != nullptr && colored_;
             Number longest(1);
-            if (slabs_.light != nullptr && colored_)
-                longest = add_light_to(interval, part, shown_depth, i, hard);
-            if (!hn::AllFalse(d, hard)) cut_.add(hard, cubic, length, longest, i);
+            GradientLanes gradient;
+            if (lit) longest = add_light_to(interval, part, shown_depth, i, gradient, hard);
+            if (!hn::AllFalse(d, hard))
+                cut_.add(hard, cubic, length, longest, i, lit ? &gradient : nullptr);
         });
         if (!cut_.empty()) cut_.run<kind, curved>(transfer, slabs_.light, colored_, parts_);
     }
@@ -232,11 +234,11 @@ class CellIntegrator {
     template <bool curved>
     HWY_INLINE Number add_light_to(const IntervalLanes<curved>& interval,
                                    const RayPart<curved>& part, Number depth, std::size_t i,
-                                   FloatMask& hard) {
+                                   GradientLanes& gradient, FloatMask& hard) {
         const FloatTag d;
         const FloatMask seen = hn::And(members_from(i), depth > Number(0));
         if (hn::AllFalse(d, hn::Or(seen, hard))) return Number(1);
-        const GradientLanes gradient = set_gradients(view_->brick, i, parts_.count - i, parts_);
+        gradient = set_gradients(view_->brick, i, parts_.count - i, parts_);
         Number color[3] = {load_number(parts_.color[0] + i), load_number(parts_.color[1] + i),
                            load_number(parts_.color[2] + i)};
         const Number opacity = load_number(parts_.opacity + i);

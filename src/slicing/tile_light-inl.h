@@ -72,7 +72,7 @@ HWY_INLINE GradientPair unpack_gradients(const std::uint32_t* row) {
 
 // Sets the gradients of a vector of parts from part i on, of which the first `count` are there.
 HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, std::size_t count,
-                                       CellParts& parts) {
+                                       const CellParts& parts) {
     alignas(64) std::int32_t index[most_lanes] = {};
     std::memcpy(index, parts.index + i,
                 std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
@@ -94,20 +94,6 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, st
     for (std::size_t axis = 0; axis < 3; ++axis) {
         lanes.along[axis] = cubic_along(corners[axis], Number(0), place, change);
         lanes.to_eye[axis] = load_number(parts.to_eye[axis] + i);
-        for (std::size_t power = 0; power < 4; ++power)
-            store_number(lanes.along[axis].c[power], parts.gradient[axis][power] + i);
-    }
-    return lanes;
-}
-
-// Those of any parts.
-HWY_INLINE GradientLanes gather_gradients(const CellParts& parts, Ints part) {
-    const FloatTag d;
-    GradientLanes lanes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t power = 0; power < 4; ++power)
-            lanes.along[axis].c[power] = hn::GatherIndex(d, parts.gradient[axis][power], part);
-        lanes.to_eye[axis] = hn::GatherIndex(d, parts.to_eye[axis], part);
     }
     return lanes;
 }
