@@ -21,6 +21,7 @@ constexpr double missed_of_kink = 0.045;
 void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
     if (!scene.lighting) return;
     slice.lighting = scene.lighting;
+    if (slice.classification != Classification::exact) return;
     slice.light_error = light_share * scene.max_error;
     slice.most_bend =
         bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);

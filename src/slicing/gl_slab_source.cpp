@@ -75,6 +75,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (!plan.table.colored) return defines;
     defines.set("TABLE_COLORED", 1);
     defines.set("TABLE_LAYERS", plan.table.length_layers);
+    if (plan.table.lit) defines.set("TABLE_LIT", 1);
     return defines;
 }
 

@@ -70,15 +70,11 @@ HWY_INLINE GradientPair unpack_gradients(const std::uint32_t* row) {
             {low_half(upper_xy), low_half(hn::ShiftRight<16>(upper_xy)), low_half(upper_z)}};
 }
 
-// Sets the gradients of a vector of parts from part i on, of which the first `count` are there.
-HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, std::size_t count,
-                                       CellParts& parts) {
-    alignas(64) std::int32_t index[most_lanes] = {};
-    std::memcpy(index, parts.index + i,
-                std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
+// Of the cells with the lowest corners `index`.
+HWY_INLINE void gradient_corners(const TileBrick& brick, const std::int32_t* index,
+                                 Corners (&corners)[3]) {
     alignas(64) GradientRows rows;
     fetch_gradients(brick, index, rows);
-    Corners corners[3];
     for (std::size_t row = 0; row < 4; ++row) {
         const GradientPair pair = unpack_gradients(rows[row]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -86,6 +82,25 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, st
             corners[axis].upper[row] = pair.upper[axis];
         }
     }
+}
+
+// The gradients at points of cells.
+HWY_INLINE void interpolate_gradients(const TileBrick& brick, const std::int32_t* index,
+                                      const Floats (&share)[3], Number (&gradient)[3]) {
+    Corners corners[3];
+    gradient_corners(brick, index, corners);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        gradient[axis] = interpolate(corners[axis], share[0], share[1], share[2]);
+}
+
+// Sets the gradients of a vector of parts from part i on, of which the first `count` are there.
+HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, std::size_t count,
+                                       CellParts& parts) {
+    alignas(64) std::int32_t index[most_lanes] = {};
+    std::memcpy(index, parts.index + i,
+                std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
+    Corners corners[3];
+    gradient_corners(brick, index, corners);
     const Number place[3] = {load_number(parts.place[0] + i), load_number(parts.place[1] + i),
                              load_number(parts.place[2] + i)};
     const Number change[3] = {load_number(parts.change[0] + i), load_number(parts.change[1] + i),
@@ -139,14 +154,13 @@ struct EffectLanes {
 };
 
 template <std::size_t channels>
-HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const GradientLanes& gradient,
-                                           Number t) {
-    const Number g[3] = {gradient.along[0].at(t), gradient.along[1].at(t), gradient.along[2].at(t)};
+HWY_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Number (&g)[3],
+                                           const Number (&to_eye_unit)[3]) {
     const Number square = dot(g, g);
     const Number weight = square / (square + Number(light.smallest_square));
     const Number inverse_root = Number(1) / Number(hn::Sqrt(max(square, Number(1e-37f)).v));
     EffectLanes<channels> effect;
-    const Number to_eye = dot(g, gradient.to_eye) * inverse_root;
+    const Number to_eye = dot(g, to_eye_unit) * inverse_root;
     for (std::size_t c = 0; c < channels; ++c) {
         effect.change[c] = Number(light.ambient - 1);
         effect.highlight[c] = Number(0);
@@ -159,7 +173,7 @@ HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const Gradien
                                         Number(direction.to_light[2])};
             along = dot(g, to_light) * inverse_root;
             // |l + v|^2; where it is 0 there is no highlight.
-            const Number sum = Number(2) + Number(2) * dot(to_light, gradient.to_eye);
+            const Number sum = Number(2) + Number(2) * dot(to_light, to_eye_unit);
             const Number both = along + to_eye;
             const Number halfway = both * both / max(sum, Number(1e-12f));
             halfway_square = zero_unless(sum > Number(1e-6f), halfway);
@@ -179,6 +193,13 @@ HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const Gradien
         effect.highlight[c] = weight * effect.highlight[c];
     }
     return effect;
+}
+
+template <std::size_t channels>
+HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const GradientLanes& gradient,
+                                           Number t) {
+    const Number g[3] = {gradient.along[0].at(t), gradient.along[1].at(t), gradient.along[2].at(t)};
+    return effect_of<channels>(light, g, gradient.to_eye);
 }
 
 // What may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays
@@ -277,9 +298,7 @@ inline constexpr float shortest_lit_piece = 1.0f / 256;
 
 // Parts whose light bends too much for one rule.
 HWY_INLINE FloatMask bends(const TileLight& light, Number bend, Number opacity) {
-    constexpr float faint = 1.0f / 8;
-    return hn::And(bend > Number(light.most_bend),
-                   bend * opacity > Number(faint * light.most_bend));
+    return hn::And(bend > Number(light.most_bend), bend * opacity > Number(light.faint_bend));
 }
 
 }  // namespace lamina::HWY_NAMESPACE

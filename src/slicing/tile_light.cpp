@@ -16,6 +16,9 @@ constexpr double most_growth = 0.7;
 // A highlight falls to exp(-1/2) at an angle of 1 / sqrt(power). Of six times that, a node of three
 // lies within 1.2 times that of any peak.
 constexpr double peak_widths = 3;
+// Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
+// light of strength 1, and the more the stronger it is.
+constexpr double faint_share = 1.0 / 8;
 
 TileLight::Direction direction_of(const Light& light, const Grid& grid) {
     TileLight::Direction direction;
@@ -52,13 +55,14 @@ TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gra
     for (std::size_t axis = 0; axis < 3; ++axis)
         light.spacing[axis] = static_cast<float>(glm::length(grid.step[axis]));
     light.most_bend = static_cast<float>(most_bend);
+    const double largest = RayLights(lighting, glm::dvec3(0, 0, 1)).largest_effect(1);
+    light.largest_effect = static_cast<float>(largest);
+    light.faint_bend = static_cast<float>(faint_share * most_bend / std::max(largest, 1.0));
     light.most_turn = static_cast<float>(most_growth);
     if (lighting.specular > 0) {
         light.most_turn =
             static_cast<float>(std::min(most_growth, peak_widths / std::sqrt(lighting.power)));
     }
-    light.largest_effect =
-        static_cast<float>(RayLights(lighting, glm::dvec3(0, 0, 1)).largest_effect(1));
     return light;
 }
 

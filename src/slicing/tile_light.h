@@ -26,6 +26,8 @@ struct TileLight {
     std::array<float, 3> spacing{};  // of samples, in the unit of lengths along rays
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
+    // Unless it bends, times the part's opacity, by less than this: too faint to be looked at.
+    float faint_bend = 0;
     // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
     // may be dips and highlights between the nodes, of up to the largest effect that light has.
     float most_turn = 0, largest_effect = 0;

@@ -218,12 +218,6 @@ TEST(LitTest, ThePlanLeavesOutWhatLightDoesNotNeed) {
 TEST(LitTest, WhatCannotBeDrawnLitIsRefused) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
-    for (const Classification each : {Classification::post, Classification::preintegrated}) {
-        scene.slice.classification = each;
-        expect_error([&] { render_tiles(volume, scene); },
-                     {"render.slice.classification", name_of(each), "\"exact\""});
-    }
-    scene.slice.classification = Classification::automatic;
     Capabilities other = tile_capabilities();
     other.tiles = false;
     expect_error([&] { render_tiles(volume, scene, {}, other); }, {"lighting", "--context cpu"});
