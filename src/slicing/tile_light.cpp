@@ -16,6 +16,9 @@ constexpr double most_growth = 0.7;
 // A highlight falls to exp(-1/2) at an angle of 1 / sqrt(power). Of six times that, a node of three
 // lies within 1.2 times that of any peak.
 constexpr double peak_widths = 3;
+// That serves where light does so many times what it may bend, as usual light does at max_error 1.
+// What a rule of three nodes misses of what is smooth falls with the sixth power of the turn.
+constexpr double usual_effect = 25, order = 6;
 // Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
 // light of strength 1, and the more the stronger it is.
 constexpr double faint_share = 1.0 / 8;
@@ -30,6 +33,7 @@ TileLight::Direction direction_of(const Light& light, const Grid& grid) {
             direction.to_light[i] = static_cast<float>(along);
         }
     }
+    direction.largest_color = *std::ranges::max_element(direction.color);
     return direction;
 }
 
@@ -63,6 +67,8 @@ TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gra
         light.most_turn =
             static_cast<float>(std::min(most_growth, peak_widths / std::sqrt(lighting.power)));
     }
+    const double excess = largest / (usual_effect * most_bend);
+    if (excess > 1) light.most_turn *= static_cast<float>(std::pow(excess, -1 / order));
     return light;
 }
 

@@ -16,6 +16,7 @@ struct TileLight {
         bool to_eye = false;  // a headlight
         std::array<float, 3> to_light{};
         std::array<float, 3> color{};
+        float largest_color = 0;
     };
     std::vector<Direction> directions;
     bool gray = false;  // all components of each colour are equal
