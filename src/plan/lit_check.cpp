@@ -14,13 +14,9 @@ void check_smallest_gradient(const Scene& scene) {
 
 }  // namespace
 
-void check_lit_slicing(const Scene& scene, const Capabilities& capabilities) {
+void check_lit_slicing(const Scene& scene) {
     if (!scene.lighting) return;
     check_smallest_gradient(scene);
-    if (!capabilities.tiles) {
-        fail("{}: lighting: expected --context cpu: only the native engine draws lit slices: {}",
-             scene.file.string(), capabilities.renderer);
-    }
 }
 
 // The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have

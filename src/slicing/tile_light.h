@@ -6,11 +6,11 @@
 
 #include "lamina/grid.h"
 #include "lamina/lighting.h"
+#include "slicing/smallest_gradient.h"
 
 namespace lamina {
 
-// A lighting as vectors compute it, in the axes of a grid and the unit of its gradient map
-// (slicing/gradient_map.h).
+// A lighting as vectors compute it, in the axes of a grid.
 struct TileLight {
     struct Direction {
         bool to_eye = false;  // a headlight
@@ -21,9 +21,9 @@ struct TileLight {
     std::vector<Direction> directions;
     bool gray = false;  // all components of each colour are equal
     float ambient = 0, diffuse = 0, specular = 0;
-    float half_power = 0;            // of the square of a cosine
-    int whole_half_power = 0;        // the same where it is a whole number, else 0
-    float smallest_square = 0;       // of the smallest gradient
+    float half_power = 0;      // of the square of a cosine
+    int whole_half_power = 0;  // the same where it is a whole number, else 0
+    SmallestGradient smallest;
     std::array<float, 3> spacing{};  // of samples, in the unit of lengths along rays
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
@@ -34,8 +34,7 @@ struct TileLight {
     float most_turn = 0, largest_effect = 0;
 };
 
-// `grid`: in the unit of lengths along rays. `gradient_scale`: of the gradient map.
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gradient_scale,
-                          double most_bend);
+// `grid`: in the unit of lengths along rays.
+TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double most_bend);
 
 }  // namespace lamina

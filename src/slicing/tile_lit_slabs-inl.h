@@ -56,9 +56,9 @@ HWY_INLINE void visit_light(const TileLight& light, const TileBrick& brick, cons
             for (int axis = 0; axis < 3; ++axis) shares[i][axis] = cell.share[axis];
         }
         for (int i = 0; i < count; ++i) {
-            Number gradient[3];
-            interpolate_gradients(brick, index[i], shares[i], gradient);
-            visit(begin + i, effect_of<channels>(light, gradient, eye.to_eye));
+            const PointGradient gradient = gradient_at(brick, light, index[i], shares[i]);
+            visit(begin + i,
+                  effect_of<channels>(light, gradient.along, gradient.smallest_square, eye.to_eye));
         }
     }
 }
