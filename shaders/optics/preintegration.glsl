@@ -10,24 +10,30 @@ uniform float layers_per_length;
 #else
 uniform sampler2D preintegration;
 #endif
+// TABLE_LIT: front parts (optics/front_parts.h) of emission in rgb and of extinction in a, in the same places.
+#ifdef TABLE_LIT
+uniform sampler3D front_parts;
+#endif
 
 // Returns the coordinate of a scalar in the table. Whole numbers are nodes.
 float table_node(vec4 place, float scalar) { return place.z + share_of_interval(place, scalar) * place.w; }
 
 #ifdef TABLE_COLORED
-vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, ivec3(node, layer), 0); }
+#define TABLE_SAMPLER sampler3D
+vec4 table_texel(TABLE_SAMPLER table, ivec2 node, int layer) { return texelFetch(table, ivec3(node, layer), 0); }
 #else
-vec4 table_texel(ivec2 node, int layer) { return texelFetch(preintegration, node, 0).rrrr; }
+#define TABLE_SAMPLER sampler2D
+vec4 table_texel(TABLE_SAMPLER table, ivec2 node, int layer) { return texelFetch(table, node, 0).rrrr; }
 #endif
 
 // Interpolates bilinearly, in float32, between the four nodes around `nodes`.
-vec4 table_layer(vec2 nodes, int layer) {
+vec4 table_layer(TABLE_SAMPLER table, vec2 nodes, int layer) {
     ivec2 corner = min(ivec2(nodes), ivec2(TABLE_NODES - 2));
     vec2 share = nodes - vec2(corner);
-    vec4 front = table_texel(corner, layer);
-    vec4 back = table_texel(corner + ivec2(0, 1), layer);
-    front += share.x * (table_texel(corner + ivec2(1, 0), layer) - front);
-    back += share.x * (table_texel(corner + ivec2(1, 1), layer) - back);
+    vec4 front = table_texel(table, corner, layer);
+    vec4 back = table_texel(table, corner + ivec2(0, 1), layer);
+    front += share.x * (table_texel(table, corner + ivec2(1, 0), layer) - front);
+    back += share.x * (table_texel(table, corner + ivec2(1, 1), layer) - back);
     return front + share.y * (back - front);
 }
 
@@ -38,37 +44,62 @@ float table_extinction(vec2 nodes) {
 #elif defined(TABLE_FILTERED)
     return texture(preintegration, (nodes + 0.5) / float(TABLE_NODES)).r;
 #else
-    return table_layer(nodes, 0).a;
+    return table_layer(preintegration, nodes, 0).a;
 #endif
 }
+
+#ifdef TABLE_COLORED
+// Returns what a table has at table nodes and a length.
+vec4 table_numbers(sampler3D table, vec2 nodes, float world_length) {
+    float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
+#ifdef TABLE_FILTERED
+    return texture(table, vec3((nodes + 0.5) / float(TABLE_NODES), (layer + 0.5) / float(TABLE_LAYERS)));
+#elif TABLE_LAYERS == 1
+    return table_layer(table, nodes, 0);
+#else
+    int below = min(int(layer), TABLE_LAYERS - 2);
+    vec4 entry = table_layer(table, nodes, below);
+    return entry + (layer - float(below)) * (table_layer(table, nodes, below + 1) - entry);
+#endif
+}
+#endif
 
 // Returns emission (rgb, with a coloured table) and mean extinction (a) at table nodes.
 vec4 table_entry(vec2 nodes, float world_length) {
-#ifndef TABLE_COLORED
+#ifdef TABLE_COLORED
+    return table_numbers(preintegration, nodes, world_length);
+#else
     return vec4(table_extinction(nodes));
-#else
-    float layer = min(world_length * layers_per_length, float(TABLE_LAYERS - 1));
-#ifdef TABLE_FILTERED
-    return texture(preintegration,
-                   vec3((nodes + 0.5) / float(TABLE_NODES), (layer + 0.5) / float(TABLE_LAYERS)));
-#elif TABLE_LAYERS == 1
-    return table_layer(nodes, 0);
-#else
-    int below = min(int(layer), TABLE_LAYERS - 2);
-    vec4 entry = table_layer(nodes, below);
-    return entry + (layer - float(below)) * (table_layer(nodes, below + 1) - entry);
-#endif
 #endif
 }
 
-// Adds a run between two table nodes behind `sum` (associated colour, optical depth in a).
-void add_run(inout vec4 sum, vec2 nodes, float world_length) {
+// A segment from the front on: associated colour, optical depth in a. Of lit ones also the front parts of colour and
+// opacity, and the share of the segment's length that is still behind.
+struct RunSum {
+    vec4 whole;
+#ifdef TABLE_LIT
+    vec4 front;
+    float behind;
+#endif
+};
+
+// Adds a run between two table nodes behind `sum`. `share`: of the segment's length.
+void add_run(inout RunSum sum, vec2 nodes, float world_length, float share) {
     vec4 entry = table_entry(nodes, world_length);
     float depth = entry.a * world_length;
-#ifdef TABLE_COLORED
-    if (depth > 0.0) sum.rgb += exp(-sum.a) * opacity_from_depth(depth) / entry.a * entry.rgb;
+#ifdef TABLE_LIT
+    sum.behind = max(sum.behind - share, 0.0);
 #endif
-    sum.a += depth;
+#ifdef TABLE_COLORED
+    if (depth > 0.0) {
+        float weight = exp(-sum.whole.a) * opacity_from_depth(depth) / entry.a;
+        sum.whole.rgb += weight * entry.rgb;
+#ifdef TABLE_LIT
+        sum.front += weight * (sum.behind * entry + share * table_numbers(front_parts, nodes, world_length));
+#endif
+    }
+#endif
+    sum.whole.a += depth;
 }
 
 // Returns whether a segment on which the scalar stays between two values is transparent.
@@ -78,11 +109,11 @@ bool is_transparent(float least, float largest) {
     return table_extinction(nodes) == 0.0;
 }
 
-// Returns the associated colour and the optical depth (a) of a segment on which the scalar is linear from `front` to
+// Returns the associated colour and the optical depth of a segment on which the scalar is linear from `front` to
 // `back`. The table is smooth inside the transfer function's intervals and not across their ends, so the run is cut
 // at the first and at the last of these. It is a loop, with no passes for transparent segments, because software
 // rasterisers skip loops but not branches.
-vec4 integrate_run(float front, float back, float world_length, bool transparent) {
+RunSum integrate_run(float front, float back, float world_length, bool transparent) {
     int front_interval = find_interval(front);
     int back_interval = find_interval(back);
     vec4 front_place = interval_place(front_interval);
@@ -107,9 +138,14 @@ vec4 integrate_run(float front, float back, float world_length, bool transparent
         nodes.y = rising ? front_place.z + front_place.w : front_place.z;
         run_length = (first.x - front) * length_per_scalar;
     }
-    vec4 sum = vec4(0.0);
+    RunSum sum;
+    sum.whole = vec4(0.0);
+#ifdef TABLE_LIT
+    sum.front = vec4(0.0);
+    sum.behind = 1.0;
+#endif
     for (int run = 0; run < runs; ++run) {
-        add_run(sum, nodes, run_length);
+        add_run(sum, nodes, run_length, run_length / world_length);
         nodes = run == 0 ? inner_nodes : back_nodes;
         run_length = run == 0 ? inner_length : back_length;
     }

@@ -37,7 +37,7 @@ uniform vec3 single_color;
 vec4 tet_color() {
     TetRun run = find_run();
     float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
-    vec4 sum = integrate_run(front, back, run.world_length, is_transparent(min(front, back), max(front, back)));
+    vec4 sum = integrate_run(front, back, run.world_length, is_transparent(min(front, back), max(front, back))).whole;
     float opacity = opacity_from_depth(sum.a);
 #ifdef TABLE_COLORED
     return vec4(sum.rgb, opacity);

@@ -37,7 +37,24 @@ uniform vec3 single_color;
 struct Segment {
     vec3 color;
     DEPTH depth;
+#ifdef TABLE_LIT
+    vec4 front;  // front parts (optics/front_parts.h) of colour and opacity, per opacity
+#endif
 };
+
+Segment segment_of(vec3 color, DEPTH depth) {
+    Segment segment;
+    segment.color = color;
+    segment.depth = depth;
+#ifdef TABLE_LIT
+    segment.front = vec4(0.0);
+#endif
+    return segment;
+}
+
+#if defined(LIGHTS) && !defined(EXACT)
+#include "slicing/slab_light.glsl"
+#endif
 
 REAL world_length(Ray ray, REAL2 depths) { return (depths.y - depths.x) * ray.length_per_depth; }
 
@@ -82,7 +99,7 @@ Segment integrate_linear_run(float front, float back, float world_length) {
 // Integrates a segment whose scalars at both ends and in the middle are known.
 Segment integrate_samples(float front, float middle, float back, float world_length) {
 #ifdef NAN_TRANSPARENT
-    if (is_nan(front) || is_nan(middle) || is_nan(back)) return Segment(vec3(0.0), DEPTH(0.0));
+    if (is_nan(front) || is_nan(middle) || is_nan(back)) return segment_of(vec3(0.0), DEPTH(0.0));
 #endif
 #ifndef LINEAR
     // A segment is empty where all values between the least and the largest sample are transparent, so that empty
@@ -101,22 +118,37 @@ Segment integrate_samples(float front, float middle, float back, float world_len
 #ifdef LINEAR
     return integrate_linear_run(front, back, world_length);
 #else
-    vec4 run = integrate_run(front, back, world_length, transparent);
+    RunSum run = integrate_run(front, back, world_length, transparent);
+    vec4 whole = run.whole;
+    Segment segment = segment_of(vec3(0.0), DEPTH(whole.a));
 #ifndef SINGLE_COLOR
-    if (run.a > 0.0) run.rgb /= opacity_from_depth(run.a);
+    if (whole.a > 0.0) {
+        float opacity = opacity_from_depth(whole.a);
+        whole.rgb /= opacity;
+#ifdef TABLE_LIT
+        segment.front = run.front / opacity;
 #endif
-    return Segment(color_or_single(run.rgb), DEPTH(run.a));
+    }
+#endif
+    segment.color = color_or_single(whole.rgb);
+    return segment;
 #endif
 }
 
 Segment integrate(Ray ray, REAL2 depths) {
-    return integrate_samples(sample_scalar(point_at(ray, depths.x)),
-                             sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y))),
-                             sample_scalar(point_at(ray, depths.y)), float(world_length(ray, depths)));
+    Segment segment = integrate_samples(sample_scalar(point_at(ray, depths.x)),
+                                        sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y))),
+                                        sample_scalar(point_at(ray, depths.y)), float(world_length(ray, depths)));
+#ifdef LIGHTS
+    LitEnd end = unknown_end();
+    light_segment(ray, depths, end, segment);
+#endif
+    return segment;
 }
 #else
 Segment integrate(Ray ray, REAL2 depths) {
-    float scalar = sample_scalar(point_at(ray, 0.5 * (depths.x + depths.y)));
+    REAL middle = 0.5 * (depths.x + depths.y);
+    float scalar = sample_scalar(point_at(ray, middle));
 #ifdef NAN_TRANSPARENT
     if (is_nan(scalar)) return Segment(vec3(0.0), DEPTH(0.0));
 #endif
@@ -129,6 +161,10 @@ Segment integrate(Ray ray, REAL2 depths) {
 #else
     DEPTH extinction = optics.a;
 #endif
-    return Segment(color_or_single(optics.rgb), extinction * DEPTH(world_length(ray, depths)));
+    Segment segment = Segment(color_or_single(optics.rgb), extinction * DEPTH(world_length(ray, depths)));
+#ifdef LIGHTS
+    light_segment(ray, middle, segment);
+#endif
+    return segment;
 }
 #endif

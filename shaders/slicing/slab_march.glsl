@@ -19,6 +19,9 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
     REAL transmittance = REAL(1.0);
 #ifdef PREINTEGRATED
     float front = sample_scalar(point_at(ray, whole.x));
+#ifdef LIGHTS
+    LitEnd lit_end = unknown_end();
+#endif
 #endif
 #ifdef OCCUPIED_ONLY
     BrickRay bricks = brick_ray(ray, whole.x);
@@ -49,6 +52,9 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
         front = back;
 #ifdef OCCUPIED_ONLY
         if (leapt) segment.depth = DEPTH(0.0);
+#endif
+#ifdef LIGHTS
+        light_segment(ray, depths, lit_end, segment);
 #endif
 #else
         Segment segment = integrate(ray, depths);

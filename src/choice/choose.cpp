@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "choice/changed_transfer.h"
+#include "choice/padding.h"
 #include "image/srgb.h"
 
 namespace lamina {
@@ -93,9 +94,16 @@ bool leaves_gradient_open(const Scene& scene) {
     return scene.lighting && !scene.lighting->smallest_gradient;
 }
 
+// Of the values that were measured.
+ValueRange range_without_padding(const Field& field) {
+    const Padding padding = find_padding(field.distribution(), field.whole_numbers());
+    if (padding.values.empty()) return field.range();
+    return {padding.rest.lowest(), padding.rest.highest()};
+}
+
 void choose_smallest_gradient(Scene& scene, const Field& field) {
     if (!leaves_gradient_open(scene)) return;
-    const ValueRange range = field.range();
+    const ValueRange range = range_without_padding(field);
     const double height = range.empty() ? 0 : range.hi - range.lo;
     // Data of one value have no gradient: any number serves.
     const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;

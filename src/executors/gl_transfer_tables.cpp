@@ -7,7 +7,12 @@
 namespace lamina {
 namespace {
 
-enum TextureUnit { intervals_unit, interval_starts_unit, preintegration_unit };
+enum TextureUnit {
+    intervals_unit,
+    interval_starts_unit,
+    preintegration_unit,
+    front_parts_unit = GlTransferTables::lit_unit
+};
 static_assert(preintegration_unit < GlTransferTables::first_free_unit);
 
 // The texels of a coloured table are emission and mean extinction, those of a table without colour
@@ -35,6 +40,15 @@ gl::Texture upload_table(const PreintegrationTable& table) {
     return texture;
 }
 
+// Of lit tables the front parts of emission and extinction, layer by layer.
+gl::Texture upload_front_parts(const PreintegrationTable& table) {
+    const int size = static_cast<int>(table.nodes.size());
+    const int layers = static_cast<int>(table.lengths.size());
+    gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::rgba32f, size, size, layers);
+    texture.upload({0, 0, 0, size, size, layers}, std::span<const float>(table.front_parts));
+    return texture;
+}
+
 }  // namespace
 
 GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
@@ -43,11 +57,13 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
     if (wanted != nullptr) {
         const auto known = preintegration_table(
             transfer_function, {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
-                                wanted->length_layers, wanted->colored});
+                                wanted->length_layers, wanted->colored, wanted->lit});
         const PreintegrationTable& table = *known;
         anchors_ = table.anchors;
         preintegration_ = upload_table(table);
+        if (table.lit()) front_parts_.emplace(upload_front_parts(table));
         if (filtered) preintegration_.set_filter(gl::TextureFilter::linear);
+        if (filtered && front_parts_) front_parts_->set_filter(gl::TextureFilter::linear);
         node_count_ = static_cast<int>(table.nodes.size());
         if (wanted->max_length > 0) {
             layers_per_length_ =
@@ -76,6 +92,9 @@ void GlTransferTables::bind(gl::Program& program) const {
     preintegration_.bind(preintegration_unit);
     program.set("preintegration", preintegration_unit);
     program.set("layers_per_length", layers_per_length_);
+    if (!front_parts_) return;
+    front_parts_->bind(front_parts_unit);
+    program.set("front_parts", front_parts_unit);
 }
 
 }  // namespace lamina

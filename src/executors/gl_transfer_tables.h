@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "executors/shader_intervals.h"
@@ -17,6 +18,7 @@ namespace lamina {
 class GlTransferTables {
   public:
     static constexpr int first_free_unit = 3;  // texture units below are taken by these tables
+    static constexpr int lit_unit = 10;        // and, where they are lit, this one
 
     // `range`: the scalars that shaders see as [0, 1]; lo < hi. `table`: the plan of the
     // pre-integration table, or null. `filtered`: the table is read through the texture unit's
@@ -36,6 +38,7 @@ class GlTransferTables {
     float layers_per_length_ = 0;
     std::vector<PreintegrationTable::Anchor> anchors_;
     gl::Texture intervals_, interval_starts_, preintegration_;
+    std::optional<gl::Texture> front_parts_;
 };
 
 }  // namespace lamina

@@ -36,9 +36,31 @@ struct RunSum {
     Floats color[3];
     Floats depth;
 };
+// With front parts of colour and opacity (optics/front_parts.h), as colour is: associated, or not.
+struct LitSum : RunSum {
+    Floats front_color[3];
+    Floats front_share;
+};
+template <bool lit>
+using SumOf = std::conditional_t<lit, LitSum, RunSum>;
 
-// Adds a run with the given table entry behind `sum`.
-HWY_INLINE void add_entry(const TableEntry& entry, Floats length, RunSum& sum) {
+template <bool lit>
+HWY_INLINE SumOf<lit> no_sum() {
+    const Floats zero = hn::Zero(FloatTag());
+    if constexpr (lit)
+        return {{{zero, zero, zero}, zero}, {zero, zero, zero}, zero};
+    else
+        return {{zero, zero, zero}, zero};
+}
+
+// Adds a run with the given table entry behind `sum`. Of lit segments `share` is the run's share
+// of the segment's length and `left` that of what is behind it.
+struct RunShares {
+    Floats share, left;
+};
+template <bool lit>
+HWY_INLINE void add_entry(const EntryOf<lit>& entry, Floats length, const RunShares& shares,
+                          SumOf<lit>& sum) {
     const FloatTag d;
     const Floats depth = hn::Mul(entry.extinction, length);
     const auto seen = hn::Gt(depth, hn::Zero(d));
@@ -47,6 +69,15 @@ HWY_INLINE void add_entry(const TableEntry& entry, Floats length, RunSum& sum) {
         seen, hn::Div(hn::Mul(transmitted, opacity_from_depth(d, depth)), entry.extinction));
     for (int channel = 0; channel < 3; ++channel)
         sum.color[channel] = mul_add(weight, entry.emission[channel], sum.color[channel]);
+    if constexpr (lit) {
+        const auto add = [&](Floats whole, Floats front, Floats& to) HWY_ATTR {
+            const Floats seen_part = mul_add(shares.left, whole, hn::Mul(shares.share, front));
+            to = mul_add(weight, seen_part, to);
+        };
+        for (int channel = 0; channel < 3; ++channel)
+            add(entry.emission[channel], entry.front_emission[channel], sum.front_color[channel]);
+        add(entry.extinction, entry.front_extinction, sum.front_share);
+    }
     sum.depth = hn::Add(sum.depth, depth);
 }
 
@@ -66,6 +97,7 @@ struct TableRun {
 // segment. Most segments that are cut cross one end only and have nothing `between`.
 struct Segment {
     TableRun first, between, last;
+    Floats length;
     FloatMask seen, cut, parted;  // shows something; is cut; has something between
     bool some_cut;
 };
@@ -128,7 +160,7 @@ HWY_INLINE Segment segment_of(const TileTransfer& transfer, Floats front, Floats
     const RunEnds ends{front, back, length, table_place<kind>(transfer, front),
                        table_place<kind>(transfer, back)};
     Segment segment;
-    segment.first.length = length;
+    segment.length = segment.first.length = length;
     segment.seen = seen;
     segment.cut = hn::And(
         hn::RebindMask(d, hn::Ne(ends.front_place.interval, ends.back_place.interval)), seen);
@@ -143,63 +175,112 @@ HWY_INLINE Segment segment_of(const TileTransfer& transfer, Floats front, Floats
 }
 
 // The table entries of `first` and `last` of a segment.
+template <bool lit>
 struct SegmentEntries {
-    TableEntry first, last;
+    EntryOf<lit> first, last;
 };
 
-// Colour and optical depth of the lanes that are cut. The values of other lanes have no meaning.
-HWY_INLINE RunSum sum_of_parts(const TileTransfer& transfer, bool colored, const Segment& segment,
-                               const SegmentEntries& entries) {
+// Optical depth of the lanes that are cut. The values of other lanes have no meaning.
+HWY_INLINE Floats depth_of_parts(const TileTransfer& transfer, const Segment& segment,
+                                 bool some_parted) {
+    Floats depth = hn::Zero(FloatTag());
+    const auto add = [&](const TableRun& run) HWY_ATTR {
+        depth = mul_add(table_extinction(*transfer.table, run.cell), run.length, depth);
+    };
+    add(segment.first);
+    if (some_parted) add(segment.between);
+    add(segment.last);
+    return depth;
+}
+
+// Associated colour and optical depth of the lanes that are cut. The values of other lanes have no
+// meaning.
+template <bool lit>
+HWY_INLINE SumOf<lit> sum_of_parts(const TileTransfer& transfer, const Segment& segment,
+                                   const SegmentEntries<lit>& entries) {
     const FloatTag d;
-    RunSum sum{{hn::Zero(d), hn::Zero(d), hn::Zero(d)}, hn::Zero(d)};
-    const bool some_parted = !hn::AllFalse(d, segment.parted);
-    if (!colored) {
-        const auto add = [&](const TableRun& run) HWY_ATTR {
-            sum.depth = mul_add(table_extinction(*transfer.table, run.cell), run.length, sum.depth);
-        };
-        add(segment.first);
-        if (some_parted) add(segment.between);
-        add(segment.last);
-        return sum;
+    SumOf<lit> sum = no_sum<lit>();
+    RunShares first, between, last;
+    if constexpr (lit) {
+        const Floats inverse = hn::Div(hn::Set(d, 1.0f), segment.length);
+        first.share = hn::Mul(segment.first.length, inverse);
+        last.share = hn::Mul(segment.last.length, inverse);
+        last.left = hn::Zero(d);
+        between.share = hn::Mul(segment.between.length, inverse);
+        between.left = last.share;
+        first.left = hn::Add(between.share, last.share);
     }
-    add_entry(entries.first, segment.first.length, sum);
-    if (some_parted) {
+    add_entry<lit>(entries.first, segment.first.length, first, sum);
+    if (!hn::AllFalse(d, segment.parted)) {
         const TableRun& run = segment.between;
-        add_entry(table_entry(transfer, run.cell, run.length, segment.parted), run.length, sum);
+        add_entry<lit>(table_entry<lit>(transfer, run.cell, run.length, segment.parted), run.length,
+                       between, sum);
     }
-    add_entry(entries.last, segment.last.length, sum);
+    add_entry<lit>(entries.last, segment.last.length, last, sum);
     return sum;
+}
+
+// Calls visit(number of one, the same of the other) for what a sum has of colours.
+template <bool lit, class Visit>
+HWY_INLINE void visit_colors(SumOf<lit>& one, const SumOf<lit>& other, const Visit& visit) {
+    for (int channel = 0; channel < 3; ++channel) visit(one.color[channel], other.color[channel]);
+    if constexpr (lit) {
+        for (int channel = 0; channel < 3; ++channel)
+            visit(one.front_color[channel], other.front_color[channel]);
+        visit(one.front_share, other.front_share);
+    }
+}
+
+// The segment's optical depth and colour, which is not associated, from its table entries.
+template <bool lit>
+HWY_INLINE SumOf<lit> integrate_colors(const TileTransfer& transfer, const Segment& segment,
+                                       const SegmentEntries<lit>& entries) {
+    const FloatTag d;
+    const EntryOf<lit>& entry = entries.first;
+    SumOf<lit> sum;
+    sum.depth = hn::Mul(entry.extinction, segment.first.length);
+    const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
+                                              hn::Div(hn::Set(d, 1.0f), entry.extinction));
+    for (int channel = 0; channel < 3; ++channel)
+        sum.color[channel] = hn::Mul(entry.emission[channel], inverse);
+    if constexpr (lit) {
+        for (int channel = 0; channel < 3; ++channel)
+            sum.front_color[channel] = hn::Mul(entry.front_emission[channel], inverse);
+        sum.front_share = hn::Mul(entry.front_extinction, inverse);
+    }
+    if (!segment.some_cut) return sum;
+    const SumOf<lit> parts = sum_of_parts<lit>(transfer, segment, entries);
+    sum.depth = hn::IfThenElse(segment.cut, parts.depth, sum.depth);
+    const Floats opacity = opacity_from_depth(d, parts.depth);
+    const auto some = hn::Gt(parts.depth, hn::Zero(d));
+    visit_colors<lit>(sum, parts, [&](Floats& whole, Floats of_parts) HWY_ATTR {
+        const Floats color = hn::IfThenElseZero(some, hn::Div(of_parts, opacity));
+        whole = hn::IfThenElse(segment.cut, color, whole);
+    });
+    return sum;
+}
+
+// Optical depth alone, of tables without colour.
+HWY_INLINE Floats integrate_depth(const TileTransfer& transfer, const Segment& segment) {
+    const FloatTag d;
+    const Floats whole =
+        hn::Mul(table_extinction(*transfer.table, segment.first.cell), segment.first.length);
+    if (!segment.some_cut) return whole;
+    const bool some_parted = !hn::AllFalse(d, segment.parted);
+    return hn::IfThenElse(segment.cut, depth_of_parts(transfer, segment, some_parted), whole);
 }
 
 // A segment's colour, which is not associated, and its optical depth. `entries` are used for tables
 // with colour.
-HWY_INLINE RunSum integrate_segment(const TileTransfer& transfer, bool colored,
-                                    const Segment& segment, const SegmentEntries& entries) {
-    const FloatTag d;
-    RunSum sum;
+template <bool lit>
+HWY_INLINE SumOf<lit> integrate_segment(const TileTransfer& transfer, bool colored,
+                                        const Segment& segment,
+                                        const SegmentEntries<lit>& entries) {
+    SumOf<lit> sum;
     if (colored) {
-        const TableEntry& entry = entries.first;
-        sum.depth = hn::Mul(entry.extinction, segment.first.length);
-        const Floats inverse = hn::IfThenElseZero(hn::Gt(entry.extinction, hn::Zero(d)),
-                                                  hn::Div(hn::Set(d, 1.0f), entry.extinction));
-        for (int channel = 0; channel < 3; ++channel)
-            sum.color[channel] = hn::Mul(entry.emission[channel], inverse);
+        sum = integrate_colors<lit>(transfer, segment, entries);
     } else {
-        sum.depth =
-            hn::Mul(table_extinction(*transfer.table, segment.first.cell), segment.first.length);
-    }
-    if (segment.some_cut) {
-        const RunSum parts = sum_of_parts(transfer, colored, segment, entries);
-        sum.depth = hn::IfThenElse(segment.cut, parts.depth, sum.depth);
-        if (colored) {
-            const Floats opacity = opacity_from_depth(d, parts.depth);
-            const auto some = hn::Gt(parts.depth, hn::Zero(d));
-            for (int channel = 0; channel < 3; ++channel) {
-                const Floats color =
-                    hn::IfThenElseZero(some, hn::Div(parts.color[channel], opacity));
-                sum.color[channel] = hn::IfThenElse(segment.cut, color, sum.color[channel]);
-            }
-        }
+        sum.depth = integrate_depth(transfer, segment);
     }
     sum.depth = hn::IfThenElseZero(segment.seen, sum.depth);
     return sum;
@@ -209,12 +290,13 @@ template <Lookup kind>
 HWY_INLINE RunSum integrate_run(const TileTransfer& transfer, bool colored, Floats front,
                                 Floats back, Floats length, FloatMask seen) {
     const Segment segment = segment_of<kind>(transfer, front, back, length, seen);
-    SegmentEntries entries;
-    const auto entry = [&](const TableRun& run, FloatMask wanted)
-                           HWY_ATTR { return table_entry(transfer, run.cell, run.length, wanted); };
+    SegmentEntries<false> entries;
+    const auto entry = [&](const TableRun& run, FloatMask wanted) HWY_ATTR {
+        return table_entry<false>(transfer, run.cell, run.length, wanted);
+    };
     if (colored) entries.first = entry(segment.first, seen);
     if (colored && segment.some_cut) entries.last = entry(segment.last, segment.cut);
-    return integrate_segment(transfer, colored, segment, entries);
+    return integrate_segment<false>(transfer, colored, segment, entries);
 }
 
 }  // namespace lamina::HWY_NAMESPACE

@@ -37,6 +37,13 @@ struct TableEntry {
     Floats emission[3];
     Floats extinction;
 };
+// Of a lit table, with front parts of both.
+struct LitEntry : TableEntry {
+    Floats front_emission[3];
+    Floats front_extinction;
+};
+template <bool lit>
+using EntryOf = std::conditional_t<lit, LitEntry, TableEntry>;
 
 // Interpolates bilinearly between the four nodes of a cell.
 HWY_INLINE Floats table_extinction(const PreintegrationTable& table, const TableCell& cell) {
@@ -106,56 +113,85 @@ HWY_INLINE void set_places(const TileTransfer& transfer, const TableCell& cell, 
     hn::Store(hn::Sub(layer, hn::ConvertTo(d, lower)), d, places.layer);
 }
 
-// Calls entry_at(lane, entries + 4 * lane) for the lanes that are `wanted`; the entries of other
-// lanes become 0. It goes lane by lane, because the numbers of an entry lie side by side: this is
-// several times as fast as gathers of one number each.
-template <class EntryAt>
-HWY_INLINE void set_entries(FloatMask wanted, float* entries, const EntryAt& entry_at) {
+// Entries as they are looked up: four numbers a lane, and four more of lit tables.
+template <bool lit>
+struct EntryNumbers {
+    alignas(64) float whole[4 * most_lanes];
+    alignas(64) float front[lit ? 4 * most_lanes : 1];
+};
+
+// Calls entry_at(lane) for the lanes that are `wanted`; the entries of other lanes become 0. It
+// goes lane by lane, because the numbers of an entry lie side by side: this is several times as
+// fast as gathers of one number each.
+template <bool lit, class EntryAt>
+HWY_INLINE void set_entries(FloatMask wanted, EntryNumbers<lit>& entries, const EntryAt& entry_at) {
     const FloatTag d;
     if (hn::AllTrue(d, wanted)) {
-        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) entry_at(lane, entries + 4 * lane);
+        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) entry_at(lane);
         return;
     }
-    for (std::size_t i = 0; i < 4; ++i) hn::Store(hn::Zero(d), d, entries + i * hn::Lanes(d));
-    for_each_lane(wanted, [&](std::size_t lane) HWY_ATTR { entry_at(lane, entries + 4 * lane); });
+    for (std::size_t i = 0; i < 4; ++i) {
+        hn::Store(hn::Zero(d), d, entries.whole + i * hn::Lanes(d));
+        if constexpr (lit) hn::Store(hn::Zero(d), d, entries.front + i * hn::Lanes(d));
+    }
+    for_each_lane(wanted, entry_at);
 }
 
-// Writes four numbers a lane.
+template <bool lit>
 HWY_INLINE void look_up_entries(const TileTransfer& transfer, const EntryPlaces& places,
-                                FloatMask wanted, float* entries) {
+                                FloatMask wanted, EntryNumbers<lit>& entries) {
+    constexpr std::ptrdiff_t size = lit ? 8 : 4;
     const auto nodes = static_cast<std::ptrdiff_t>(transfer.table->nodes.size());
     const auto layers = static_cast<std::ptrdiff_t>(transfer.table->lengths.size());
-    const std::ptrdiff_t right = 4 * layers, below = right * nodes;
+    const std::ptrdiff_t right = size * layers, below = right * nodes;
     const float* const texels = transfer.texels.data();
     const auto texels_at = [&](std::size_t lane) HWY_ATTR {
-        return texels + 4 * static_cast<std::ptrdiff_t>(places.first[lane]);
+        return texels + size * static_cast<std::ptrdiff_t>(places.first[lane]);
     };
-    if (layers > 1) {
-        set_entries(wanted, entries, [&](std::size_t lane, float* entry) HWY_ATTR {
-            mix_layers(hn::CappedTag<float, 8>(), texels_at(lane), right, below, places.front[lane],
-                       places.back[lane], places.layer[lane], entry);
+    const hn::FixedTag<float, 4> d4;
+    const auto nodes_at = [&](std::size_t lane, std::ptrdiff_t step) HWY_ATTR {
+        return mixed_nodes(d4, texels_at(lane) + step, right, below, places.front[lane],
+                           places.back[lane]);
+    };
+    if (layers == 1) {
+        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
+            hn::Store(nodes_at(lane, 0), d4, entries.whole + 4 * lane);
+            if constexpr (lit) hn::Store(nodes_at(lane, 4), d4, entries.front + 4 * lane);
+        });
+    } else if constexpr (lit) {
+        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
+            const auto share = hn::Set(d4, places.layer[lane]);
+            hn::Store(mix(nodes_at(lane, 0), nodes_at(lane, 8), share), d4,
+                      entries.whole + 4 * lane);
+            hn::Store(mix(nodes_at(lane, 4), nodes_at(lane, 12), share), d4,
+                      entries.front + 4 * lane);
         });
     } else {
-        const hn::FixedTag<float, 4> d4;
-        set_entries(wanted, entries, [&](std::size_t lane, float* entry) HWY_ATTR {
-            hn::Store(mixed_nodes(d4, texels_at(lane), right, below, places.front[lane],
-                                  places.back[lane]),
-                      d4, entry);
+        set_entries(wanted, entries, [&](std::size_t lane) HWY_ATTR {
+            mix_layers(hn::CappedTag<float, 8>(), texels_at(lane), right, below, places.front[lane],
+                       places.back[lane], places.layer[lane], entries.whole + 4 * lane);
         });
     }
 }
 
-HWY_INLINE TableEntry load_entry(const float* entries) {
-    TableEntry entry;
-    hn::LoadInterleaved4(FloatTag(), entries, entry.emission[0], entry.emission[1],
-                         entry.emission[2], entry.extinction);
+template <bool lit>
+HWY_INLINE EntryOf<lit> load_entry(const EntryNumbers<lit>& entries) {
+    const FloatTag d;
+    EntryOf<lit> entry;
+    hn::LoadInterleaved4(d, entries.whole, entry.emission[0], entry.emission[1], entry.emission[2],
+                         entry.extinction);
+    if constexpr (lit) {
+        hn::LoadInterleaved4(d, entries.front, entry.front_emission[0], entry.front_emission[1],
+                             entry.front_emission[2], entry.front_extinction);
+    }
     return entry;
 }
 
-HWY_INLINE TableEntry table_entry(const TileTransfer& transfer, const TableCell& cell,
-                                  Floats length, FloatMask wanted) {
+template <bool lit>
+HWY_INLINE EntryOf<lit> table_entry(const TileTransfer& transfer, const TableCell& cell,
+                                    Floats length, FloatMask wanted) {
     EntryPlaces places;
-    alignas(64) float entries[4 * most_lanes];
+    EntryNumbers<lit> entries;
     set_places(transfer, cell, length, places);
     look_up_entries(transfer, places, wanted, entries);
     return load_entry(entries);

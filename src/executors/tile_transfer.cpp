@@ -9,16 +9,18 @@ namespace lamina {
 namespace {
 
 // Coloured tables are read entry by entry, so extinction stands beside emission.
-TileTransfer::Aligned with_extinction(const PreintegrationTable& table) {
+TileTransfer::Aligned texels_of(const PreintegrationTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
-    TileTransfer::Aligned texels(entries * 4 * layers);
+    const std::size_t size = table.lit() ? 8 : 4;
+    TileTransfer::Aligned texels(entries * size * layers);
+    const auto place = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
     for (std::size_t entry = 0; entry < entries; ++entry) {
         for (std::size_t layer = 0; layer < layers; ++layer) {
-            const auto from = static_cast<std::ptrdiff_t>(3 * (layer * entries + entry));
-            const std::size_t to = 4 * (entry * layers + layer);
-            std::copy_n(table.emission.begin() + from, 3,
-                        texels.begin() + static_cast<std::ptrdiff_t>(to));
-            texels[to + 3] = table.mean_extinction[entry];
+            const std::size_t from = layer * entries + entry;
+            const auto to = texels.begin() + place(size * (entry * layers + layer));
+            std::copy_n(table.emission.begin() + place(3 * from), 3, to);
+            to[3] = table.mean_extinction[entry];
+            if (table.lit()) std::copy_n(table.front_parts.begin() + place(4 * from), 4, to + 4);
         }
     }
     return texels;
@@ -59,9 +61,9 @@ TileTransfer::TileTransfer(const TransferFunction& transfer_function, const Valu
     if (wanted != nullptr) {
         table = preintegration_table(transfer_function,
                                      {range.lo, range.hi, wanted->max_length, wanted->scalar_nodes,
-                                      wanted->length_layers, wanted->colored});
+                                      wanted->length_layers, wanted->colored, wanted->lit});
         anchors = table->anchors;
-        if (table->colored) texels = with_extinction(*table);
+        if (table->colored) texels = texels_of(*table);
         if (wanted->max_length > 0) {
             layers_per_length =
                 static_cast<float>((wanted->length_layers - 1) / wanted->max_length);

@@ -53,8 +53,9 @@ struct TileTransfer {
     Aligned records;
 
     std::shared_ptr<const PreintegrationTable> table;
-    // The texels of a coloured table: emission and mean extinction as RGBA. The layers of a pair of
-    // scalars lie side by side and are aligned, so that two of them share a line of the cache.
+    // The texels of a coloured table: emission and mean extinction as RGBA, and of a lit one behind
+    // that its front parts. The layers of a pair of scalars lie side by side and are aligned, so
+    // that two of them share a line of the cache.
     Aligned texels;
     float layers_per_length = 0;
 

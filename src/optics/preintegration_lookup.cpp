@@ -25,7 +25,7 @@ Cell cell_of(double position, std::size_t count) {
 }
 
 // `front` and `back` are node coordinates.
-SegmentIntegral sample(const PreintegrationTable& table, double front, double back, double length) {
+LitIntegral sample(const PreintegrationTable& table, double front, double back, double length) {
     const std::size_t count = table.nodes.size();
     const Cell f = cell_of(front, count), b = cell_of(back, count);
     const std::array<std::size_t, 4> entries = {
@@ -36,11 +36,12 @@ SegmentIntegral sample(const PreintegrationTable& table, double front, double ba
                                            b.weight * f.weight};
     double extinction = 0;
     for (int i = 0; i < 4; ++i) extinction += weights[i] * table.mean_extinction[entries[i]];
-    SegmentIntegral result;
-    result.optical_depth = extinction * length;
-    result.alpha = opacity_from_depth(result.optical_depth);
+    LitIntegral result;
+    SegmentIntegral& whole = result.whole;
+    whole.optical_depth = extinction * length;
+    whole.alpha = opacity_from_depth(whole.optical_depth);
     if (!table.colored) {
-        result.color = result.alpha * table.single_color;
+        whole.color = whole.alpha * table.single_color;
         return result;
     }
     if (extinction == 0) return result;
@@ -48,14 +49,19 @@ SegmentIntegral sample(const PreintegrationTable& table, double front, double ba
     const double share = longest > 0 ? std::clamp(length / longest, 0.0, 1.0) : 0;
     const Cell l =
         cell_of(share * static_cast<double>(table.lengths.size() - 1), table.lengths.size());
-    glm::dvec3 emitted(0);
-    for (const auto& [layer, weight] : {std::pair(l.first, 1 - l.weight), {l.second, l.weight}}) {
+    const double scale = whole.alpha / extinction;
+    for (const auto& [layer, of_layer] : {std::pair(l.first, 1 - l.weight), {l.second, l.weight}}) {
         for (int i = 0; i < 4; ++i) {
-            const float* const texel = &table.emission[(layer * count * count + entries[i]) * 3];
-            emitted += weight * weights[i] * glm::dvec3(texel[0], texel[1], texel[2]);
+            const std::size_t number = layer * count * count + entries[i];
+            const double weight = scale * of_layer * weights[i];
+            const float* const texel = &table.emission[number * 3];
+            whole.color += weight * glm::dvec3(texel[0], texel[1], texel[2]);
+            if (!table.lit()) continue;
+            const float* const front_part = &table.front_parts[number * 4];
+            result.front.color += weight * glm::dvec3(front_part[0], front_part[1], front_part[2]);
+            result.front.alpha += weight * front_part[3];
         }
     }
-    result.color = emitted * (result.alpha / extinction);
     return result;
 }
 
@@ -103,22 +109,28 @@ double PreintegrationTable::coordinate(double value) const {
     return coordinate_between(*(above - 1), *above, value);
 }
 
-SegmentIntegral PreintegrationTable::lookup(double front, double back, double length) const {
+LitIntegral PreintegrationTable::lookup_lit(double front, double back, double length) const {
     std::array<Part, 3> parts = split(*this, std::min(front, back), std::max(front, back));
     if (front > back) {
         std::ranges::reverse(parts);
         for (Part& part : parts) std::swap(part.from, part.to);
     }
     if (front == back) return sample(*this, parts[0].from, parts[0].to, length);
-    SegmentIntegral result;
+    LitIntegral result;
+    SegmentIntegral& whole = result.whole;
+    double left = 1;  // behind the part, as a share of the segment
     for (const Part& part : parts) {
         if (part.width == 0) continue;
         const double share = part.width / std::abs(back - front);
-        const SegmentIntegral next = sample(*this, part.from, part.to, length * share);
-        result.color += std::exp(-result.optical_depth) * next.color;
-        result.optical_depth += next.optical_depth;
+        left = std::max(left - share, 0.0);
+        const LitIntegral next = sample(*this, part.from, part.to, length * share);
+        const double transmittance = std::exp(-whole.optical_depth);
+        result.front.color += transmittance * (left * next.whole.color + share * next.front.color);
+        result.front.alpha += transmittance * (left * next.whole.alpha + share * next.front.alpha);
+        whole.color += transmittance * next.whole.color;
+        whole.optical_depth += next.whole.optical_depth;
     }
-    result.alpha = opacity_from_depth(result.optical_depth);
+    whole.alpha = opacity_from_depth(whole.optical_depth);
     return result;
 }
 

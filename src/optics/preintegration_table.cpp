@@ -120,10 +120,11 @@ void check(const TransferFunction& transfer_function, const PreintegrationReques
     }
 }
 
-void check_size(const PreintegrationTable& table) {
+void check_size(const PreintegrationTable& table, bool lit) {
     if (!table.colored) return;
     const std::size_t nodes = table.nodes.size();
-    const std::size_t bytes = nodes * nodes * table.lengths.size() * 3 * sizeof(float);
+    const std::size_t numbers = lit ? 7 : 3;
+    const std::size_t bytes = nodes * nodes * table.lengths.size() * numbers * sizeof(float);
     if (bytes > most_bytes) {
         fail(
             "a pre-integration table of {} x {} scalars x {} lengths takes {} MiB, expected at "
@@ -139,48 +140,77 @@ class TableBuilder {
         : table_(table), nodes_(nodes), count_(static_cast<int>(nodes.size())) {}
 
     void fill_row(int front) {
-        store(front, front, nodes_[front].optics.extinction,
-              nodes_[front].optics.extinction * nodes_[front].optics.color);
+        const OpticalProperties& optics = nodes_[front].optics;
+        const glm::dvec3 emission = optics.extinction * optics.color;
+        store(front, front, {optics.extinction, emission, {optics.extinction / 2, emission / 2.0}});
         fill_half_row(front, +1);
         fill_half_row(front, -1);
     }
 
   private:
-    // Fills in the means over the scalars between `front` and each node on one side of it. They are
-    // running sums, in which nothing cancels.
-    void fill_half_row(int front, int direction) {
+    // What a segment of no length has per length.
+    struct Limit {
         double extinction = 0;
-        glm::dvec3 emission(0);
+        glm::dvec3 emission{0};
+        FrontParts front;
+    };
+
+    // Fills in the means over the scalars between `front` and each node on one side of it. They are
+    // running sums, in which nothing cancels. The last two are weighted with the distance from the
+    // front.
+    void fill_half_row(int front, int direction) {
+        double extinction = 0, extinction_behind = 0;
+        glm::dvec3 emission(0), emission_behind(0);
         for (int back = front + direction; back >= 0 && back < count_; back += direction) {
             const Node& a = nodes_[back - direction];
             const Node& b = nodes_[back];
             const double p = a.optics.extinction, q = b.optics.extinction;
+            const glm::dvec3 &at_a = a.optics.color, &at_b = b.optics.color;
             const double step = std::abs(b.value - a.value);
+            const double before = std::abs(a.value - nodes_[front].value);
             const double width = std::abs(b.value - nodes_[front].value);
-            extinction += step * (p / 2 + q / 2);
-            emission +=
-                step * (a.optics.color * (p / 3 + q / 6) + b.optics.color * (p / 6 + q / 3));
+            const double of_piece = p / 2 + q / 2;
+            const glm::dvec3 emitted = at_a * (p / 3 + q / 6) + at_b * (p / 6 + q / 3);
+            extinction += step * of_piece;
+            emission += step * emitted;
+            extinction_behind += step * (before * of_piece + step * (p / 6 + q / 3));
+            emission_behind += step * (before * emitted +
+                                       step * (at_a * (p / 12 + q / 12) + at_b * (p / 12 + q / 4)));
             if (width > 0) {
-                store(front, back, extinction / width, emission / width);
-            } else {  // both sides of a step
-                store(front, back, p / 2 + q / 2, (p * a.optics.color + q * b.optics.color) / 2.0);
+                store(front, back,
+                      {extinction / width,
+                       emission / width,
+                       {(extinction - extinction_behind / width) / width,
+                        (emission - emission_behind / width) / width}});
+            } else {  // both sides of a step, half the length on each
+                store(front, back,
+                      {of_piece,
+                       (p * at_a + q * at_b) / 2.0,
+                       {(3 * p + q) / 8, (3 * p * at_a + q * at_b) / 8.0}});
             }
         }
     }
 
-    void store(int front, int back, double extinction, const glm::dvec3& limit) {
+    void store(int front, int back, const Limit& limit) {
         const std::size_t entry = static_cast<std::size_t>(back) * count_ + front;
-        table_.mean_extinction[entry] = as_float(extinction);
+        table_.mean_extinction[entry] = as_float(limit.extinction);
         if (!table_.colored) return;
-        store_emission(0, entry, limit);
+        store_layer(0, entry, limit);
         for (std::size_t layer = 1; layer < table_.lengths.size(); ++layer) {
             const double length = table_.lengths[layer];
-            const double alpha = opacity_from_depth(extinction * length);
+            const double alpha = opacity_from_depth(limit.extinction * length);
             // The limit is taken at length 0 (max_length = 0) and where the depth underflows.
-            const bool at_limit = front == back || !is_looked_up(front, back) ||
-                                  !(alpha > std::numeric_limits<double>::min());
-            store_emission(layer, entry,
-                           at_limit ? limit : color(front, back, length) * (extinction / alpha));
+            Limit there = limit;
+            if (is_looked_up(front, back) && alpha > std::numeric_limits<double>::min()) {
+                const double scale = limit.extinction / alpha;
+                if (front != back) there.emission = color(front, back, length) * scale;
+                if (table_.lit()) {
+                    there.front = front_parts(front, back, length);
+                    there.front.alpha *= scale;
+                    there.front.color *= scale;
+                }
+            }
+            store_layer(layer, entry, there);
         }
     }
 
@@ -191,29 +221,59 @@ class TableBuilder {
         return upper <= nodes_[lower].next_anchor || (nodes_[lower].anchor && nodes_[upper].anchor);
     }
 
-    void store_emission(std::size_t layer, std::size_t entry, const glm::dvec3& emission) {
-        const std::size_t first = (layer * nodes_.size() * nodes_.size() + entry) * 3;
-        for (int c = 0; c < 3; ++c) table_.emission[first + c] = as_float(emission[c]);
+    void store_layer(std::size_t layer, std::size_t entry, const Limit& values) {
+        const std::size_t number = layer * nodes_.size() * nodes_.size() + entry;
+        for (int c = 0; c < 3; ++c) table_.emission[number * 3 + c] = as_float(values.emission[c]);
+        if (!table_.lit()) return;
+        for (int c = 0; c < 3; ++c)
+            table_.front_parts[number * 4 + c] = as_float(values.front.color[c]);
+        table_.front_parts[number * 4 + 3] = as_float(values.front.alpha);
     }
 
-    // Returns the associated colour of the segment. This is integrate_segment() without the search
-    // for pieces, because both ends of every piece are nodes.
-    glm::dvec3 color(int front, int back, double length) const {
-        const double width = nodes_[back].value - nodes_[front].value;
-        glm::dvec3 sum(0);
-        double transmittance = 1;
-        if (width == 0) {  // both sides of a step, half the length on each
-            add_piece(nodes_[front], nodes_[front], length / 2, transmittance, sum);
-            add_piece(nodes_[back], nodes_[back], length / 2, transmittance, sum);
-            return sum;
+    // Calls visit(from, to, begin, end, share) for the linear pieces of a segment from the front
+    // on: nodes, where they lie in it, and their share of its length. This is integrate_segment()
+    // without the search for pieces, because both ends of every piece are nodes. It ends where
+    // visit() returns false.
+    template <typename Visit>
+    void for_each_piece(int front, int back, const Visit& visit) const {
+        const double start = nodes_[front].value, width = nodes_[back].value - start;
+        if (width == 0) {  // the same value, or both sides of a step, half the length on each
+            if (visit(front, front, 0, .5, .5)) visit(back, back, .5, 1, .5);
+            return;
         }
-        for (int from = front; from != back && transmittance > least_transmittance;) {
+        bool more = true;
+        for (int from = front; from != back && more;) {
             const int to = front < back ? std::min(nodes_[from].next_anchor, back)
                                         : std::max(nodes_[from].previous_anchor, back);
-            const double share = (nodes_[to].value - nodes_[from].value) / width;
-            add_piece(nodes_[from], nodes_[to], length * share, transmittance, sum);
+            more = visit(from, to, (nodes_[from].value - start) / width,
+                         (nodes_[to].value - start) / width,
+                         (nodes_[to].value - nodes_[from].value) / width);
             from = to;
         }
+    }
+
+    // The associated colour of the segment.
+    glm::dvec3 color(int front, int back, double length) const {
+        glm::dvec3 sum(0);
+        double transmittance = 1;
+        for_each_piece(front, back, [&](int from, int to, double, double, double share) {
+            add_piece(nodes_[from], nodes_[to], length * share, transmittance, sum);
+            return transmittance > least_transmittance;
+        });
+        return sum;
+    }
+
+    FrontParts front_parts(int front, int back, double length) const {
+        FrontParts sum;
+        double transmittance = 1;
+        for_each_piece(front, back, [&](int from, int to, double begin, double end, double share) {
+            const OpticalProperties &a = nodes_[from].optics, &b = nodes_[to].optics;
+            const FrontParts parts = front_parts_of({a, b, length * share, begin, end});
+            sum.alpha += transmittance * parts.alpha;
+            sum.color += transmittance * parts.color;
+            transmittance *= std::exp(-length * share * (a.extinction / 2 + b.extinction / 2));
+            return transmittance > least_transmittance;
+        });
         return sum;
     }
 
@@ -247,10 +307,11 @@ PreintegrationTable build_preintegration_table(const TransferFunction& transfer_
         table.lengths.push_back(
             layer == 0 ? 0 : request.max_length * layer / (request.length_layers - 1));
     }
-    check_size(table);
+    check_size(table, request.lit);
     const std::size_t entries = nodes.size() * nodes.size();
     table.mean_extinction.resize(entries);
     if (table.colored) table.emission.resize(entries * table.lengths.size() * 3);
+    if (request.lit) table.front_parts.resize(entries * table.lengths.size() * 4);
     const auto seen =
         std::ranges::find_if(nodes, [](const Node& node) { return node.optics.extinction > 0; });
     if (seen != nodes.end()) table.single_color = seen->optics.color;

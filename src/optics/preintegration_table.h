@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lamina/transfer_function.h"
+#include "optics/front_parts.h"
 #include "optics/segment_integral.h"
 
 namespace lamina {
@@ -21,6 +22,7 @@ struct PreintegrationRequest {
     int scalar_nodes = 256;  // approximate number of nodes, >= 2
     int length_layers = 1;   // >= 1
     bool colored = true;     // false only where transfer_function.single_color(lo, hi)
+    bool lit = false;        // with front parts; needs `colored`
 
     friend bool operator==(const PreintegrationRequest&, const PreintegrationRequest&) = default;
 };
@@ -50,6 +52,10 @@ struct PreintegrationTable {
     // channel; empty where colored is false. Look-ups need pairs of nodes within one linear piece
     // and pairs of anchors. For all other pairs every layer holds the limit.
     std::vector<float> emission;
+    // Of lit tables L * S * S * 4 values tbar * FrontParts / alpha: of the colour, then of the
+    // opacity; in the order of `emission`, and looked up as that is. Otherwise empty.
+    std::vector<float> front_parts;
+    bool lit() const { return !front_parts.empty(); }
 
     // The node coordinate of a scalar (clamped to [lo, hi]): whole numbers are nodes. At a step it
     // is the right node.
@@ -60,11 +66,15 @@ struct PreintegrationTable {
     // and C = alpha * E / tbar. tbar and E are smooth only within a linear piece. So a segment is
     // cut at the first and at the last anchor between its ends and composed of at most three
     // look-ups. Each of these is within smooth cells or, between anchors, exact in the scalars.
-    SegmentIntegral lookup(double front, double back, double length) const;
+    SegmentIntegral lookup(double front, double back, double length) const {
+        return lookup_lit(front, back, length).whole;
+    }
+    // The same with the front parts of lit tables.
+    LitIntegral lookup_lit(double front, double back, double length) const;
 
     std::int64_t byte_count() const {
-        return static_cast<std::int64_t>((mean_extinction.size() + emission.size()) *
-                                         sizeof(float));
+        const std::size_t numbers = mean_extinction.size() + emission.size() + front_parts.size();
+        return static_cast<std::int64_t>(numbers * sizeof(float));
     }
 };
 

@@ -91,6 +91,12 @@ double mean_transmittance(double p, double q) {
     return (dawson(front) - transmittance * dawson(back)) / root;
 }
 
+// Where the optical depth in front is `wanted` < D; at most 1.
+double place_of_depth(double wanted, double p, double q) {
+    const double root = std::sqrt(std::max(p * p + 2 * (q - p) * wanted, 0.0));
+    return std::min(2 * wanted / (p + root), 1.0);
+}
+
 // A sum that carries its rounding error along, so that exp(-depth) is as accurate behind many
 // pieces as behind one.
 class DepthSum {
@@ -120,6 +126,23 @@ PieceWeights piece_weights(double p, double q) {
     if (depth < 4) return quadrature_weights(gauss16, p, q);
     const double g = mean_transmittance(p, q);
     return {1 - g, g - std::exp(-depth)};
+}
+
+// By parts: the integral of 2 (1 - x) (1 - exp(-u)). Beyond a depth of 20, exp(-u) is below 2e-9;
+// up to there 16 points are off by less than that.
+double front_moment(double p, double q) {
+    constexpr double deep = 20;
+    const double depth = p / 2 + q / 2;
+    const double seen = depth > deep ? place_of_depth(deep, p, q) : 1;
+    using Rule = std::span<const QuadraturePoint>;
+    const Rule rule = depth < 1e-3 ? Rule(gauss4) : depth < 0.5 ? Rule(gauss8) : Rule(gauss16);
+    double sum = 0;
+    for (const auto& [node, weight] : rule) {
+        const double x = seen * node;
+        const double before = x * (p * (1 - x / 2) + q * x / 2);
+        sum += weight * 2 * (1 - x) * opacity_from_depth(before);
+    }
+    return seen * sum + (1 - seen) * (1 - seen);
 }
 
 namespace {

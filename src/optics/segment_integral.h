@@ -31,4 +31,8 @@ struct PieceWeights {
 };
 PieceWeights piece_weights(double p, double q);
 
+// Of such a piece the integral of (1 - x)^2 over what is seen of it, x from 0 at its front to 1 at
+// its back: to 1e-8.
+double front_moment(double p, double q);
+
 }  // namespace lamina

@@ -69,6 +69,15 @@ std::string text_of_codes(const CompositingPlan& plan) {
                        text_of(plan.blending));
 }
 
+std::string text_of_light(const SlicePlan& slice) {
+    const std::string text =
+        fmt::format("{} lights, gradients of 8 bytes a sample; ", slice.lighting->lights.size());
+    if (slice.integrates_cells())
+        return text + fmt::format("off by up to {:.2g} / 255", slice.light_error);
+    return text + (slice.integrates_runs() ? "at both ends of a segment and linear between them"
+                                           : "in the middle of a slab");
+}
+
 template <typename Row>
 void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& row) {
     const double length = (facts.far_depth - facts.near_depth) / slice.slabs;
@@ -177,9 +186,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         row("classification",
             with_reason(name_of(slice.classification), slice.classification_reason));
         if (slice.lighting) {
-            row("light", fmt::format("{} lights, gradients of 8 bytes a sample; off by up to "
-                                     "{:.2g} / 255",
-                                     slice.lighting->lights.size(), slice.light_error));
+            row("light", text_of_light(slice));
         }
         row("order", name_of(slice.order));
         if (!slice.clip.empty()) row("clip", fmt::format("{} planes", slice.clip.size()));

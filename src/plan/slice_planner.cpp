@@ -251,11 +251,13 @@ class SlicePlanner {
         }
         TablePlan& table = slice.table;
         table.colored = !slice.single_color;
+        table.lit = scene_.lighting.has_value();
         const double longest =
             (facts_.far_depth - facts_.near_depth) / slice.slabs * facts_.max_length_per_depth;
         table.max_length = longest * slice.unit;
         const double depth = facts_.max_extinction * longest;
-        if (leave_out(facts_.pieces == 1 && (!table.colored || depth <= thin_depth), "table",
+        if (leave_out(facts_.pieces == 1 && !table.lit && (!table.colored || depth <= thin_depth),
+                      "table",
                       table.colored
                           ? fmt::format("the transfer function is one linear piece and a "
                                         "segment's optical depth at most {:.3g}: its colour has a "
@@ -287,7 +289,7 @@ class SlicePlanner {
         }
         slice.bricks =
             cut_into_bricks(facts_.grid, slice.nan_transparent,
-                            slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
+                            texel_bytes(slice, facts_.type, capabilities_), capabilities_);
     }
 
     void choose_compositing() {
@@ -329,7 +331,7 @@ class SlicePlanner {
         if (!settings.automatic) {
             slice.tree =
                 TreePlan{settings.factors, settings.nodes, settings.code, settings.alpha_bits};
-            check_slice_tree(scene_, facts_.single_color && !scene_.lighting);
+            check_slice_tree(scene_, facts_.single_color);
             return;
         }
         try {

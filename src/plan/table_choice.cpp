@@ -8,6 +8,7 @@
 #include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
 #include "optics/preintegration_table.h"
+#include "optics/ray_lights.h"
 #include "optics/segment_integral.h"
 
 namespace lamina {
@@ -81,6 +82,42 @@ double largest(const glm::dvec3& error) {
     return std::max({std::abs(error.r), std::abs(error.g), std::abs(error.b)});
 }
 
+// What light may do at most to colours up to 1.
+struct MostLight {
+    double change = 0, highlight = 0;
+};
+
+MostLight most_light(const Scene& scene) {
+    if (!scene.lighting) return {};
+    const RayLights lights(*scene.lighting, glm::dvec3(0, 0, 1));
+    const double highlight = lights.largest_effect(0);
+    return {lights.largest_effect(1) - highlight, highlight};
+}
+
+// Errors of segments that are seen one behind the other: of the unlit colour, and of what light
+// adds that is all at the fronts of segments.
+class ErrorSum {
+  public:
+    explicit ErrorSum(const MostLight& light) : light_(light) {}
+
+    void add(double weight, const LitIntegral& found, const LitIntegral& right) {
+        unlit_ += weight * (found.whole.color - right.whole.color);
+        front_ += weight * (light_.change * (found.front.color - right.front.color) +
+                            light_.highlight * (found.front.alpha - right.front.alpha));
+    }
+    // The largest one without light, with light at all fronts, at all backs, and everywhere.
+    // Opacity is exact.
+    double largest_error() const {
+        const glm::dvec3 lit = light_.change * unlit_;
+        return std::max({largest(unlit_), largest(unlit_ + front_), largest(unlit_ + lit - front_),
+                         largest(unlit_ + lit)});
+    }
+
+  private:
+    MostLight light_;
+    glm::dvec3 unlit_{0}, front_{0};
+};
+
 // Segments around places of every linear piece, of three widths up to `widest`: few rays meet what
 // is narrow.
 std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_function,
@@ -106,6 +143,11 @@ std::vector<Segment> segments_of_pieces(const TransferFunction& transfer_functio
     return segments;
 }
 
+// Numbers of an entry and a length.
+double numbers_of(const TablePlan& table) {
+    return table.lit ? 7 : 3;
+}
+
 double most_nodes_of(const TablePlan& table, double knots) {
     return 1.5 * table.scalar_nodes + 3 * (knots + 1);  // optics/preintegration_table.h
 }
@@ -115,7 +157,7 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
     const double nodes = most_nodes_of(table, knots);
     // Pairs within each of the pieces, and from point to point through all pieces between.
     const double work = nodes * nodes / (knots + 1) + knots * knots * knots / 3;
-    const double bytes = nodes * nodes * 3 * sizeof(float);
+    const double bytes = nodes * nodes * numbers_of(table) * sizeof(float);
     return static_cast<int>(std::max(
         1.0, std::floor(std::min({wanted, most_table_work / work, most_table_bytes / bytes}))));
 }
@@ -127,12 +169,15 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
     const auto table = preintegration_table(
         transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
-                            plan.length_layers, plan.colored});
+                            plan.length_layers, plan.colored, plan.lit});
+    const MostLight light = most_light(scene);
     const auto looked_up = [&](const Segment& segment) {
-        return table->lookup(segment.front, segment.back, segment.length).color;
+        return table->lookup_lit(segment.front, segment.back, segment.length);
     };
     const auto integrated = [&](const Segment& segment) {
-        return integrate_segment(transfer_function, segment.front, segment.back, segment.length);
+        const double front = segment.front, back = segment.back, length = segment.length;
+        if (plan.lit) return integrate_lit_segment(transfer_function, front, back, length);
+        return LitIntegral{integrate_segment(transfer_function, front, back, length), {}};
     };
     const std::vector<ScalarRays::Ray>& rays = facts.scalar_rays.rays;
     const int stride = (slabs + most_tried - 1) / most_tried;
@@ -147,19 +192,19 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
         Found& of_ray = found[static_cast<std::size_t>(number)];
         const ScalarRays::Ray& ray = rays[ray_stride * static_cast<std::size_t>(number)];
         const RayCutter cutter(ray, facts, slabs);
-        glm::dvec3 error(0);
+        ErrorSum error(light);
         double transmittance = 1;  // of the segments before, as they are drawn
         for (int i = stride / 2; i < slabs; i += stride) {
             Segment segment = cutter.segment(i);
             segment.length *= unit;
             if (!(segment.length > 0) || !std::isfinite(segment.front + segment.back)) continue;
-            const SegmentIntegral integral = integrated(segment);
+            const LitIntegral integral = integrated(segment);
             if (stride > 1) transmittance = segment.transmittance;
-            error += stride * transmittance * (looked_up(segment) - integral.color);
-            transmittance *= 1 - integral.alpha;
+            error.add(stride * transmittance, looked_up(segment), integral);
+            transmittance *= 1 - integral.whole.alpha;
             of_ray.widest = std::max(of_ray.widest, std::abs(segment.back - segment.front));
         }
-        of_ray.error = largest(error);
+        of_ray.error = error.largest_error();
     });
     Found all;
     for (const Found& of_ray : found) {
@@ -171,7 +216,9 @@ double table_error(const Scene& scene, const Facts& facts, int slabs, const Tabl
     parallel_for(static_cast<std::int64_t>(single.size()), 64, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
         single[i].length = plan.max_length;
-        errors[i] = largest(looked_up(single[i]) - integrated(single[i]).color);
+        ErrorSum error(light);
+        error.add(1, looked_up(single[i]), integrated(single[i]));
+        errors[i] = error.largest_error();
     });
     return 255 * std::max(all.error, errors.empty() ? 0 : std::ranges::max(errors));
 }

@@ -10,6 +10,7 @@ struct TablePlan {
     int length_layers = 1;
     double max_length = 0;  // in the plan's units
     bool colored = true;
+    bool lit = false;  // with front parts (optics/front_parts.h)
     double error = 0;  // found error that it adds to the picture, in 1/255
 
     friend bool operator==(const TablePlan&, const TablePlan&) = default;

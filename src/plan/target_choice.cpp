@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "plan/light_choice.h"
 #include "plan/slab_choice.h"
 #include "plan/tree_choice.h"
 
@@ -54,7 +55,7 @@ TargetChoice choose_target(const Scene& scene, const Facts& facts, const SampleT
     const std::optional<SlabTrial> filtered = slabs_of_hardware_filter(trials);
     const int slabs = scene.slice.samples.value_or(
         std::max(chosen_slabs(facts, trials).slabs, filtered ? filtered->slabs : 0));
-    return choose_target(scene, facts.max_color, slabs);
+    return choose_target(scene, largest_drawn_color(scene, facts.max_color), slabs);
 }
 
 Scene with_target(Scene scene, Target target) {

@@ -16,6 +16,12 @@ void check_fixed_nodes(const Scene& scene, bool single_color, const char* tree,
             "emulated",
             scene.file.string(), tree, name_of(scene.target));
     }
+    if (scene.lighting) {
+        fail(
+            "{}: {}.nodes: found \"fixed\" with lighting, which gives one colour many values, "
+            "expected no lighting: these nodes know opacity alone (LaMar 2004, section 6){}",
+            scene.file.string(), tree, otherwise);
+    }
     if (!single_color) {
         fail(
             "{}: {}.nodes: found \"fixed\" with a transfer function of several colours, expected "

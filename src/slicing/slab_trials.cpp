@@ -13,6 +13,7 @@
 #include "base/stage.h"
 #include "image/metrics.h"
 #include "plan/classification_choice.h"
+#include "plan/light_choice.h"
 #include "plan/slab_choice.h"
 #include "plan/slice_planner.h"
 #include "slicing/point_cover.h"
@@ -88,6 +89,7 @@ class SlabTrials {
           truth_(volume, scene.transfer_function, View(scene_.camera, scene_.width, scene_.height),
                  {.tolerance = std::clamp(tracer_share * scene.max_error / 255, finest_tolerance,
                                           coarsest_tolerance),
+                  .lighting = scene.lighting,
                   .clip = half_spaces(scene.clip)}) {}
 
     std::vector<SlabTrial> run(int first) { return run_from(first, Filter::exact); }
@@ -162,7 +164,8 @@ class SlabTrials {
         return {slabs,
                 error,
                 static_cast<std::int64_t>(rays),
-                slab_error_goal(asked_, facts_.max_color, slabs, last_ ? rays : rays_of(asked_)),
+                slab_error_goal(asked_, largest_drawn_color(asked_, facts_.max_color), slabs,
+                                last_ ? rays : rays_of(asked_)),
                 truth_.rays(),
                 !last_};
     }

@@ -89,6 +89,7 @@ class CutParts {
                               gradient_[axis][power] + count_);
             store_members(gradient.to_eye[axis].v, members, to_eye_[axis] + count_);
         }
+        store_members(gradient.smallest_square.v, members, smallest_square_ + count_);
     }
 
     // Composites the next piece of each part.
@@ -128,6 +129,8 @@ class CutParts {
                     hn::LoadU(FloatTag(), gradient_[axis][power] + from);
             lanes.gradient.to_eye[axis] = hn::LoadU(FloatTag(), to_eye_[axis] + from);
         }
+        if (light_ != nullptr)
+            lanes.gradient.smallest_square = hn::LoadU(FloatTag(), smallest_square_ + from);
         // Those outside `members` are places, too.
         lanes.part = hn::IfThenElseZero(hn::RebindMask(IntTag(), members),
                                         hn::LoadU(IntTag(), part_ + from));
@@ -389,6 +392,7 @@ class CutParts {
     alignas(64) std::int32_t part_[capacity];
     alignas(64) float gradient_[3][4][capacity];
     alignas(64) float to_eye_[3][capacity];
+    alignas(64) float smallest_square_[capacity];
     // From the second round on:
     alignas(64) float turns_[2][capacity];
     alignas(64) float at_[capacity];

@@ -6,33 +6,35 @@
 
 #include "lamina/grid.h"
 #include "lamina/lighting.h"
+#include "slicing/smallest_gradient.h"
 
 namespace lamina {
 
-// A lighting as vectors compute it, in the axes of a grid and the unit of its gradient map
-// (slicing/gradient_map.h).
+// A lighting as vectors compute it, in the axes of a grid.
 struct TileLight {
     struct Direction {
         bool to_eye = false;  // a headlight
         std::array<float, 3> to_light{};
         std::array<float, 3> color{};
+        float largest_color = 0;
     };
     std::vector<Direction> directions;
     bool gray = false;  // all components of each colour are equal
     float ambient = 0, diffuse = 0, specular = 0;
-    float half_power = 0;            // of the square of a cosine
-    int whole_half_power = 0;        // the same where it is a whole number, else 0
-    float smallest_square = 0;       // of the smallest gradient
+    float half_power = 0;      // of the square of a cosine
+    int whole_half_power = 0;  // the same where it is a whole number, else 0
+    SmallestGradient smallest;
     std::array<float, 3> spacing{};  // of samples, in the unit of lengths along rays
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
+    // Unless it bends, times the part's opacity, by less than this: too faint to be looked at.
+    float faint_bend = 0;
     // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
     // may be dips and highlights between the nodes, of up to the largest effect that light has.
     float most_turn = 0, largest_effect = 0;
 };
 
-// `grid`: in the unit of lengths along rays. `gradient_scale`: of the gradient map.
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gradient_scale,
-                          double most_bend);
+// `grid`: in the unit of lengths along rays.
+TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double most_bend);
 
 }  // namespace lamina

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "executors/tile_optics-inl.h"
+#include "slicing/tile_lit_slabs-inl.h"
 #include "slicing/tile_runs-inl.h"
 #include "slicing/tile_scalars-inl.h"
 
@@ -65,10 +66,11 @@ HWY_INLINE std::int64_t set_precise_lengths(const TileRays& frame, const PacketR
     return segments;
 }
 
-HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& brick,
-                                    const PacketRays& rays, SlabBlock& block) {
-    const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
-    const TileRays& frame = slabs.rays;
+// Calls use(middle, edge): middle(i) is the point in the middle of slab i, edge(i) the one in front
+// of it.
+template <class Use>
+HWY_INLINE void with_precise_points(const TileRays& frame, const PacketRays& rays,
+                                    const SlabBlock& block, const Use& use) {
     const auto middle = [&](int i) HWY_ATTR {
         const TwoDoubles front = boundary(frame, rays, block.first_slab + i);
         const TwoDoubles back = boundary(frame, rays, block.first_slab + i + 1);
@@ -77,13 +79,36 @@ HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& bri
         };
         return precise_point(rays, each_half<FloatTag>(mean, front, back));
     };
-    sample_points<PointKind::exact>(brick, hardware, block.from, block.end, middle, block.scalars);
-    if (!slabs.plan->integrates_runs()) return;
     const auto edge = [&](int i) HWY_ATTR {
         return precise_point(rays, boundary(frame, rays, block.first_slab + i));
     };
-    sample_points<PointKind::exact>(brick, hardware, block.from, block.end + 1, edge,
-                                    block.edge_scalars);
+    use(middle, edge);
+}
+
+HWY_INLINE void set_precise_scalars(const TileSlabs& slabs, const TileBrick& brick,
+                                    const PacketRays& rays, SlabBlock& block) {
+    const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
+    with_precise_points(
+        slabs.rays, rays, block, [&](const auto& middle, const auto& edge) HWY_ATTR {
+            sample_points<PointKind::exact>(brick, hardware, block.from, block.end, middle,
+                                            block.scalars);
+            if (!slabs.plan->integrates_runs()) return;
+            sample_points<PointKind::exact>(brick, hardware, block.from, block.end + 1, edge,
+                                            block.edge_scalars);
+        });
+}
+
+HWY_INLINE void add_precise_light(const TileSlabs& slabs, const TileBrick& brick,
+                                  const PacketRays& rays, SlabBlock& block) {
+    const auto shows = [&](int i) HWY_ATTR {
+        const FloatTag d;
+        const Floats depth = to_floats(d, load_doubles(block.precise_depths + at(i)));
+        return !hn::AllFalse(d, hn::Gt(depth, hn::Zero(d)));
+    };
+    with_precise_points(
+        slabs.rays, rays, block, [&](const auto& middle, const auto& edge) HWY_ATTR {
+            light_run<PointKind::exact>(slabs, brick, rays, middle, edge, shows, block);
+        });
 }
 
 HWY_INLINE HalfDoubles product(HalfDoubles a, HalfDoubles b) {
@@ -161,6 +186,7 @@ inline std::int64_t set_precise_run(const TileSlabs& slabs, const TileBrickView&
             classify_precisely<lookup>(transfer, colored, plan.nan_transparent, block);
         }
     });
+    if (colored && slabs.light != nullptr) add_precise_light(slabs, brick.brick, rays, block);
     return segments;
 }
 

@@ -74,11 +74,19 @@ HWY_INLINE void store_run(const RunSum& run, bool colored, int slab, SlabBlock& 
     for (std::size_t channel = 0; channel < 3; ++channel)
         hn::Store(run.color[channel], d, block.colors[channel] + at(slab));
 }
+HWY_INLINE void store_run(const LitSum& run, bool colored, int slab, SlabBlock& block) {
+    const FloatTag d;
+    const RunSum& unlit = run;
+    store_run(unlit, colored, slab, block);
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        hn::Store(run.front_color[channel], d, block.front_colors[channel] + at(slab));
+    hn::Store(run.front_share, d, block.front_shares + at(slab));
+}
 
 // Integrates by the table, in stages of a few slabs, so that many entries are looked up at a time.
 // A segment shows nothing where the transfer function shows nothing between the least and the
 // largest of its three scalars.
-template <Lookup kind>
+template <Lookup kind, bool lit>
 HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, bool nan_transparent,
                                    SlabBlock& block) {
     const FloatTag d;
@@ -86,7 +94,7 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
     const Floats zero = hn::Zero(d);
     Segment segments[stage];
     EntryPlaces first_places[stage], last_places[stage];
-    alignas(64) float first_entries[stage][4 * most_lanes], last_entries[stage][4 * most_lanes];
+    EntryNumbers<lit> first_entries[stage], last_entries[stage];
     int slabs[stage];
     for (int begin = block.from; begin < block.end;) {
         int count = 0;
@@ -98,7 +106,7 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
             const auto seen =
                 hn::And(hn::Gt(run.length, zero), shows_something<kind>(transfer, first, largest));
             if (hn::AllFalse(d, seen)) {
-                store_run({{zero, zero, zero}, zero}, colored, begin, block);
+                store_run(no_sum<false>(), colored, begin, block);
                 continue;
             }
             straighten(run);
@@ -120,21 +128,23 @@ HWY_INLINE void integrate_by_table(const TileTransfer& transfer, bool colored, b
                 look_up_entries(transfer, last_places[i], segment.cut, last_entries[i]);
         }
         for (int i = 0; i < count; ++i) {
-            SegmentEntries entries;
+            SegmentEntries<lit> entries;
             if (colored) entries.first = load_entry(first_entries[i]);
             if (colored && segments[i].some_cut) entries.last = load_entry(last_entries[i]);
-            store_run(integrate_segment(transfer, colored, segments[i], entries), colored, slabs[i],
-                      block);
+            store_run(integrate_segment<lit>(transfer, colored, segments[i], entries), colored,
+                      slabs[i], block);
         }
     }
 }
 
-// Integrates the whole block.
+// Integrates the whole block. Lit plans have tables.
 template <Lookup kind>
 HWY_INLINE void integrate_runs(const TileTransfer& transfer, bool colored, const SlicePlan& plan,
                                SlabBlock& block) {
+    if (colored && plan.lighting)
+        return integrate_by_table<kind, true>(transfer, colored, plan.nan_transparent, block);
     if (kind != Lookup::one || !plan.linear)
-        return integrate_by_table<kind>(transfer, colored, plan.nan_transparent, block);
+        return integrate_by_table<kind, false>(transfer, colored, plan.nan_transparent, block);
     for (int i = block.from; i < block.end; ++i) {
         RunScalars run = run_scalars(block, i, plan.nan_transparent);
         straighten(run);

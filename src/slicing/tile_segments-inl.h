@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "executors/tile_optics-inl.h"
+#include "slicing/tile_lit_slabs-inl.h"
 #include "slicing/tile_runs-inl.h"
 #include "slicing/tile_scalars-inl.h"
 
@@ -96,33 +97,54 @@ HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays
     return segments;
 }
 
+// Calls use(kind of points, middle, edge): middle(i) is the point in the middle of slab i, edge(i)
+// the one in front of it.
+template <class Use>
+HWY_INLINE void with_points(const TileRays& frame, const BlockRays& rays, const PacketRays& packet,
+                            bool inside, const SlabBlock& block, const Use& use) {
+    const FloatTag d;
+    if (inside) {
+        const auto among = [&](const float* depths) HWY_ATTR {
+            return [&, depths](int i)
+                       HWY_ATTR { return point_at(rays, packet, hn::Set(d, depths[i])); };
+        };
+        return use(std::integral_constant<PointKind, PointKind::inside>(),
+                   among(frame.middles.data()), among(frame.edges.data()));
+    }
+    const auto among = [&](const float* depths) HWY_ATTR {
+        return [&, depths](int i)
+                   HWY_ATTR { return point_at(rays, packet, hn::Load(d, depths + at(i))); };
+    };
+    use(std::integral_constant<PointKind, PointKind::anywhere>(), among(block.middles),
+        among(block.edges));
+}
+
 // Sets the scalars in the middles of slabs and, where the plan pre-integrates, at their boundaries.
 HWY_INLINE void set_scalars(const TileSlabs& slabs, const TileBrick& brick,
                             const PacketRays& packet, const BlockRays& rays, bool inside,
                             SlabBlock& block) {
-    const FloatTag d;
     const bool hardware = slabs.plan->sampling == VolumeSampling::hardware;
-    const bool ends = slabs.plan->integrates_runs();
-    if (inside) {
-        const auto among = [&](const float* depths) {
-            return [&, depths](int i) { return point_at(rays, packet, hn::Set(d, depths[i])); };
-        };
-        const TileRays& frame = slabs.rays;
-        sample_points<PointKind::inside>(brick, hardware, block.from, block.end,
-                                         among(frame.middles.data()), block.scalars);
-        if (!ends) return;
-        sample_points<PointKind::inside>(brick, hardware, block.from, block.end + 1,
-                                         among(frame.edges.data()), block.edge_scalars);
-        return;
-    }
-    const auto among = [&](const float* depths) {
-        return [&, depths](int i) { return point_at(rays, packet, hn::Load(d, depths + at(i))); };
+    with_points(slabs.rays, rays, packet, inside, block,
+                [&](auto kind, const auto& middle, const auto& edge) HWY_ATTR {
+                    sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end,
+                                                         middle, block.scalars);
+                    if (!slabs.plan->integrates_runs()) return;
+                    sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end + 1,
+                                                         edge, block.edge_scalars);
+                });
+}
+
+HWY_INLINE void add_light(const TileSlabs& slabs, const TileBrick& brick, const PacketRays& packet,
+                          const BlockRays& rays, bool inside, SlabBlock& block) {
+    const auto shows = [&](int i) HWY_ATTR {
+        const FloatTag d;
+        return !hn::AllFalse(d, hn::Gt(hn::Load(d, block.depths + at(i)), hn::Zero(d)));
     };
-    sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end, among(block.middles),
-                                       block.scalars);
-    if (!ends) return;
-    sample_points<PointKind::anywhere>(brick, hardware, block.from, block.end + 1,
-                                       among(block.edges), block.edge_scalars);
+    with_points(slabs.rays, rays, packet, inside, block,
+                [&](auto kind, const auto& middle, const auto& edge) HWY_ATTR {
+                    light_run<decltype(kind)::value>(slabs, brick, packet, middle, edge, shows,
+                                                     block);
+                });
 }
 
 template <Lookup kind>
@@ -184,6 +206,8 @@ inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
             classify<lookup>(transfer, colored, plan.nan_transparent, block);
         }
     });
+    if (colored && slabs.light != nullptr)
+        add_light(slabs, brick.brick, packet, rays, inside, block);
     return segments;
 }
 

@@ -13,6 +13,16 @@ void add(ContentHash& hash, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) hash.add(v[i]);
 }
 
+void add(ContentHash& hash, const Lighting& lighting) {
+    for (const double number : {lighting.ambient, lighting.diffuse, lighting.specular,
+                                lighting.power, lighting.smallest_gradient.value_or(0)})
+        hash.add(number);
+    for (const Light& light : lighting.lights) {
+        add(hash, light.direction.value_or(glm::dvec3(0)));
+        add(hash, light.color);
+    }
+}
+
 }  // namespace
 
 std::string picture_key(const Scene& scene) {
@@ -30,6 +40,7 @@ std::string picture_key(const Scene& scene) {
         add(hash, half.point);
         add(hash, half.normal);
     }
+    if (scene.lighting) add(hash, *scene.lighting);
     return hash.hex();
 }
 

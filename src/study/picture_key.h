@@ -10,7 +10,8 @@
 
 namespace lamina::study {
 
-// All that an exact picture depends on beside its data: transfer function, camera, size and clip.
+// All that an exact picture depends on beside its data: transfer function, camera, size,
+// clip and lighting.
 std::string picture_key(const Scene& scene);
 
 std::string transfer_function_key(const TransferFunction& transfer_function);

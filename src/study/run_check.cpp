@@ -45,13 +45,6 @@ Scene scene_of(const StudyRun& run, const StudyFile& file) {
     const char* const automatic = scene.automatic_transfer_function ? "transfer_function"
                                   : scene.automatic_camera          ? "camera"
                                                                     : nullptr;
-    if (scene.lighting && !scene.lighting->smallest_gradient) {
-        throw KeyError("lighting.smallest_gradient",
-                       fmt::format("{0}: lighting.smallest_gradient: is \"auto\" or missing, "
-                                   "expected a number: the runs of a study share one ('lamina "
-                                   "scene {0} -o NEW.json' writes what would be chosen)",
-                                   name));
-    }
     if (automatic != nullptr) {
         throw KeyError(automatic,
                        fmt::format("{0}: {1}: is \"auto\" or missing, expected an object {{...}}: "

@@ -2,13 +2,26 @@
 #include "study/study_frames.h"
 
 #include "base/stopwatch.h"
+#include "choice/choose.h"
+#include "choice/mesh_field.h"
+#include "choice/volume_field.h"
 #include "gl/memory.h"
 
 namespace lamina::study {
 namespace {
 
-std::unique_ptr<SceneRenderer> frames_of(const Scene& scene, DataStore& data,
+// The smallest gradient of lighting may be open: it follows from the data alone.
+Scene chosen_for(const Scene& scene, DataStore& data) {
+    if (!leaves_something_open(scene)) return scene;
+    if (scene.draws_mesh() && !scene.mesh_file.empty())
+        return choose(scene, MeshField(*data.mesh(scene).data.data()));
+    const VolumeData& volume = *data.volume(scene).data;
+    return choose(scene, VolumeField(volume.volume, volume.bricks));
+}
+
+std::unique_ptr<SceneRenderer> frames_of(const Scene& asked, DataStore& data,
                                          const Capabilities& capabilities) {
+    const Scene scene = chosen_for(asked, data);
     if (scene.method == Method::project)
         return std::make_unique<SceneRenderer>(scene, data.mesh(scene).data.data(), capabilities);
     return std::make_unique<SceneRenderer>(scene, data.volume(scene).data, capabilities);

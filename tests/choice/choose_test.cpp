@@ -188,6 +188,19 @@ TEST(Choose, TheSmallestGradientIsAShareOfTheRange) {
     EXPECT_EQ(choose(chosen, VolumeField(volume, bricks)).lighting, chosen.lighting);
 }
 
+// A round picture of values from 0 to 1000 in a square of -3024.
+TEST(Choose, PaddingDoesNotCountForTheSmallestGradient) {
+    const Volume volume = test::volume_of<std::int16_t>(
+        test::grid_of({21, 21, 3}, Centering::node), [](double x, double y, double) {
+            return std::hypot(x - 10, y - 10) > 10 ? -3024 : 50 * x + y - 10;
+        });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    Scene scene;
+    scene.lighting = Lighting{};
+    EXPECT_DOUBLE_EQ(choose(scene, VolumeField(volume, bricks)).lighting->smallest_gradient.value(),
+                     .01 * 1000);
+}
+
 // A cube of edge 1 cut into six tets: each has three edges of the cube, two diagonals of its faces
 // and its own diagonal.
 TEST(Choose, TheSmallestGradientOfAMeshHasItsMeanEdge) {

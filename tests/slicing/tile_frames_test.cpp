@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "reference/lit_fixtures.h"
 #include "support/allocation_count.h"
 #include "support/volume_of.h"
 #include "tile_fixture.h"
@@ -25,6 +26,18 @@ std::vector<Case> cases(const TransferFunction& colored = smooth_transfer_functi
     std::vector<Case> all{{"post", scene, {}}, {"blended", scene, leave_nothing_out()}};
     scene.slice.classification = Classification::preintegrated;
     all.push_back({"preintegrated", scene, {}});
+    for (const Classification each : {Classification::post, Classification::preintegrated}) {
+        Scene lit = scene;
+        lit.slice.classification = each;
+        lit.lighting = reference_test::directional();
+        all.push_back({"lit by colours", lit, {}});
+        lit.lighting->lights = {Light{}};
+        lit.lighting->power = 7.5;
+        all.push_back({"lit by a headlight", lit, leave_nothing_out()});
+        lit.target = Target::emulated;
+        lit.emulate = {10, AlphaRounding::stochastic, OverRounding::fused, 3};
+        all.push_back({"lit codes", lit, {}});
+    }
     scene.transfer_function =
         TransferFunction::linear({knot(seen_from, {.3, .6, .9}, 0), knot(1, {.9, .6, .1}, 900)});
     all.push_back({"opaque", scene, {}});  // rays end early

@@ -61,7 +61,7 @@ void compare_runs(bool colored, int layers, bool filtered) {
         "uniform float world_length;\n"
         "out vec4 result;\n"
         "void main() { result = integrate_run(gl_FragCoord.x / 128.0, gl_FragCoord.y / 128.0, "
-        "world_length, false); }\n",
+        "world_length, false).whole; }\n",
         segment_defines(plan, tables.intervals(), tables.nodes()));
     tables.bind(program);
     program.set("world_length", .35f);

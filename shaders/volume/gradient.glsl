@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gradients at the samples of the brick, along the grid's axes (slicing/gradient_map.h). Some of them that are
+// looked at together have the unit 2^(largest - unit_octaves), where `largest` is their largest exponent: so squares of
+// the largest, and of those 1e31 times as small, are numbers in float32.
+uniform isampler3D gradients;
+uniform float smallest_gradient;  // times 2^smallest_exponent, 1 to 2
+uniform int smallest_exponent;
+uniform vec3 spacing;             // of samples, in the unit of lengths along rays
+const int unit_octaves = 32;
+
+// Returns 2^exponent, 0 where that is too small.
+float power_of_two(int exponent) { return intBitsToFloat(max(exponent + 127, 0) << 23); }
+
+// Returns the components, and the exponent that they have in common.
+ivec4 stored_gradient(ivec3 sample_index) { return texelFetch(gradients, sample_index, 0); }
+
+vec3 gradient_in_unit(ivec4 stored, int largest) {
+    return vec3(stored.xyz) * power_of_two(stored.w - largest + unit_octaves);
+}
+
+// Returns the square of the smallest gradient in that unit, kept to what float32 can square: outside, all or nothing is
+// lit.
+float smallest_square_in_unit(int largest) {
+    const int most = 62;
+    float smallest = smallest_gradient * power_of_two(clamp(smallest_exponent + unit_octaves - largest, -most, most));
+    return smallest * smallest;
+}
+
+int largest_exponent(ivec4 a, ivec4 b, ivec4 c, ivec4 d) { return max(max(a.w, b.w), max(c.w, d.w)); }
+
+// The gradients at the corners of a cell, in the unit that they have together: at its lower and its upper x, each at
+// (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1).
+struct CornerGradients {
+    vec3 lower_x[4], upper_x[4];
+    int largest;
+};
+
+CornerGradients corner_gradients(ivec3 lower, ivec3 upper) {
+    ivec4 stored[8] = ivec4[8](
+        stored_gradient(lower), stored_gradient(ivec3(lower.x, upper.y, lower.z)),
+        stored_gradient(ivec3(lower.xy, upper.z)), stored_gradient(ivec3(lower.x, upper.yz)),
+        stored_gradient(ivec3(upper.x, lower.yz)), stored_gradient(ivec3(upper.xy, lower.z)),
+        stored_gradient(ivec3(upper.x, lower.y, upper.z)), stored_gradient(upper));
+    int largest = max(largest_exponent(stored[0], stored[1], stored[2], stored[3]),
+                      largest_exponent(stored[4], stored[5], stored[6], stored[7]));
+    vec3 lower_x[4] = vec3[4](gradient_in_unit(stored[0], largest), gradient_in_unit(stored[1], largest),
+                              gradient_in_unit(stored[2], largest), gradient_in_unit(stored[3], largest));
+    vec3 upper_x[4] = vec3[4](gradient_in_unit(stored[4], largest), gradient_in_unit(stored[5], largest),
+                              gradient_in_unit(stored[6], largest), gradient_in_unit(stored[7], largest));
+    return CornerGradients(lower_x, upper_x, largest);
+}
