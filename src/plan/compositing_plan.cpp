@@ -24,4 +24,9 @@ const char* name_of(Blending blending) {
     unreachable_enum();
 }
 
+Dither dither_of(const DitherSettings& settings, int slabs) {
+    return {settings.period.value_or(dither_period_for(slabs)), settings.seed, settings.color,
+            settings.increment};
+}
+
 }  // namespace lamina

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "compositing/dither.h"
 #include "lamina/emulation.h"
 #include "lamina/order.h"
 #include "lamina/scene.h"
@@ -22,6 +23,9 @@ enum class Blending {
 // The way that a context composites what its blending unit cannot.
 Blending programmable_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
+
+// The dithering of so many slabs, with its period chosen where that is automatic.
+Dither dither_of(const DitherSettings& settings, int slabs);
 
 // How fragments are composited.
 struct CompositingPlan {

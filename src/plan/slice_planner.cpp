@@ -360,17 +360,12 @@ class SlicePlanner {
             static_cast<int>(slice.bricks.size()) - 1;
         question.order = slice.order;
         if (scene_.slice.dither && is_fixed_point(slice.target)) {
-            question.dither = dither_of(*scene_.slice.dither);
+            question.dither = dither_of(*scene_.slice.dither, slice.slabs);
         }
         question.largest_color = max_color();
         question.max_error = scene_.max_error;
         question.slab_error = slice.found_error();
         return question;
-    }
-
-    Dither dither_of(const DitherSettings& settings) const {
-        return {settings.period.value_or(dither_period_for(plan_.slice.slabs)), settings.seed,
-                settings.color, settings.increment};
     }
 
     void choose_dither(const DitherSettings& settings) {
@@ -381,7 +376,7 @@ class SlicePlanner {
                 {"dither", "slabs are composited in float: there is nothing to dither"});
             return;
         }
-        slice.dither = dither_of(settings);
+        slice.dither = dither_of(settings, slice.slabs);
     }
 
     const Scene& scene_;

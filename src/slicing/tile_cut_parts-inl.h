@@ -13,6 +13,7 @@
 
 #include "slicing/tile_cell_optics-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
+#include "slicing/tile_gradient_queue-inl.h"
 #include "slicing/tile_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,7 +28,7 @@ class CutParts {
     // `longest`: share of the part that a piece may have; of lit parts alone.
     HWY_INLINE void add(FloatMask members, const CubicLanes& cubic, Number length, Number longest,
                         std::size_t first, const GradientLanes* gradient) {
-        if (gradient != nullptr) append_gradient(members, *gradient);
+        if (gradient != nullptr) gradients_.store(*gradient, members, count_);
         append(members, cubic, length, longest,
                hn::Iota(IntTag(), static_cast<std::int32_t>(first)));
     }
@@ -81,17 +82,6 @@ class CutParts {
         count_ += hn::CountTrue(FloatTag(), members);
     }
 
-    // Before append().
-    HWY_INLINE void append_gradient(FloatMask members, const GradientLanes& gradient) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::size_t power = 0; power < 4; ++power)
-                store_members(gradient.along[axis].c[power].v, members,
-                              gradient_[axis][power] + count_);
-            store_members(gradient.to_eye[axis].v, members, to_eye_[axis] + count_);
-        }
-        store_members(gradient.smallest_square.v, members, smallest_square_ + count_);
-    }
-
     // Composites the next piece of each part.
     template <Lookup kind, bool curved, bool first>
     void run_round(const TileTransfer& transfer, bool colored, CellParts& parts) {
@@ -123,14 +113,7 @@ class CutParts {
             lanes.cubic.c[i] = zero_unless(members, hn::LoadU(FloatTag(), cubic_[i] + from));
         lanes.length = zero_unless(members, hn::LoadU(FloatTag(), length_ + from));
         lanes.longest = hn::LoadU(FloatTag(), longest_ + from);
-        for (std::size_t axis = 0; light_ != nullptr && axis < 3; ++axis) {
-            for (std::size_t power = 0; power < 4; ++power)
-                lanes.gradient.along[axis].c[power] =
-                    hn::LoadU(FloatTag(), gradient_[axis][power] + from);
-            lanes.gradient.to_eye[axis] = hn::LoadU(FloatTag(), to_eye_[axis] + from);
-        }
-        if (light_ != nullptr)
-            lanes.gradient.smallest_square = hn::LoadU(FloatTag(), smallest_square_ + from);
+        if (light_ != nullptr) lanes.gradient = gradients_.load(from);
         // Those outside `members` are places, too.
         lanes.part = hn::IfThenElseZero(hn::RebindMask(IntTag(), members),
                                         hn::LoadU(IntTag(), part_ + from));
@@ -184,7 +167,7 @@ class CutParts {
     HWY_INLINE void keep(const Lanes& lanes, FloatMask members) {
         if (hn::AllFalse(FloatTag(), members)) return;
         const std::size_t to = count_;
-        if (light_ != nullptr) append_gradient(members, lanes.gradient);
+        if (light_ != nullptr) gradients_.store(lanes.gradient, members, count_);
         append(members, lanes.cubic, lanes.length, lanes.longest, lanes.part);
         store_members(lanes.turns[0].v, members, turns_[0] + to);
         store_members(lanes.turns[1].v, members, turns_[1] + to);
@@ -386,13 +369,11 @@ class CutParts {
 
     const TileLight* light_ = nullptr;
     std::size_t count_ = 0;
+    GradientQueue gradients_;  // of lit parts
     alignas(64) float cubic_[4][capacity];
     alignas(64) float length_[capacity];
     alignas(64) float longest_[capacity];
     alignas(64) std::int32_t part_[capacity];
-    alignas(64) float gradient_[3][4][capacity];
-    alignas(64) float to_eye_[3][capacity];
-    alignas(64) float smallest_square_[capacity];
     // From the second round on:
     alignas(64) float turns_[2][capacity];
     alignas(64) float at_[capacity];
