@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <vector>
 
-#include "lamina/grid.h"
 #include "lamina/lighting.h"
 
 namespace lamina {
 
-// A lighting as vectors compute it, in the axes of a grid and the unit of its gradient map
-// (slicing/gradient_map.h).
+// A lighting as vectors compute it, in three orthogonal axes and the unit of stored gradients.
 struct TileLight {
     struct Direction {
         bool to_eye = false;  // a headlight
@@ -23,7 +23,7 @@ struct TileLight {
     float half_power = 0;            // of the square of a cosine
     int whole_half_power = 0;        // the same where it is a whole number, else 0
     float smallest_square = 0;       // of the smallest gradient
-    std::array<float, 3> spacing{};  // of samples, in the unit of lengths along rays
+    std::array<float, 3> spacing{};  // lengths of the axes
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
     // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
@@ -31,8 +31,9 @@ struct TileLight {
     float most_turn = 0, largest_effect = 0;
 };
 
-// `grid`: in the unit of lengths along rays. `gradient_scale`: of the gradient map.
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gradient_scale,
-                          double most_bend);
+// `axes`: orthogonal, in the unit of lengths along rays. Stored gradients are those in scalar units
+// per world unit times `gradient_scale`.
+TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                          double gradient_scale, double most_bend);
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/tile_light.h"
+#include "executors/tile_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,13 @@ constexpr double most_growth = 0.7;
 // lies within 1.2 times that of any peak.
 constexpr double peak_widths = 3;
 
-TileLight::Direction direction_of(const Light& light, const Grid& grid) {
+TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     TileLight::Direction direction;
     direction.to_eye = !light.direction;
     for (std::size_t i = 0; i < 3; ++i) {
         direction.color[i] = static_cast<float>(light.color[static_cast<int>(i)]);
         if (light.direction) {
-            const double along = glm::dot(unit_vector(*light.direction), unit_vector(grid.step[i]));
+            const double along = glm::dot(unit_vector(*light.direction), unit_vector(axes[i]));
             direction.to_light[i] = static_cast<float>(along);
         }
     }
@@ -32,12 +32,12 @@ TileLight::Direction direction_of(const Light& light, const Grid& grid) {
 
 }  // namespace
 
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gradient_scale,
-                          double most_bend) {
+TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                          double gradient_scale, double most_bend) {
     TileLight light;
     light.gray = true;
     for (const Light& each : lighting.lights) {
-        light.directions.push_back(direction_of(each, grid));
+        light.directions.push_back(direction_of(each, axes));
         light.gray = light.gray && each.color.x == each.color.y && each.color.x == each.color.z;
     }
     light.ambient = static_cast<float>(lighting.ambient);
@@ -50,7 +50,7 @@ TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double gra
     const double smallest = std::clamp(*lighting.smallest_gradient * gradient_scale, 1e-15, 1e15);
     light.smallest_square = static_cast<float>(smallest * smallest);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        light.spacing[axis] = static_cast<float>(glm::length(grid.step[axis]));
+        light.spacing[axis] = static_cast<float>(glm::length(axes[axis]));
     light.most_bend = static_cast<float>(most_bend);
     light.most_turn = static_cast<float>(most_growth);
     if (lighting.specular > 0) {
