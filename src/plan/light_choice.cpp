@@ -14,16 +14,24 @@ constexpr double bend_share = 0.5, light_share = 0.75;
 // Of what it sees light bend, what the rule of three nodes misses of a kink between them.
 constexpr double missed_of_kink = 0.045;
 
-}  // namespace
-
 // A ray's opacity is at most 1: where each of its pieces misses no more than this of what it shows,
 // the ray does not either.
-void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
+template <typename MethodPlan>
+void set_light(const Scene& scene, double max_color, MethodPlan& plan) {
     if (!scene.lighting) return;
-    slice.lighting = scene.lighting;
-    slice.light_error = light_share * scene.max_error;
-    slice.most_bend =
-        bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
+    plan.lighting = scene.lighting;
+    plan.light_error = light_share * scene.max_error;
+    plan.most_bend = bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
+}
+
+}  // namespace
+
+void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
+    set_light(scene, max_color, slice);
+}
+
+void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
+    set_light(scene, max_color, project);
 }
 
 double largest_drawn_color(const Scene& scene, double max_color) {
