@@ -13,14 +13,14 @@ struct LitRun {
     vec3 to_eye;
 };
 
-// Where the colour at the front of a run is f and that at its back b, light adds f * change + (b - f) * shared +
+// Where the colour at the front of a run is f and that at its back b, light adds f * change + (b - f) * farther +
 // highlight.
 struct LightSums {
-    LIGHT_COLOR change, shared, highlight;
+    LIGHT_COLOR change, farther, highlight;
 };
 
 vec3 light_added(LightSums sums, vec3 front, vec3 back) {
-    return front * sums.change + (back - front) * sums.shared + vec3(sums.highlight);
+    return front * sums.change + (back - front) * sums.farther + vec3(sums.highlight);
 }
 
 float largest_of(float v) { return abs(v); }
@@ -40,7 +40,7 @@ float hidden_bend(LitRun run, float at, float extent) {
 LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums) {
     LightEffect effect = light_effect(run.gradient + place * run.turn, light_limits.x, run.to_eye);
     sums.change += amount * effect.change;
-    sums.shared += amount * place * effect.change;
+    sums.farther += amount * place * effect.change;
     sums.highlight += amount * effect.highlight;
     return effect.change + effect.highlight;
 }
@@ -84,7 +84,7 @@ LightSums light_along(LitRun run, float in_front) {
         }
         float scale = weight / (amounts.x + amounts.y + amounts.z + 1e-37);
         sums.change += scale * piece.change;
-        sums.shared += scale * piece.shared;
+        sums.farther += scale * piece.farther;
         sums.highlight += scale * piece.highlight;
         in_front -= weight;
         at = last ? 1.0 : at + extent;

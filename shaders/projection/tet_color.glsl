@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Associated colour and opacity of a fragment's part of its tet.
 #include "optics/opacity.glsl"
+#ifdef LIT
+#include "projection/light_along.glsl"
+#endif
 
 #if SOURCE == SOURCE_CONSTANT
 vec4 tet_color() {
@@ -10,7 +13,6 @@ vec4 tet_color() {
 #elif SOURCE == SOURCE_PARTS
 #include "optics/linear_segment.glsl"
 #ifdef LIT
-#include "projection/light_along.glsl"
 vec4 integrate_lit(vec4 front, vec4 back, TetRun run) {
     vec4 unlit = integrate_linear(front, back, run.world_length);
     LitRun lit = LitRun(vec2(front.a, back.a) * run.world_length, run.front_gradient,
@@ -64,7 +66,6 @@ vec4 tet_color() {
 #include "optics/segment_table.glsl"
 #else
 #ifdef LIT
-#include "projection/light_along.glsl"
 vec3 segment_gradient, segment_turn, segment_to_eye;
 
 // Of the segment that is integrated next.

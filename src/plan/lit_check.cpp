@@ -32,7 +32,7 @@ void check_lit_slicing(const Scene& scene, const Capabilities& capabilities) {
 
 // The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have
 // no place for a gradient. Neither has a table of segments.
-void check_lit_projection(const Scene& scene, const Capabilities& capabilities) {
+void check_lit_projection(const Scene& scene) {
     if (!scene.lighting) return;
     const ProjectSettings& project = scene.project;
     const std::string file = scene.file.string();
@@ -63,10 +63,6 @@ void check_lit_projection(const Scene& scene, const Capabilities& capabilities) 
             file);
     }
     check_smallest_gradient(scene);
-    if (!capabilities.tiles) {
-        fail("{}: lighting: expected --context cpu: only the native engine draws lit tets: {}",
-             file, capabilities.renderer);
-    }
 }
 
 }  // namespace lamina

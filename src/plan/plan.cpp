@@ -78,7 +78,7 @@ Plan make_plan(const Scene& scene, const MeshFacts& facts, const Capabilities& c
     Plan plan;
     plan.method = scene.method;
     if (scene.method == Method::project) {
-        check_lit_projection(scene, capabilities);
+        check_lit_projection(scene);
         check_limits(scene, capabilities);
         const TargetChoice choice = choose_project_target(scene);
         plan.project = plan_projection(with_target(scene, choice.target), facts, capabilities,

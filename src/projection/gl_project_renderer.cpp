@@ -114,7 +114,8 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     const auto parts = static_cast<std::size_t>(parts_->count());
     const bool fan = is_fan(plan_);
     const TetGeometry::Size size =
-        fan ? FanGeometry::largest_size() : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
+        fan ? FanGeometry::largest_size()
+            : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
     stream_ = std::move(ready);
     if (!stream_ || !stream_->serves(size, parts)) {
         stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, parts)
@@ -210,8 +211,7 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
         fans.emplace(mesh_, transfer_function_, plan_, view);
     } else {
         silhouettes.emplace(TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
-                                         view, plan_.near_depth, margin_,
-                                         gradients_.at_points));
+                                         view, plan_.near_depth, margin_, gradients_.at_points));
     }
     const TetGeometry& geometry = fans ? static_cast<const TetGeometry&>(*fans) : *silhouettes;
     // A kind without a program is drawn by the next kind that has one. Fans are all plain.

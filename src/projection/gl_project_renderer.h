@@ -80,7 +80,7 @@ class GlProjectRenderer : public ProjectRenderer {
     std::shared_ptr<VisibilityOrder> order_;
     // None where nothing is visible.
     std::optional<GlProjectTables> tables_;
-    StoredGradients gradients_;  // empty where nothing is lit
+    StoredGradients gradients_;                                        // empty where nothing is lit
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::shared_ptr<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;

@@ -132,12 +132,12 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     Chunk& chunk = chunks_[number];
     chunk = {};
     for (std::size_t i = first; i < end; ++i) {
-        const TetGeometry::Written written = geometry.write(
-            parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
-                       static_cast<std::uint32_t>(vertex), indices + index,
-                       size_.has_record ? records + i : nullptr,
-                       size_.has_gradient ? gradients + i : nullptr,
-                       static_cast<std::uint32_t>(i)});
+        const TetGeometry::Written written =
+            geometry.write(parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
+                                      static_cast<std::uint32_t>(vertex), indices + index,
+                                      size_.has_record ? records + i : nullptr,
+                                      size_.has_gradient ? gradients + i : nullptr,
+                                      static_cast<std::uint32_t>(i)});
         vertex += written.vertices;
         index += written.indices;
         if (written.indices > 0 && parts[i].tet != chunk.last_tet) {

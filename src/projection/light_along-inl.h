@@ -25,14 +25,14 @@ struct LitRun {
 };
 
 // Where the colour at the front of a run is f and that at its back b, light adds
-// f * change + (b - f) * shared + highlight. Of one channel where light is grey.
+// f * change + (b - f) * farther + highlight. Of one channel where light is grey.
 template <std::size_t channels>
 struct LightSums {
-    Number change[channels], shared[channels], highlight[channels];
+    Number change[channels], farther[channels], highlight[channels];
 
     HWY_INLINE Number added(std::size_t channel, Number front, Number back) const {
         const std::size_t c = channels == 1 ? 0 : channel;
-        return front * change[c] + (back - front) * shared[c] + highlight[c];
+        return front * change[c] + (back - front) * farther[c] + highlight[c];
     }
 };
 
@@ -52,7 +52,7 @@ class LightAlong {
     HWY_INLINE LightSums<channels> sum(Number in_front, FloatMask wanted) {
         const FloatTag d;
         for (std::size_t c = 0; c < channels; ++c)
-            sums_.change[c] = sums_.shared[c] = sums_.highlight[c] = Number(0);
+            sums_.change[c] = sums_.farther[c] = sums_.highlight[c] = Number(0);
         at_ = Number(0);
         longest_ = Number(1);
         in_front_ = in_front;
@@ -105,7 +105,7 @@ class LightAlong {
         Number total(1e-37f), bend[channels];
         LightSums<channels> sums;
         for (std::size_t c = 0; c < channels; ++c)
-            sums.change[c] = sums.shared[c] = sums.highlight[c] = bend[c] = Number(0);
+            sums.change[c] = sums.farther[c] = sums.highlight[c] = bend[c] = Number(0);
         for (std::size_t i = 0; i < 3; ++i) {
             const Number along = Number(Rule::nodes[i]) * piece.extent, place = at_ + along;
             const Number before = along * (piece.front + Number(0.5f) * change_ * along);
@@ -118,7 +118,7 @@ class LightAlong {
             for (std::size_t c = 0; c < channels; ++c) {
                 const Number changed = amount * effect.change[c];
                 sums.change[c] = sums.change[c] + changed;
-                sums.shared[c] = sums.shared[c] + place * changed;
+                sums.farther[c] = sums.farther[c] + place * changed;
                 sums.highlight[c] = sums.highlight[c] + amount * effect.highlight[c];
                 const Number both = effect.change[c] + effect.highlight[c];
                 bend[c] = bend[c] + (i == 1 ? Number(-2) * both : both);
@@ -138,7 +138,7 @@ class LightAlong {
         const Number scale = zero_unless(done, weight / total);
         for (std::size_t c = 0; c < channels; ++c) {
             sums_.change[c] = sums_.change[c] + scale * sums.change[c];
-            sums_.shared[c] = sums_.shared[c] + scale * sums.shared[c];
+            sums_.farther[c] = sums_.farther[c] + scale * sums.farther[c];
             sums_.highlight[c] = sums_.highlight[c] + scale * sums.highlight[c];
         }
         in_front_ = in_front_ - zero_unless(done, weight);

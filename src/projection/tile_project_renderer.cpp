@@ -285,7 +285,8 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
-        part, {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, nullptr, 0});
+        part,
+        {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, nullptr, 0});
     const TileGrid& grid = image_.grid();
     for (std::size_t i = 0; i < written.indices; i += 3) {
         const std::array<const FanVertex*, 3> corners{
