@@ -10,16 +10,28 @@ struct PartSum {
     float transmittance;
 };
 
+#ifndef SINGLE_COLOR
+// Returns the associated colour of a part in one interval.
+vec3 color_of(Interval interval, LinearPart part, float depth, float opacity) {
+    // The shortest parts may be too deep even so: their colour hardly changes.
+    float share = depth > largest_part_depth ? opacity * clamp(part.share.x, 0.0, 1.0)
+                                             : seen_share(part, depth, opacity);
+    return interval.left.rgb * opacity + interval.change.rgb * share;
+}
+
+// Adds a part of that colour and opacity.
+void composite(vec3 color, float opacity, inout PartSum sum) {
+    sum.color += sum.transmittance * color;
+    sum.transmittance -= sum.transmittance * opacity;
+}
+#endif
+
 // Adds a part in one interval.
 void add_linear_part(Interval interval, LinearPart part, float depth, inout PartSum sum) {
     sum.depth += depth;
 #ifndef SINGLE_COLOR
     float opacity = opacity_from_depth(depth);
-    // The shortest parts may be too deep even so: their colour hardly changes.
-    float share = depth > largest_part_depth ? opacity * clamp(part.share.x, 0.0, 1.0)
-                                             : seen_share(part, depth, opacity);
-    sum.color += sum.transmittance * (interval.left.rgb * opacity + interval.change.rgb * share);
-    sum.transmittance -= sum.transmittance * opacity;
+    composite(color_of(interval, part, depth, opacity), opacity, sum);
 #endif
 }
 
@@ -65,9 +77,14 @@ CutPlace first_place(vec4 cubic, vec2 turns) {
     return CutPlace(0.0, cubic.x, interval);
 }
 
-// Adds the monotone piece of a part from a place on, as far as it stays in one interval, or less. Moves the place to
-// its end.
-void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
+// The monotone stretch of a part from a place on, as far as it stays in one interval.
+struct Stretch {
+    Interval interval;
+    float to, at_to;    // its end, and the scalar there
+    int next_interval;  // behind its end
+};
+
+Stretch next_stretch(vec4 cubic, vec2 turns, CutPlace place) {
     float end = place.t < turns.x ? turns.x : place.t < turns.y ? turns.y : 1.0;
     float at_end = cubic_at(cubic, end);
     bool rising = at_end >= place.scalar;
@@ -75,23 +92,40 @@ void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place,
     float knot = rising ? interval.right_end : place.interval == 0 ? -3e38 : interval.left_end;
     bool crosses = rising ? knot < at_end : knot > at_end;
     float to = crosses ? cubic_root(cubic, knot, vec2(place.t, end), vec2(place.scalar, at_end)) : end;
-    float at_to = crosses ? knot : at_end;
+    return Stretch(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
+}
 
-    float extent = max(to - place.t, 0.0);
+// Returns the piece of `extent` from a place on, up to where the scalar is `at_end`.
+LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float extent, float at_end, float world_length) {
     vec4 piece = vec4(place.scalar, 0.0, (cubic.z + 3.0 * cubic.w * place.t) * extent * extent,
                       cubic.w * extent * extent * extent);
-    piece.y = (at_to - place.scalar) - (piece.z + piece.w);
-    LinearPart part = linear_part(interval, piece, world_length * extent);
+    piece.y = (at_end - place.scalar) - (piece.z + piece.w);
+    return linear_part(interval, piece, world_length * extent);
+}
+
+// Moves a place to the end of a stretch, or by a piece of `extent`.
+void advance(Stretch stretch, vec4 cubic, bool whole, float extent, inout CutPlace place) {
+    float shortened = max(place.t + extent, place.t + 6e-8);
+    place.t = whole ? stretch.to : shortened;
+    place.scalar = whole ? stretch.at_to : cubic_at(cubic, shortened);
+    if (whole) place.interval = stretch.next_interval;
+}
+
+#ifdef LIGHTS
+#include "slicing/lit_cell.glsl"
+#else
+// Adds the next stretch of a part, or the beginning of it, and moves the place to its end.
+void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
+    Stretch stretch = next_stretch(cubic, turns, place);
+    float extent = max(stretch.to - place.t, 0.0);
+    LinearPart part = piece_from(place, stretch.interval, cubic, extent, stretch.at_to, world_length);
 #ifdef SINGLE_COLOR
     const bool whole = true;
 #else
     bool whole = shorten(part, extent);
 #endif
-    add_linear_part(interval, part, depth_of(part), sum);
-    float shortened = max(place.t + extent, place.t + 6e-8);
-    place.t = whole ? to : shortened;
-    place.scalar = whole ? at_to : cubic_at(cubic, shortened);
-    if (whole && crosses) place.interval += rising ? 1 : -1;
+    add_linear_part(stretch.interval, part, depth_of(part), sum);
+    advance(stretch, cubic, whole, extent, place);
 }
 
 void add_cut_part(vec4 cubic, float world_length, inout PartSum sum) {
@@ -118,3 +152,4 @@ void add_part(vec4 cubic, float world_length, inout PartSum sum) {
         hard = false;
     }
 }
+#endif

@@ -18,6 +18,9 @@ void integrate_cells(Ray ray, REAL2 depths, out vec3 associated_color, out float
     CellRay cells = cell_ray(ray);
     CellPlace at = place_at(ray, cells, depths.x);
     REAL left = depths.y - depths.x;
+#ifdef LIGHTS
+    vec3 to_eye = -normalize(vec3(ray.direction) * spacing);
+#endif
     while (left > REAL(0.0)) {
 #ifdef OCCUPIED_ONLY
         ivec3 brick = brick_of(at.cell);
@@ -34,7 +37,12 @@ void integrate_cells(Ray ray, REAL2 depths, out vec3 associated_color, out float
         vec3 change = way * cells.slope;
         bool transparent;
         vec4 cubic = cell_cubic(at.cell, at.place, change, transparent);
-        add_part(cubic, transparent ? 0.0 : way * float(ray.length_per_depth), sum);
+        float world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
+#ifdef LIGHTS
+        add_part(cubic, world_length, LitStep(at.cell, at.place, change, to_eye), sum);
+#else
+        add_part(cubic, world_length, sum);
+#endif
 #ifdef ENDS_EARLY
         if (sum.depth >= opaque_depth) break;
 #endif

@@ -42,11 +42,12 @@ struct EffectLanes {
     Number change[channels], highlight[channels];
 };
 
+// `smallest_square`: of the smallest gradient, in the unit of g.
 template <std::size_t channels>
 HWY_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Number (&g)[3],
-                                           const Number (&to_eye_unit)[3]) {
+                                           Number smallest_square, const Number (&to_eye_unit)[3]) {
     const Number square = dot(g, g);
-    const Number weight = square / (square + Number(light.smallest_square));
+    const Number weight = square / (square + smallest_square);
     const Number inverse_root = Number(1) / Number(hn::Sqrt(max(square, Number(1e-37f)).v));
     EffectLanes<channels> effect;
     const Number to_eye = dot(g, to_eye_unit) * inverse_root;

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "executors/tile_light.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "executors/light_cuts.h"
 #include "optics/ray_lights.h"
 
 namespace lamina {
 namespace {
-
-// The gradient then is nowhere shorter than .3 of what it is in the middle.
-constexpr double most_growth = 0.7;
-// A highlight falls to exp(-1/2) at an angle of 1 / sqrt(power). Of six times that, a node of three
-// lies within 1.2 times that of any peak.
-constexpr double peak_widths = 3;
 
 TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     TileLight::Direction direction;
@@ -33,8 +27,9 @@ TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec
 }  // namespace
 
 TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double gradient_scale, double most_bend) {
+                          double most_bend) {
     TileLight light;
+    light.smallest = smallest_gradient_of(lighting);
     light.gray = true;
     for (const Light& each : lighting.lights) {
         light.directions.push_back(direction_of(each, axes));
@@ -46,19 +41,12 @@ TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3,
     light.half_power = static_cast<float>(lighting.power / 2);
     if (std::floor(lighting.power / 2) == lighting.power / 2)
         light.whole_half_power = static_cast<int>(lighting.power / 2);
-    // Within what float32 can divide by: outside, all or nothing is lit.
-    const double smallest = std::clamp(*lighting.smallest_gradient * gradient_scale, 1e-15, 1e15);
-    light.smallest_square = static_cast<float>(smallest * smallest);
     for (std::size_t axis = 0; axis < 3; ++axis)
         light.spacing[axis] = static_cast<float>(glm::length(axes[axis]));
     light.most_bend = static_cast<float>(most_bend);
-    light.most_turn = static_cast<float>(most_growth);
-    if (lighting.specular > 0) {
-        light.most_turn =
-            static_cast<float>(std::min(most_growth, peak_widths / std::sqrt(lighting.power)));
-    }
-    light.largest_effect =
-        static_cast<float>(RayLights(lighting, glm::dvec3(0, 0, 1)).largest_effect(1));
+    const LightCuts cuts = light_cuts(lighting);
+    light.most_turn = static_cast<float>(cuts.most_turn);
+    light.largest_effect = static_cast<float>(cuts.largest_effect);
     return light;
 }
 

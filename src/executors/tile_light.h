@@ -6,11 +6,12 @@
 #include <array>
 #include <vector>
 
+#include "executors/smallest_gradient.h"
 #include "lamina/lighting.h"
 
 namespace lamina {
 
-// A lighting as vectors compute it, in three orthogonal axes and the unit of stored gradients.
+// A lighting as vectors compute it, in three orthogonal axes.
 struct TileLight {
     struct Direction {
         bool to_eye = false;  // a headlight
@@ -20,9 +21,9 @@ struct TileLight {
     std::vector<Direction> directions;
     bool gray = false;  // all components of each colour are equal
     float ambient = 0, diffuse = 0, specular = 0;
-    float half_power = 0;            // of the square of a cosine
-    int whole_half_power = 0;        // the same where it is a whole number, else 0
-    float smallest_square = 0;       // of the smallest gradient
+    float half_power = 0;      // of the square of a cosine
+    int whole_half_power = 0;  // the same where it is a whole number, else 0
+    SmallestGradient smallest;
     std::array<float, 3> spacing{};  // lengths of the axes
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
@@ -31,9 +32,8 @@ struct TileLight {
     float most_turn = 0, largest_effect = 0;
 };
 
-// `axes`: orthogonal, in the unit of lengths along rays. Stored gradients are those in scalar units
-// per world unit times `gradient_scale`.
+// `axes`: orthogonal, in the unit of lengths along rays.
 TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double gradient_scale, double most_bend);
+                          double most_bend);
 
 }  // namespace lamina

@@ -131,6 +131,11 @@ void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> compone
     upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size(), store);
 }
 
+void Texture::upload(const TexelBox& box, std::span<const std::int16_t> components,
+                     PixelStore store) {
+    upload_components(box, GL_SHORT, components.data(), components.size(), store);
+}
+
 void Texture::upload(const TexelBox& box, std::span<const float> components, PixelStore store) {
     upload_components(box, GL_FLOAT, components.data(), components.size(), store);
 }
@@ -170,6 +175,7 @@ std::vector<float> Texture::read_rgba() const {
 
 void Texture::read_rgba(std::span<float> rgba) const {
     assert(rgba.size() == 4 * static_cast<std::size_t>(texel_count(whole_)));
+    assert(format_ != TextureFormat::rgba16i);
     // The transfer goes in bands of rows, because OpenGL counts its bytes in an int.
     const std::size_t row_floats = 4 * static_cast<std::size_t>(width());
     const std::size_t band_floats = std::size_t{1} << 24;

@@ -41,10 +41,13 @@ class Texture {
     static Texture make_3d(TextureFormat format, int width, int height, int depth);
 
     // Fills `box` from components in memory, x fastest. uint8 for r8 and rgba8, uint16 for r16 and
-    // rgba16, float for the rest. `components` must reach to the box's last texel (assert).
+    // rgba16, int16 for rgba16i, float for the rest. `components` must reach to the box's last
+    // texel (assert).
     void upload(const TexelBox& box, std::span<const std::uint8_t> components,
                 PixelStore store = {});
     void upload(const TexelBox& box, std::span<const std::uint16_t> components,
+                PixelStore store = {});
+    void upload(const TexelBox& box, std::span<const std::int16_t> components,
                 PixelStore store = {});
     void upload(const TexelBox& box, std::span<const float> components, PixelStore store = {});
 
@@ -52,7 +55,7 @@ class Texture {
     void bind(unsigned unit) const;
 
     // All texels as RGBA floats, x fastest, then y, then z: row 0 is OpenGL's, the bottom one of a
-    // drawn image. Absent channels read as 0, absent alpha as 1.
+    // drawn image. Absent channels read as 0, absent alpha as 1. Not of rgba16i.
     std::vector<float> read_rgba() const;
     void read_rgba(std::span<float> rgba) const;  // 4 floats a texel, exactly
 

@@ -75,6 +75,12 @@ double RayLights::largest_effect(double brightest) const {
     return brightest * change + specular_ * light_;
 }
 
+double RayLights::effect_span() const {
+    const double least = std::min(ambient_ - 1, 0.0);
+    const double most = std::max(ambient_ - 1 + (diffuse_ + specular_) * light_, 0.0);
+    return most - least;
+}
+
 double RayLights::largest_factor() const {
     return std::max(1.0, ambient_ + diffuse_ * light_);
 }

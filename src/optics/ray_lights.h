@@ -34,6 +34,9 @@ class RayLights {
     // The largest component of what light adds to, or takes from, colours with components up to
     // `brightest`, divided by the weight.
     double largest_effect(double brightest) const;
+    // Between the least and the largest component of what light adds to colours with components up
+    // to 1.
+    double effect_span() const;
     // What light multiplies colours by, at most: at least 1.
     double largest_factor() const;
     // The largest component of lit colours with components up to `brightest`.

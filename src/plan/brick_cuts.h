@@ -17,4 +17,8 @@ std::vector<TextureBrick> cut_into_bricks(const Grid& grid, bool bordered,
                                           std::uint64_t texel_bytes,
                                           const Capabilities& capabilities);
 
+// The bytes of the largest texel that a sample takes: OpenGL has lit volumes' gradients in
+// textures, too (slicing/gradient_map.h).
+std::uint64_t texel_bytes(const SlicePlan& plan, SampleType type, const Capabilities& capabilities);
+
 }  // namespace lamina

@@ -24,12 +24,20 @@ int slabs_of(const Scene& scene, int least) {
     return static_cast<int>(leaves);
 }
 
-void check_exact(const Scene& scene, int least, const Capabilities& capabilities) {
+void check_exact(const Scene& scene, const Facts& facts, int least,
+                 const Capabilities& capabilities) {
     if (scene.slice.filter == Filter::hardware) {
         fail(
             "{}: render.slice.filter: found \"hardware\", expected \"exact\" with classification "
             "\"exact\"",
             scene.file.string());
+    }
+    const double least_error = least_lit_error(scene, facts, capabilities);
+    if (scene.max_error < least_error) {
+        fail(
+            "{}: render.max_error: found {}, expected at least {:.2g} with lighting and {}, which "
+            "ends the loops of rays that are cut where light bends; or use --context cpu",
+            scene.file.string(), scene.max_error, least_error, capabilities.renderer);
     }
     if (slabs_of(scene, least) < least) {
         fail(
@@ -44,12 +52,12 @@ void check_exact(const Scene& scene, int least, const Capabilities& capabilities
 ClassificationChoice choose_classification(const Scene& scene, const Facts& facts,
                                            const Capabilities& capabilities,
                                            const SampleTrials& trials) {
-    check_lit_slicing(scene, capabilities);
+    check_lit_slicing(scene);
     const Classification asked = scene.slice.classification;
     if (asked != Classification::automatic && asked != Classification::exact) return {asked, 1, {}};
     const int least = least_exact_slabs(scene, facts, capabilities);
     if (asked == Classification::exact || scene.lighting) {
-        check_exact(scene, least, capabilities);
+        check_exact(scene, facts, least, capabilities);
         return {Classification::exact, least,
                 asked == Classification::exact ? "" : "light needs the gradient in every cell"};
     }

@@ -16,12 +16,16 @@ constexpr double missed_of_kink = 0.045;
 
 // A ray's opacity is at most 1: where each of its pieces misses no more than this of what it shows,
 // the ray does not either.
+double most_bend(const Scene& scene, double max_color) {
+    return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
+}
+
 template <typename MethodPlan>
 void set_light(const Scene& scene, double max_color, MethodPlan& plan) {
     if (!scene.lighting) return;
     plan.lighting = scene.lighting;
     plan.light_error = light_share * scene.max_error;
-    plan.most_bend = bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
+    plan.most_bend = most_bend(scene, max_color);
 }
 
 }  // namespace
@@ -32,6 +36,22 @@ void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
 
 void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
     set_light(scene, max_color, project);
+}
+
+// A piece is tried again, half as long, only where light bends by more than `most_bend` and by more
+// than an eighth of that in what the eye sees of it. The second difference of three effects is at
+// most twice their span, which is at least what may be hidden. So such a piece shows at least
+// 1 / `most` of the ray, and those that do not overlap are at most `most`. Pieces whose lengths lie
+// within one octave do not overlap, and lengths have eight octaves (shaders/slicing/lit_cell.glsl):
+// 8 * most trials in vain, and as length doubles after two pieces of full length, twice as many of
+// these. Whole parts of which that is true are at most `most`, too: each takes a round to be found,
+// up to three stretches that begin with pieces of an eighth, and so ten rounds in all.
+double light_rounds(const Scene& scene, double max_color) {
+    if (!scene.lighting) return 0;
+    const glm::dvec3 anywhere(0, 0, 1);
+    const double most =
+        8 * 2 * RayLights(*scene.lighting, anywhere).effect_span() / most_bend(scene, max_color);
+    return (3 * 8 + 10) * most;
 }
 
 double largest_drawn_color(const Scene& scene, double max_color) {

@@ -11,6 +11,10 @@ namespace lamina {
 void plan_light(const Scene& scene, double max_color, SlicePlan& slice);
 void plan_light(const Scene& scene, double max_color, ProjectPlan& project);
 
+// The most rounds of loops that a fragment of OpenGL takes, beyond those of unlit scenes, to cut
+// its ray where light bends.
+double light_rounds(const Scene& scene, double max_color);
+
 // The largest component that the scene may draw.
 double largest_drawn_color(const Scene& scene, double max_color);
 

@@ -15,13 +15,9 @@ void check_smallest_gradient(const Scene& scene) {
 
 }  // namespace
 
-void check_lit_slicing(const Scene& scene, const Capabilities& capabilities) {
+void check_lit_slicing(const Scene& scene) {
     if (!scene.lighting) return;
     check_smallest_gradient(scene);
-    if (!capabilities.tiles) {
-        fail("{}: lighting: expected --context cpu: only the native engine draws lit slices: {}",
-             scene.file.string(), capabilities.renderer);
-    }
     const Classification asked = scene.slice.classification;
     if (asked == Classification::exact || asked == Classification::automatic) return;
     fail(

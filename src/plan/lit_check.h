@@ -2,12 +2,11 @@
 #pragma once
 
 #include "lamina/scene.h"
-#include "plan/capabilities.h"
 
 namespace lamina {
 
 // Throw Error for a lit scene that the method cannot draw lit; nothing is drawn unlit instead.
-void check_lit_slicing(const Scene& scene, const Capabilities& capabilities);
+void check_lit_slicing(const Scene& scene);
 void check_lit_projection(const Scene& scene);
 
 }  // namespace lamina

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "facts/drawn_range.h"
+#include "plan/light_choice.h"
 
 namespace lamina {
 namespace {
@@ -46,11 +47,12 @@ int rounds_of_slab(const Scene& scene, const Facts& facts) {
     return 2 + (table ? 4 * search + 4 : search);
 }
 
-// The cell, a leap, two searches, and where knots are crossed one for the cell and up to three
-// crossings of each (a cubic has three monotone parts).
+// The cell, a leap, its light, two searches, and where knots are crossed one for the cell and up to
+// three crossings of each (a cubic has three monotone parts).
 double rounds_of_cell(const Scene& scene, const Facts& facts) {
     const auto pieces = 3 * (static_cast<double>(facts.knots) + 1);
-    return 2 + 2 * search_rounds(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
+    const int light = scene.lighting ? 1 : 0;
+    return 2 + light + 2 * search_rounds(scene, facts) + (facts.knots > 0 ? 1 + pieces : 0);
 }
 
 // The most cells that a ray crosses between two planes that are `depth` apart: one for each plane
@@ -65,10 +67,17 @@ double most_cells(const Facts& facts, double depth) {
     return std::min(box.x + box.y + box.z, along) + 4;
 }
 
+// Those that do not depend on how long the segment is.
+double rounds_at_any_length(const Scene& scene, const Facts& facts) {
+    const bool parts_deep_cells = !facts.single_color || scene.lighting;
+    return spare_rounds + (parts_deep_cells ? deep_part_rounds : 0) +
+           light_rounds(scene, facts.max_color);
+}
+
 double exact_rounds(const Scene& scene, const Facts& facts, double share) {
     const double depth = share * (facts.far_depth - facts.near_depth);
-    const int parts = facts.single_color ? 0 : deep_part_rounds;
-    return spare_rounds + parts + most_cells(facts, depth) * rounds_of_cell(scene, facts);
+    return rounds_at_any_length(scene, facts) +
+           most_cells(facts, depth) * rounds_of_cell(scene, facts);
 }
 
 }  // namespace
@@ -82,13 +91,22 @@ int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilitie
 }
 
 int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
-    if (is_unlimited(capabilities) || facts.occupied.empty() || facts.constant) return 1;
+    if (is_unlimited(capabilities) || facts.occupied.empty()) return 1;
+    if (facts.constant && !scene.lighting) return 1;
     const auto fits = [&](int slabs) {
         return exact_rounds(scene, facts, 1.0 / slabs) <= most_rounds;
     };
     int slabs = 1;
     while (!fits(slabs) && slabs < max_slabs) slabs *= 2;
     return slabs;
+}
+
+double least_lit_error(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
+    if (is_unlimited(capabilities) || !scene.lighting) return 0;
+    const double light = light_rounds(scene, facts.max_color);
+    const double others = rounds_at_any_length(scene, facts) - light;
+    const double cells = most_cells(facts, 0) * rounds_of_cell(scene, facts);
+    return scene.max_error * light / std::max(most_rounds - others - cells, 1.0);
 }
 
 }  // namespace lamina

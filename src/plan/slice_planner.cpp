@@ -287,7 +287,7 @@ class SlicePlanner {
         }
         slice.bricks =
             cut_into_bricks(facts_.grid, slice.nan_transparent,
-                            slice.float_texture ? 4 : bytes_of(facts_.type), capabilities_);
+                            texel_bytes(slice, facts_.type, capabilities_), capabilities_);
     }
 
     void choose_compositing() {

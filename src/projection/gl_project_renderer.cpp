@@ -14,7 +14,7 @@
 #include "base/unreachable.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_lights.h"
-#include "executors/tile_light.h"
+#include "executors/light_cuts.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "gl/check.h"
@@ -197,10 +197,10 @@ void GlProjectRenderer::set_light(gl::Program& program, const View& view) const 
     const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
     const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
     program.set("view_axes", std::span<const glm::vec4>(axes));
-    const TileLight light =
-        make_tile_light(*plan_.lighting, world_axes, gradients_.scale, plan_.most_bend);
-    program.set("light_limits", glm::vec4(light.smallest_square, light.most_bend,
-                                          light.most_turn * light.most_turn, light.largest_effect));
+    const LightCuts cuts = light_cuts(*plan_.lighting);
+    program.set("light_limits",
+                glm::vec4(gradients_.smallest_square(*plan_.lighting), plan_.most_bend,
+                          cuts.most_turn * cuts.most_turn, cuts.largest_effect));
 }
 
 void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,

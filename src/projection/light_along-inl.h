@@ -42,7 +42,8 @@ struct LightSums {
 template <std::size_t channels>
 class LightAlong {
   public:
-    LightAlong(const TileLight& light, const LitRun& run) : light_(light), run_(run) {
+    LightAlong(const TileLight& light, float smallest_square, const LitRun& run)
+        : light_(light), smallest_square_(smallest_square), run_(run) {
         // Products of depths are numbers.
         run_.front_depth = min(run.front_depth, Number(deepest));
         change_ = min(run.back_depth, Number(deepest)) - run_.front_depth;
@@ -153,7 +154,7 @@ class LightAlong {
         const Number there[3] = {run_.gradient[0] + place * run_.turn[0],
                                  run_.gradient[1] + place * run_.turn[1],
                                  run_.gradient[2] + place * run_.turn[2]};
-        return effect_of<channels>(light_, there, run_.to_eye);
+        return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
     }
 
     // What may lie between nodes: nothing where the gradient stays near what it is in the middle,
@@ -170,11 +171,12 @@ class LightAlong {
         const FloatMask turns = reach > Number(light_.most_turn * light_.most_turn) * square;
         // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
         const Number steepest = Number(2) * (square + reach);
-        const Number weight = steepest / (steepest + Number(light_.smallest_square));
+        const Number weight = steepest / (steepest + smallest_square_);
         return zero_unless(turns, Number(light_.largest_effect) * weight);
     }
 
     const TileLight& light_;
+    Number smallest_square_;
     LitRun run_;
     Number change_;  // of extinction from front to back, times the length
     LightSums<channels> sums_;

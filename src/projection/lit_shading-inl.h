@@ -42,9 +42,11 @@ struct LitEnds {
 };
 
 template <std::size_t channels>
-HWY_INLINE void add_channels(const TileLight& light, const LitRun& run, Number in_front,
+HWY_INLINE void add_channels(const TetFragments& fragments, const LitRun& run, Number in_front,
                              FloatMask wanted, const LitEnds& piece, Floats (&color)[3]) {
-    const LightSums<channels> sums = LightAlong<channels>(light, run).sum(in_front, wanted);
+    const LightSums<channels> sums =
+        LightAlong<channels>(*fragments.light, fragments.smallest_square, run)
+            .sum(in_front, wanted);
     for (std::size_t c = 0; c < 3; ++c) {
         const Number sum =
             Number(piece.unlit[c]) + sums.added(c, Number(piece.near[c]), Number(piece.far[c]));
@@ -53,12 +55,12 @@ HWY_INLINE void add_channels(const TileLight& light, const LitRun& run, Number i
     }
 }
 
-HWY_INLINE void add_lit(const TileLight& light, const LitRun& run, Number in_front,
+HWY_INLINE void add_lit(const TetFragments& fragments, const LitRun& run, Number in_front,
                         FloatMask wanted, const LitEnds& piece, Floats (&color)[3]) {
-    if (light.gray) {
-        add_channels<1>(light, run, in_front, wanted, piece, color);
+    if (fragments.light->gray) {
+        add_channels<1>(fragments, run, in_front, wanted, piece, color);
     } else {
-        add_channels<3>(light, run, in_front, wanted, piece, color);
+        add_channels<3>(fragments, run, in_front, wanted, piece, color);
     }
 }
 
@@ -150,8 +152,7 @@ struct LitShader {
             gradient.between(Number(0), Number(1), Number(optics(3, run.front)) * length,
                              Number(optics(3, run.back)) * length);
         Floats color[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        add_lit(*fragments.light, light_run, Number(1), hn::Gt(unlit.alpha, hn::Zero(d)), piece,
-                color);
+        add_lit(fragments, light_run, Number(1), hn::Gt(unlit.alpha, hn::Zero(d)), piece, color);
         return {color[0], color[1], color[2], unlit.alpha};
     }
 
@@ -179,7 +180,7 @@ struct LitShader {
                 ends.unlit[c] = hn::Mul(transmittance, shown);
             }
             const FloatMask wanted = hn::And(piece.counted, hn::Gt(opacity, hn::Zero(d)));
-            add_lit(*fragments.light, gradient.between(from, to, Number(piece.p), Number(piece.q)),
+            add_lit(fragments, gradient.between(from, to, Number(piece.p), Number(piece.q)),
                     Number(transmittance), wanted, ends, color);
             depth = hn::Add(depth, piece.depth);
             transmittance = hn::Mul(transmittance, hn::Sub(hn::Set(d, 1.0f), opacity));

@@ -19,4 +19,9 @@ StoredGradients::StoredGradients(std::span<const glm::dvec3> gradients) {
     for (const glm::dvec3& g : gradients) at_points.emplace_back(g * scale);
 }
 
+float StoredGradients::smallest_square(const Lighting& lighting) const {
+    const double smallest = std::clamp(*lighting.smallest_gradient * scale, 1e-15, 1e15);
+    return static_cast<float>(smallest * smallest);
+}
+
 }  // namespace lamina

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "lamina/lighting.h"
+
 namespace lamina {
 
 inline const std::array world_axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
@@ -19,6 +21,10 @@ struct StoredGradients {
 
     std::vector<glm::vec3> at_points;  // times `scale`; the longest has a length of at most 1
     double scale = 1;                  // a power of two
+
+    // The square of a smallest gradient in this unit. It is kept to what float32 can square:
+    // outside, all or nothing is lit.
+    float smallest_square(const Lighting& lighting) const;
 };
 
 }  // namespace lamina

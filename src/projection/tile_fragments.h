@@ -54,6 +54,7 @@ struct TetFragments {
     const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
     // The following where something is lit.
     const TileLight* light = nullptr;  // in the axes of the world
+    float smallest_square = 0;         // of the smallest gradient, in the unit of GradientRecord
     std::array<glm::vec3, 3> axes;     // unit vectors to the right, up and forward
     bool slanted = false;              // lengths along rays are longer than differences of z
 };

@@ -178,8 +178,9 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 void TileProjectRenderer::set_light() {
     const Stage stage("gradients");
     gradients_ = StoredGradients(gradients_of(mesh_));
-    light_ = make_tile_light(*plan_.lighting, world_axes, gradients_.scale, plan_.most_bend);
+    light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend);
     fragments_.light = &*light_;
+    fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
     fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
 }
 

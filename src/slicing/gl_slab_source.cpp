@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 #include <utility>
@@ -13,7 +14,10 @@
 
 #include "base/stage.h"
 #include "base/unreachable.h"
+#include "executors/gl_lights.h"
+#include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
+#include "executors/smallest_gradient.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
@@ -24,7 +28,7 @@
 namespace lamina {
 namespace {
 
-constexpr int distances_unit = 8;  // those of compositing lie between
+constexpr int distances_unit = 8, gradients_unit = 9;  // those of compositing lie between
 
 gl::Texture upload_distances(const OccupiedBricks& bricks) {
     const int width = static_cast<int>(bricks.count[0]), height = static_cast<int>(bricks.count[1]);
@@ -59,6 +63,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.single_color) defines.set("SINGLE_COLOR", 1);
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
+    if (plan.lighting) set_light_defines(*plan.lighting, defines);
     defines.set("INTERVALS", intervals);
     if (plan.integrates_cells()) {
         defines.set("EXACT", 1);
@@ -131,12 +136,32 @@ void GlSlabSource::bind(gl::Program& program) const {
     if (tables_) {
         tables_->bind(program);
         program.set("volume", GlTransferTables::first_free_unit);
+        if (plan_.lighting) bind_lights(program);
         return;
     }
     const double extinction = std::min(constant_.extinction, max_shader_extinction);
     const auto rounded = static_cast<float>(extinction);
     program.set("constant_optics", glm::vec4(glm::vec3(constant_.color), rounded));
     program.set("constant_extinction_low", static_cast<float>(extinction - double{rounded}));
+}
+
+void GlSlabSource::bind_lights(gl::Program& program) const {
+    set_lights(*plan_.lighting, facts_.grid.step, program);
+    const SmallestGradient smallest = smallest_gradient_of(*plan_.lighting);
+    program.set("smallest_gradient", smallest.mantissa);
+    program.set("smallest_exponent", smallest.exponent);
+    program.set("gradients", gradients_unit);
+    glm::vec3 spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = glm::length(facts_.grid.step[static_cast<std::size_t>(axis)]);
+        spacing[axis] = static_cast<float>(length);
+    }
+    program.set("spacing", spacing);
+    if (!plan_.integrates_cells()) return;
+    const LightCuts cuts = light_cuts(*plan_.lighting);
+    program.set("most_bend", static_cast<float>(plan_.most_bend));
+    program.set("most_turn", static_cast<float>(cuts.most_turn));
+    program.set("largest_effect", static_cast<float>(cuts.largest_effect));
 }
 
 void GlSlabSource::set_real(gl::Program& program, const char* name, const glm::dvec3& value) const {
@@ -201,6 +226,7 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
     if (tables_) volume_->bricks()[brick].bind(GlTransferTables::first_free_unit);
+    if (plan_.lighting) volume_->gradients()[brick].bind(gradients_unit);
 }
 
 IndexBox GlSlabSource::drawn_box(std::size_t brick) const {

@@ -56,6 +56,7 @@ class GlSlabSource {
   private:
     // `first`: the sample of the volume at which the texture begins.
     void set_clip(gl::Program& program, const glm::dvec3& first) const;
+    void bind_lights(gl::Program& program) const;
     void set_real(gl::Program& program, const char* name, const glm::dvec3& value) const;
 
     Facts facts_;

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "facts/drawn_range.h"
+#include "slicing/gradient_map.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -73,6 +74,32 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
     }
 }
 
+// Layer by layer, as above.
+gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Progress& progress) {
+    const auto row_size = static_cast<std::size_t>(brick.size[0]);
+    gl::Texture texture =
+        gl::Texture::make_3d(gl::TextureFormat::rgba16i, static_cast<int>(brick.size[0]),
+                             static_cast<int>(brick.size[1]), static_cast<int>(brick.size[2]));
+    std::vector<StoredGradient> layer(row_size * static_cast<std::size_t>(brick.size[1]));
+    std::vector<std::int16_t> components;
+    for (std::int64_t z = 0; z < brick.size[2]; ++z) {
+        parallel_for(brick.size[1], 16, [&](std::int64_t y) {
+            set_gradient_row(
+                volume, brick, y, z,
+                std::span(layer).subspan(static_cast<std::size_t>(y) * row_size, row_size));
+        });
+        components.clear();
+        for (const StoredGradient& gradient : layer) {
+            components.insert(components.end(), gradient.component.begin(),
+                              gradient.component.end());
+            components.push_back(gradient.exponent);
+        }
+        texture.upload(layer_of(brick, z), std::span<const std::int16_t>(components));
+        progress.advance();
+    }
+    return texture;
+}
+
 }  // namespace
 
 VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
@@ -83,7 +110,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
       filtered_(plan.sampling != VolumeSampling::fetch) {
     std::int64_t layers = 0;
     for (const TextureBrick& brick : parts_) layers += brick.size[2];
-    Progress progress("uploading the volume", layers);
+    Progress progress("uploading the volume", plan.lighting ? 2 * layers : layers);
     const gl::TextureFormat format = float_texture_                       ? gl::TextureFormat::r32f
                                      : volume.type() == SampleType::uint8 ? gl::TextureFormat::r8
                                                                           : gl::TextureFormat::r16;
@@ -94,6 +121,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
         if (filtered_) texture.set_filter(gl::TextureFilter::linear);
         upload_brick(volume, range, float_texture_, brick, texture, progress);
         bricks_.push_back(std::move(texture));
+        if (plan.lighting) gradients_.push_back(upload_gradients(volume, brick, progress));
     }
 }
 
@@ -102,7 +130,8 @@ bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
                             const SlicePlan& plan) const {
     return volume.data() == volume_.data() && plan.bricks == parts_ &&
            plan.float_texture == float_texture_ && (!float_texture_ || range == range_) &&
-           (plan.sampling != VolumeSampling::fetch) == filtered_;
+           (plan.sampling != VolumeSampling::fetch) == filtered_ &&
+           plan.lighting.has_value() == !gradients_.empty();
 }
 
 // Codes of int16 are shifted to begin at 0.

@@ -2,8 +2,8 @@
 #include "slicing/gradient_map.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -12,52 +12,31 @@
 namespace lamina {
 namespace {
 
-// The nearest half-precision number; |value| < 65520.
-std::uint64_t half_of(float value) {
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t sign = bits >> 16 & 0x8000u, magnitude = bits & 0x7fffffffu;
-    constexpr std::uint32_t least_normal = 0x38800000u;  // 2^-14
-    if (magnitude < least_normal) {
-        const float steps = std::nearbyint(std::bit_cast<float>(magnitude) * 0x1p24f);
-        return sign | static_cast<std::uint32_t>(steps);
-    }
-    const std::uint32_t rounded = magnitude + 0xfffu + (magnitude >> 13 & 1u);
-    return sign | (rounded - 0x38000000u) >> 13;
-}
-
-// So that the steepest gradient of one axis is 2^14 to 2^15.
-double scale_of(const Grid& grid, const ValueRange& range) {
-    double steepest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (grid.size[axis] > 1)
-            steepest = std::max(steepest, (range.hi - range.lo) / glm::length(grid.step[axis]));
-    }
-    if (!(steepest > 0) || !std::isfinite(steepest)) return 1;
-    return std::exp2(14 - std::floor(std::log2(steepest)));
-}
+// Beyond, of any gradient that light may ask about (Lighting::least_gradient), all or nothing is
+// lit.
+constexpr double least_length = 1e-280, largest_length = 1e280;
+constexpr int exponent_bias = 1023, mantissa_bits = 52;  // of doubles
 
 template <typename Sample>
 class Differences {
   public:
-    Differences(const Grid& grid, const Sample* samples, double scale)
+    Differences(const Grid& grid, const Sample* samples)
         : samples_(samples), size_(grid.size), stride_{1, size_[0], size_[0] * size_[1]} {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            per_step_[axis] = scale / glm::length(grid.step[axis]);
+            per_step_[axis] = 1 / glm::length(grid.step[axis]);
     }
 
     // At a sample; beyond the last ones the border's repeats.
-    std::uint64_t at(std::array<std::int64_t, 3> index) const {
+    std::array<double, 3> at(std::array<std::int64_t, 3> index) const {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             index[axis] = std::clamp<std::int64_t>(index[axis], 0, size_[axis] - 1);
             offset += index[axis] * stride_[axis];
         }
-        std::uint64_t packed = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double slope = difference(offset, index[axis], axis) * per_step_[axis];
-            packed |= half_of(static_cast<float>(slope)) << (16 * axis);
-        }
-        return packed;
+        std::array<double, 3> gradient{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            gradient[axis] = difference(offset, index[axis], axis) * per_step_[axis];
+        return gradient;
     }
 
   private:
@@ -82,22 +61,51 @@ class Differences {
     std::array<double, 3> per_step_{};
 };
 
+double power_of_two(int exponent) {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + exponent_bias)
+                                 << mantissa_bits);
+}
+
 }  // namespace
 
-GradientMap make_gradient_map(const Volume& volume, const ValueRange& range,
-                              const TextureBrick& part) {
-    const Grid& grid = volume.grid();
-    GradientMap map{scale_of(grid, range), {}};
-    map.gradients.resize(static_cast<std::size_t>(part.size[0] * part.size[1] * part.size[2]));
+StoredGradient store_gradient(const std::array<double, 3>& gradient) {
+    double largest = 0;
+    for (const double component : gradient) largest = std::max(largest, std::abs(component));
+    if (!(largest >= least_length)) return {};
+    largest = std::min(largest, largest_length);
+    const int octave =
+        static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> mantissa_bits) - exponent_bias;
+    // The largest component is 2^14 up to 2^15, which int16 has not got.
+    const int exponent = octave - 14;
+    const double scale = power_of_two(-exponent);
+    StoredGradient stored;
+    stored.exponent = static_cast<std::int16_t>(exponent);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double scaled = std::clamp(gradient[axis] * scale, -32767.0, 32767.0);
+        stored.component[axis] = static_cast<std::int16_t>(std::nearbyint(scaled));
+    }
+    return stored;
+}
+
+void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64_t y,
+                      std::int64_t z, std::span<StoredGradient> row) {
+    assert(row.size() == static_cast<std::size_t>(part.size[0]));
     volume.visit([&](const auto* samples) {
-        const Differences differences(grid, samples, map.scale);
-        parallel_for(part.size[1] * part.size[2], 64, [&](std::int64_t number) {
-            const std::int64_t y = number % part.size[1], z = number / part.size[1];
-            std::uint64_t* const row =
-                map.gradients.data() + static_cast<std::size_t>(number * part.size[0]);
-            for (std::int64_t x = 0; x < part.size[0]; ++x)
-                row[x] = differences.at({part.first[0] + x, part.first[1] + y, part.first[2] + z});
-        });
+        const Differences differences(volume.grid(), samples);
+        std::int64_t x = part.first[0];
+        for (StoredGradient& stored : row)
+            stored = store_gradient(differences.at({x++, part.first[1] + y, part.first[2] + z}));
+    });
+}
+
+std::vector<StoredGradient> make_gradient_map(const Volume& volume, const TextureBrick& part) {
+    const auto row_size = static_cast<std::size_t>(part.size[0]);
+    const std::int64_t rows = part.size[1] * part.size[2];
+    std::vector<StoredGradient> map(row_size * static_cast<std::size_t>(rows));
+    parallel_for(rows, 64, [&](std::int64_t number) {
+        set_gradient_row(
+            volume, part, number % part.size[1], number / part.size[1],
+            std::span(map).subspan(static_cast<std::size_t>(number) * row_size, row_size));
     });
     return map;
 }

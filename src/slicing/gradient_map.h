@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lamina/volume.h"
@@ -9,17 +11,28 @@
 
 namespace lamina {
 
-// The gradients at the samples of a brick (docs/numerics.md, section 10), along the grid's axes,
-// which are orthogonal: lights are turned into them. Four half-precision numbers a sample, x
-// lowest, the last one 0, in the order of the brick's samples.
-struct GradientMap {
-    // One unit of the numbers is 1 / scale scalar units per world unit; a power of two.
-    double scale = 1;
-    std::vector<std::uint64_t> gradients;
-};
+// A gradient as light needs it: its direction, and its length in a range without ends, so that
+// values that stand for nothing (1e36) take no digits of those beside them. component *
+// 2^exponent, in scalar units per world unit. The largest component has 15 bits: each is off by at
+// most 2^-15 of it.
+struct StoredGradient {
+    std::array<std::int16_t, 3> component{};
+    std::int16_t exponent = no_exponent;
 
-// `range`: of the volume's finite values.
-GradientMap make_gradient_map(const Volume& volume, const ValueRange& range,
-                              const TextureBrick& part);
+    static constexpr std::int16_t no_exponent = -0x4000;  // of 0
+
+    friend bool operator==(const StoredGradient&, const StoredGradient&) = default;
+};
+static_assert(sizeof(StoredGradient) == 8);
+
+StoredGradient store_gradient(const std::array<double, 3>& gradient);
+
+// Sets the gradients at the samples of row (y, z) of a brick (docs/numerics.md, section 10), along
+// the grid's axes, which are orthogonal: lights are turned into them. `row`: part.size[0] of them.
+void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64_t y,
+                      std::int64_t z, std::span<StoredGradient> row);
+
+// Those of all samples of a brick, x fastest.
+std::vector<StoredGradient> make_gradient_map(const Volume& volume, const TextureBrick& part);
 
 }  // namespace lamina

@@ -77,8 +77,10 @@ struct CellParts {
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner
     // The normalised scalar from entry to exit: cubic[0] + t (cubic[1] + ...), t from 0 to 1.
     alignas(64) float cubic[4][capacity];
-    // Of parts that are lit: the gradient as cubics likewise, and the direction to the eye.
+    // Of parts that are lit: the gradient as cubics likewise, the square of the smallest one in the
+    // same unit, and the direction to the eye.
     alignas(64) float gradient[3][4][capacity];
+    alignas(64) float smallest_square[capacity];
     alignas(64) float to_eye[3][capacity];
     // Associated colour, opacity and optical depth that the part adds to its ray.
     alignas(64) float color[3][capacity];

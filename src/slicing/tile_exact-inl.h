@@ -231,7 +231,8 @@ class CellIntegrator {
         const FloatTag d;
         const FloatMask seen = hn::And(members_from(i), depth > Number(0));
         if (hn::AllFalse(d, hn::Or(seen, hard))) return Number(1);
-        const GradientLanes gradient = set_gradients(view_->brick, i, parts_.count - i, parts_);
+        const GradientLanes gradient =
+            set_gradients(view_->brick, *slabs_.light, i, parts_.count - i, parts_);
         Number color[3] = {load_number(parts_.color[0] + i), load_number(parts_.color[1] + i),
                            load_number(parts_.color[2] + i)};
         const Number opacity = load_number(parts_.opacity + i);

@@ -19,25 +19,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// The gradient along a part of a ray, and the direction to the eye, along the grid's axes.
+// The gradient along a part of a ray, the square of the smallest gradient in the same unit, and the
+// direction to the eye; along the grid's axes.
 struct GradientLanes {
     CubicLanes along[3];
+    Number smallest_square;
     Number to_eye[3];
 };
 
-// Two neighbours along x of the gradient map, for each lane.
-struct GradientPair {
-    Floats lower[3], upper[3];
-};
-
-HWY_INLINE Floats low_half(Words v) {
-    const hn::Rebind<std::uint16_t, WordTag> halves;
-    const hn::Rebind<hwy::float16_t, FloatTag> numbers;
-    return hn::PromoteTo(FloatTag(), hn::BitCast(numbers, hn::TruncateTo(halves, v)));
-}
-
-// Four words of 32 bits for each lane and each of a cell's four rows along x, in the order of
-// Corners.
+// Two words of 32 bits for each lane, of the lower and the upper of two neighbours along x, and for
+// each of a cell's four rows along x, in the order of Corners.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
 // Loads pairs one by one, which is faster than gathers. Where samples have no neighbour along x,
@@ -47,10 +38,10 @@ inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int3
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
                                   static_cast<std::size_t>(brick.slice),
                                   static_cast<std::size_t>(brick.row + brick.slice)};
-    constexpr std::size_t size = sizeof(std::uint64_t);
+    constexpr std::size_t size = sizeof(StoredGradient);
     const bool pairs = brick.last_sample[0] > 0;
     for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
-        const std::uint64_t* const from = brick.gradients + static_cast<std::size_t>(index[lane]);
+        const StoredGradient* const from = brick.gradients + static_cast<std::size_t>(index[lane]);
         for (std::size_t row = 0; row < 4; ++row) {
             std::uint32_t* const to = rows[row] + 4 * lane;
             if (pairs) {
@@ -63,33 +54,112 @@ inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int3
     }
 }
 
-HWY_INLINE GradientPair unpack_gradients(const std::uint32_t* row) {
-    Words lower_xy, lower_z, upper_xy, upper_z;
-    hn::LoadInterleaved4(WordTag(), row, lower_xy, lower_z, upper_xy, upper_z);
-    return {{low_half(lower_xy), low_half(hn::ShiftRight<16>(lower_xy)), low_half(lower_z)},
-            {low_half(upper_xy), low_half(hn::ShiftRight<16>(upper_xy)), low_half(upper_z)}};
+// Stored gradients (slicing/gradient_map.h): x below y, and z below the exponent.
+struct GradientWords {
+    Ints xy, z;
+    HWY_INLINE Ints exponent() const { return hn::ShiftRight<16>(z); }
+};
+
+HWY_INLINE Floats low_component(Ints words) {
+    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(words)));
+}
+HWY_INLINE Floats high_component(Ints words) {
+    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(words));
+}
+
+// The gradients of a cell's corners, `lower` and `upper` on x, have the unit 2^(largest -
+// unit_octaves) together, where `largest` is their largest exponent. So the largest component is
+// 2^46 up to 2^47, and squares of gradients 1e31 times as small are numbers, too.
+constexpr int unit_octaves = 32;
+
+// 2^exponent, 0 where that is too small.
+HWY_INLINE Floats power_of_two(Ints exponent) {
+    const IntTag di;
+    const Ints biased = hn::Max(hn::Add(exponent, hn::Set(di, 127)), hn::Zero(di));
+    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(biased));
+}
+
+// The square of the smallest gradient, in the unit of gradients with this largest exponent. It is
+// kept to what float32 can square: outside, all or nothing is lit.
+HWY_INLINE Number smallest_square_of(const TileLight& light, Ints largest) {
+    constexpr int most = 62;
+    const IntTag di;
+    const Ints exponent = hn::Sub(hn::Set(di, light.smallest.exponent + unit_octaves), largest);
+    const Ints kept = hn::Min(hn::Max(exponent, hn::Set(di, -most)), hn::Set(di, most));
+    const Number smallest = Number(light.smallest.mantissa) * Number(power_of_two(kept));
+    return smallest * smallest;
+}
+
+HWY_INLINE void set_corner(const GradientWords& words, Ints largest, std::size_t row, bool upper,
+                           Corners (&corners)[3]) {
+    const Ints octaves = hn::Sub(words.exponent(), largest);
+    const Floats scale = power_of_two(hn::Add(octaves, hn::Set(IntTag(), unit_octaves)));
+    const Floats components[3] = {low_component(words.xy), high_component(words.xy),
+                                  low_component(words.z)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Floats& to = upper ? corners[axis].upper[row] : corners[axis].lower[row];
+        to = hn::Mul(components[axis], scale);
+    }
+}
+
+// Returns the largest exponent.
+HWY_INLINE Ints unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
+    GradientWords lower[4], upper[4];
+    Ints largest = hn::Set(IntTag(), StoredGradient::no_exponent);
+    for (std::size_t row = 0; row < 4; ++row) {
+        Words words[4];
+        hn::LoadInterleaved4(WordTag(), rows[row], words[0], words[1], words[2], words[3]);
+        lower[row] = {hn::BitCast(IntTag(), words[0]), hn::BitCast(IntTag(), words[1])};
+        upper[row] = {hn::BitCast(IntTag(), words[2]), hn::BitCast(IntTag(), words[3])};
+        largest = hn::Max(largest, hn::Max(lower[row].exponent(), upper[row].exponent()));
+    }
+    for (std::size_t row = 0; row < 4; ++row) {
+        set_corner(lower[row], largest, row, false, corners);
+        set_corner(upper[row], largest, row, true, corners);
+    }
+    return largest;
+}
+
+// Replaces the lower corners on an axis by the upper ones.
+HWY_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) {
+    const auto take = [&](Floats& lower, Floats upper)
+                          HWY_ATTR { lower = hn::IfThenElse(lanes, upper, lower); };
+    const std::size_t rows[2][4] = {{0, 2, 1, 3},
+                                    {0, 1, 2, 3}};  // of y and z: two lower, two upper
+    for (std::size_t i = 0; axis == 0 && i < 4; ++i) take(corners.lower[i], corners.upper[i]);
+    for (std::size_t i = 0; axis > 0 && i < 2; ++i) {
+        const std::size_t lower = rows[axis - 1][i], upper = rows[axis - 1][i + 2];
+        take(corners.lower[lower], corners.lower[upper]);
+        take(corners.upper[lower], corners.upper[upper]);
+    }
+}
+
+// Where rays run beyond the last samples (`cell` axes), or along a face, only the upper corners
+// count: the lower ones may be too long to be subtracted again.
+HWY_INLINE void leave_out_lower(const Number (&place)[3], const Number (&change)[3],
+                                Corners (&corners)[3]) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const FloatMask beyond = hn::And(place[axis] >= Number(1), change[axis] == Number(0));
+        if (hn::AllFalse(FloatTag(), beyond)) continue;
+        for (Corners& component : corners) take_upper(axis, beyond, component);
+    }
 }
 
 // Sets the gradients of a vector of parts from part i on, of which the first `count` are there.
-HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, std::size_t count,
-                                       CellParts& parts) {
+HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, const TileLight& light,
+                                       std::size_t i, std::size_t count, CellParts& parts) {
     alignas(64) std::int32_t index[most_lanes] = {};
     std::memcpy(index, parts.index + i,
                 std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
     alignas(64) GradientRows rows;
     fetch_gradients(brick, index, rows);
     Corners corners[3];
-    for (std::size_t row = 0; row < 4; ++row) {
-        const GradientPair pair = unpack_gradients(rows[row]);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            corners[axis].lower[row] = pair.lower[axis];
-            corners[axis].upper[row] = pair.upper[axis];
-        }
-    }
+    const Ints largest = unpack_gradients(rows, corners);
     const Number place[3] = {load_number(parts.place[0] + i), load_number(parts.place[1] + i),
                              load_number(parts.place[2] + i)};
     const Number change[3] = {load_number(parts.change[0] + i), load_number(parts.change[1] + i),
                               load_number(parts.change[2] + i)};
+    leave_out_lower(place, change, corners);
     GradientLanes lanes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         lanes.along[axis] = cubic_along(corners[axis], Number(0), place, change);
@@ -97,6 +167,8 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, std::size_t i, st
         for (std::size_t power = 0; power < 4; ++power)
             store_number(lanes.along[axis].c[power], parts.gradient[axis][power] + i);
     }
+    lanes.smallest_square = smallest_square_of(light, largest);
+    store_number(lanes.smallest_square, parts.smallest_square + i);
     return lanes;
 }
 
@@ -109,6 +181,7 @@ HWY_INLINE GradientLanes gather_gradients(const CellParts& parts, Ints part) {
             lanes.along[axis].c[power] = hn::GatherIndex(d, parts.gradient[axis][power], part);
         lanes.to_eye[axis] = hn::GatherIndex(d, parts.to_eye[axis], part);
     }
+    lanes.smallest_square = hn::GatherIndex(d, parts.smallest_square, part);
     return lanes;
 }
 
@@ -117,7 +190,7 @@ HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const Gradien
                                            Number t) {
     const Number there[3] = {gradient.along[0].at(t), gradient.along[1].at(t),
                              gradient.along[2].at(t)};
-    return effect_of<channels>(light, there, gradient.to_eye);
+    return effect_of<channels>(light, there, gradient.smallest_square, gradient.to_eye);
 }
 
 // What may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays
@@ -138,7 +211,7 @@ HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradi
     const FloatMask turns = reach > Number(light.most_turn * light.most_turn) * square;
     // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
     const Number steepest = Number(2) * (square + reach);
-    const Number weight = steepest / (steepest + Number(light.smallest_square));
+    const Number weight = steepest / (steepest + gradient.smallest_square);
     return zero_unless(turns, Number(light.largest_effect) * weight);
 }
 

@@ -65,7 +65,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
     table_ms_ = tables.end();
     if (!volume_ || !volume_->serves(volume, unit, plan_)) {
         Stage upload("upload");
-        volume_ = std::make_shared<TileVolume>(volume, unit, facts.range, plan_);
+        volume_ = std::make_shared<TileVolume>(volume, unit, plan_);
         upload_ms_ = upload.end();
     }
     set_light();
@@ -73,7 +73,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
 
 void TileSlabSource::set_light() {
     if (!plan_.lighting) return;
-    light_ = make_tile_light(*plan_.lighting, grid_.step, volume_->gradient_scale(), plan_.most_bend);
+    light_ = make_tile_light(*plan_.lighting, grid_.step, plan_.most_bend);
     slabs_.light = &*light_;
 }
 

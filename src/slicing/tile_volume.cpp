@@ -26,8 +26,7 @@ void for_each_row(const TextureBrick& part, const Visit& visit) {
 
 }  // namespace
 
-TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const ValueRange& values,
-                       const SlicePlan& plan)
+TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
     : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
     const bool whole = plan.bricks.size() == 1;
     for (const TextureBrick& part : plan.bricks) {
@@ -46,8 +45,8 @@ TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const Valu
             copy_brick(part, brick);
         }
         if (plan.lighting) {
-            gradients_.push_back(make_gradient_map(volume, values, part));
-            brick.gradients = gradients_.back().gradients.data();
+            gradients_.push_back(make_gradient_map(volume, part));
+            brick.gradients = gradients_.back().data();
         }
         bricks_.push_back(brick);
     }
@@ -111,8 +110,8 @@ bool TileVolume::serves(const Volume& volume, const ValueRange& range,
 
 std::int64_t TileVolume::byte_count() const {
     std::int64_t bytes = 0;
-    for (const GradientMap& map : gradients_)
-        bytes += static_cast<std::int64_t>(sizeof(std::uint64_t) * map.gradients.size());
+    for (const auto& map : gradients_)
+        bytes += static_cast<std::int64_t>(sizeof(StoredGradient) * map.size());
     for (const auto& copy : copies_) bytes += static_cast<std::int64_t>(4 * copy.size());
     return bytes;
 }

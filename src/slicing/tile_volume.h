@@ -44,21 +44,19 @@ struct TileBrick {
     // Normalised scalar = interpolated code * scale + offset. Textures interpolate code * unit
     // instead; then it is interpolated value * unit_scale + offset.
     float scale = 1, offset = 0, unit = 1, unit_scale = 1;
-    const std::uint64_t* gradients = nullptr;  // of lit volumes (slicing/gradient_map.h)
+    const StoredGradient* gradients = nullptr;  // of lit volumes (slicing/gradient_map.h)
 };
 
 // The bricks of a plan. They may refer to the volume's own samples, which are kept alive.
 class TileVolume {
   public:
-    // `range`: the scalars that become [0, 1]; lo < hi. `values`: the range of the volume's own.
-    TileVolume(const Volume& volume, const ValueRange& range, const ValueRange& values,
-               const SlicePlan& plan);
+    // `range`: the scalars that become [0, 1]; lo < hi.
+    TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
 
     // Whether it equals what the constructor would make from these arguments.
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
-    double gradient_scale() const { return gradients_.empty() ? 1 : gradients_.front().scale; }
     std::int64_t byte_count() const;  // memory beside the volume's own
 
   private:
@@ -71,7 +69,7 @@ class TileVolume {
     std::vector<TextureBrick> parts_;
     bool float_texture_;
     std::vector<std::vector<std::uint32_t>> copies_;
-    std::vector<GradientMap> gradients_;  // where the plan is lit
+    std::vector<std::vector<StoredGradient>> gradients_;  // where the plan is lit
     std::vector<TileBrick> bricks_;
 };
 

@@ -5,44 +5,19 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "engine_fixture.h"
 #include "exact_fixture.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
 
-constexpr const char* native = "cpu";
-
-// With the native engine, or with OpenGL.
-class ExactTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
+class ExactTest : public EngineTest {
   protected:
-    using Base = gl::ContextTest<testing::TestWithParam<const char*>>;
-
-    void SetUp() override {
-        const std::string name = GetParam();
-        if (name == "egl" && !gl::has_egl()) GTEST_SKIP() << "no libEGL.so.1";
-        if (name != native)
-            make_context(name == "egl" ? gl::ContextKind::egl : gl::ContextKind::osmesa);
-    }
-
-    bool is_native() const { return std::string(GetParam()) == native; }
-    Capabilities capabilities() const {
-        return is_native() ? tile_capabilities() : Base::capabilities();
-    }
-    Image draw(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {}) {
-        return draw(volume, scene, omissions, capabilities());
-    }
-    Image draw(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions,
-               const Capabilities& capabilities) {
-        return is_native() ? render_tiles(volume, scene, omissions, capabilities)
-                           : render(volume, scene, capabilities, omissions);
-    }
     template <typename Sample>
     void meets_the_tracer(Centering centering, double largest);
 };
 
-INSTANTIATE_TEST_SUITE_P(Contexts, ExactTest, testing::Values(native, "osmesa", "egl"),
-                         [](const auto& context) { return context.param; });
+INSTANTIATE_TEST_SUITE_P(Contexts, ExactTest, every_engine, engine_name);
 
 TEST_P(ExactTest, CubicOfACornerHasItsClosedForm) {
     // Extinction 4 s, along the diagonal 4 t^3: optical depth sqrt(3).

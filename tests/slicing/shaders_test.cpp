@@ -33,6 +33,23 @@ void add(Specialisations& all, const char* vertex, const char* fragment,
     all.try_emplace(text, Specialisation{vertex, fragment, defines});
 }
 
+// Light has to do with rays and samples, not with how these are stored.
+void add_lit_plans(std::vector<SlicePlan>& plans) {
+    for (int bits = 0; bits < 16; ++bits) {
+        for (const int lights : {1, 2, Lighting::most_lights}) {
+            SlicePlan plan;
+            plan.classification = Classification::exact;
+            plan.orthographic = (bits & 1) != 0;
+            plan.precise_rays = (bits & 2) != 0;
+            plan.nan_transparent = plan.float_texture = plan.orthographic;
+            plan.lighting.emplace().lights.resize(static_cast<std::size_t>(lights));
+            if ((bits & 4) != 0) plan.lighting->specular = 0;
+            if ((bits & 8) != 0) plan.lighting->lights.back().color = {1, .5, .25};
+            plans.push_back(plan);
+        }
+    }
+}
+
 std::vector<SlicePlan> every_segment_plan() {
     std::vector<SlicePlan> plans;
     for (const VolumeSampling sampling : {VolumeSampling::none, VolumeSampling::fetch,
@@ -67,6 +84,7 @@ std::vector<SlicePlan> every_segment_plan() {
         plan.precise_rays = (bits & 16) != 0;
         plans.push_back(plan);
     }
+    add_lit_plans(plans);
     return plans;
 }
 
@@ -169,17 +187,19 @@ std::vector<SlicePlan> every_node_plan(const SlicePlan& segments) {
 }
 
 // Optical depths of exact segments become codes, and nodes of several bricks, as others do.
-SlicePlan exact_codes() {
+SlicePlan exact_codes(bool lit) {
     SlicePlan plan;
     plan.classification = Classification::exact;
+    if (lit) plan.lighting.emplace();
     plan.target = Target::emulated;
     plan.emulation = Emulation{16, AlphaRounding::stochastic, OverRounding::separate, 1};
     return plan;
 }
 
-SlicePlan exact_nodes() {
+SlicePlan exact_nodes(bool lit) {
     SlicePlan plan;
     plan.classification = Classification::exact;
+    if (lit) plan.lighting.emplace();
     plan.tree = TreePlan{.factors = {4}};
     plan.occupied_only = true;
     plan.opaque_depth = 9;
@@ -194,8 +214,10 @@ void add_slabs(Specialisations& all) {
             add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
         }
     }
-    add(all, "slicing/slab.vert", "slicing/slab.frag",
-        slab_defines(exact_codes(), segment_defines(exact_codes(), 6, table_nodes)));
+    for (const bool lit : {false, true}) {
+        add(all, "slicing/slab.vert", "slicing/slab.frag",
+            slab_defines(exact_codes(lit), segment_defines(exact_codes(lit), 6, table_nodes)));
+    }
     for (const SlicePlan& plan : every_code_plan()) {
         const gl::Defines segments = segment_defines(plan, 6, table_nodes);
         add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
@@ -217,7 +239,7 @@ void add_nodes(Specialisations& all) {
         plan.opaque_depth = 9;
         add_leaf(plan, 6, NodePlace::inner);
     }
-    add_leaf(exact_nodes(), 6, NodePlace::inner);
+    for (const bool lit : {false, true}) add_leaf(exact_nodes(lit), 6, NodePlace::inner);
     for (const SlicePlan& segments : two_segment_plans()) {
         for (const SlicePlan& plan : every_node_plan(segments)) {
             for (const NodePlace place : {NodePlace::inner, NodePlace::root}) {

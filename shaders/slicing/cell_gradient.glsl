@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gradient along a part of a ray inside one cell of the grid.
+#include "optics/cubic.glsl"
+#include "slicing/cell_cubic.glsl"
+#include "volume/gradient.glsl"
+
+// Component by component a cubic, along the grid's axes, and the square of the smallest gradient in the same unit.
+struct CellGradient {
+    vec4 x, y, z;
+    float smallest_square;
+};
+
+vec3 gradient_along(CellGradient gradient, float t) {
+    return vec3(cubic_at(gradient.x, t), cubic_at(gradient.y, t), cubic_at(gradient.z, t));
+}
+
+int largest_exponent(ivec4 a, ivec4 b, ivec4 c, ivec4 d) { return max(max(a.w, b.w), max(c.w, d.w)); }
+
+Corners corners_of(vec3 lower[4], vec3 upper[4], int axis) {
+    return Corners(vec4(lower[0][axis], lower[1][axis], lower[2][axis], lower[3][axis]),
+                   vec4(upper[0][axis], upper[1][axis], upper[2][axis], upper[3][axis]));
+}
+
+// Returns the gradient along the part of a ray from `place`, counted from a cell's lowest sample, to place + change.
+// Beyond the samples (`cell` axes) both corners are the border's: a neighbour may be too long to be subtracted again.
+CellGradient cell_gradient(ivec3 cell, vec3 place, vec3 change) {
+    ivec3 last = ivec3(last_sample);
+    ivec3 lower = clamp(cell, ivec3(0), last), upper = clamp(cell + 1, ivec3(0), last);
+    ivec4 stored[8] = ivec4[8](
+        stored_gradient(lower), stored_gradient(ivec3(lower.x, upper.y, lower.z)),
+        stored_gradient(ivec3(lower.xy, upper.z)), stored_gradient(ivec3(lower.x, upper.yz)),
+        stored_gradient(ivec3(upper.x, lower.yz)), stored_gradient(ivec3(upper.xy, lower.z)),
+        stored_gradient(ivec3(upper.x, lower.y, upper.z)), stored_gradient(upper));
+    int largest = max(largest_exponent(stored[0], stored[1], stored[2], stored[3]),
+                      largest_exponent(stored[4], stored[5], stored[6], stored[7]));
+    vec3 lower_x[4] = vec3[4](gradient_in_unit(stored[0], largest), gradient_in_unit(stored[1], largest),
+                              gradient_in_unit(stored[2], largest), gradient_in_unit(stored[3], largest));
+    vec3 upper_x[4] = vec3[4](gradient_in_unit(stored[4], largest), gradient_in_unit(stored[5], largest),
+                              gradient_in_unit(stored[6], largest), gradient_in_unit(stored[7], largest));
+    return CellGradient(cubic_along(corners_of(lower_x, upper_x, 0), 0.0, place, change),
+                        cubic_along(corners_of(lower_x, upper_x, 1), 0.0, place, change),
+                        cubic_along(corners_of(lower_x, upper_x, 2), 0.0, place, change),
+                        smallest_square_in_unit(largest));
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What light adds to parts of rays in one cell (docs/numerics.md, section 10). The native engine does the same
+// (slicing/tile_light-inl.h).
+#include "optics/cell_optics.glsl"
+#include "optics/lighting.glsl"
+#include "slicing/cell_gradient.glsl"
+
+uniform float most_bend;       // where light bends more along a part, the part is cut
+// Of the gradient's length in the middle of a part, how far it may be from that: beyond, there may be dips and
+// highlights between the nodes, of up to the largest effect that light has.
+uniform float most_turn;
+uniform float largest_effect;
+
+// Light is not looked at more closely than that (plan/march_limit.cpp counts the rounds).
+const float shortest_lit_piece = 1.0 / 256.0;
+const float faint_light = 1.0 / 8.0;
+
+float length_square(vec3 v) { return dot(v, v); }
+
+// Returns what may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays near what it
+// is in the middle, else as much as light can do at all.
+float hidden_bend(CellGradient gradient, float at, float extent) {
+    float reach = 0.5 * extent, middle = at + reach;
+    vec3 c2 = vec3(gradient.x.z, gradient.y.z, gradient.z.z), c3 = vec3(gradient.x.w, gradient.y.w, gradient.z.w);
+    vec3 slope = vec3(cubic_slope(gradient.x, middle), cubic_slope(gradient.y, middle), cubic_slope(gradient.z, middle));
+    vec3 most = reach * (abs(slope) + reach * (abs(c2 + 3.0 * c3 * middle) + reach * abs(c3)));
+    float square = length_square(gradient_along(gradient, middle)), way = length_square(most);
+    // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
+    float steepest = 2.0 * (square + way);
+    float weight = steepest / (steepest + gradient.smallest_square);
+    return way > most_turn * most_turn * square ? largest_effect * weight : 0.0;
+}
+
+// What light does to the colours at both ends of an interval, summed over nodes, and how it bends from node to node.
+struct LightSum {
+    LIGHT_COLOR change, shared_change, highlight, bend;
+};
+
+void add_node(LightEffect effect, float amount, float share, float bend, inout LightSum sum) {
+    sum.change += amount * effect.change;
+    sum.shared_change += amount * share * effect.change;
+    sum.highlight += amount * effect.highlight;
+    sum.bend += bend * (effect.change + effect.highlight);
+}
+
+float largest_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
+float largest_component(float v) { return v; }
+
+// Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to the part's opacity.
+// The part is the piece of `extent` from `at` on of that along which the gradient is given. Returns by how much light
+// bends from node to node to node: what the rule misses of a kink is .045 times that.
+float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPart part, float at, float extent,
+                float depth, float opacity, inout vec3 color) {
+    const vec3 nodes = vec3(0.112701665, 0.5, 0.887298335);
+    const vec3 weights = vec3(5.0, 8.0, 5.0) / 18.0;
+    vec4 share = part.share;
+    vec3 there = share.x + nodes * (share.y + nodes * (share.z + nodes * share.w));
+    float d0 = part.extinction + part.change * share.x;
+    vec3 d = part.change * (share.yzw * vec3(1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0));
+    vec3 before = nodes * (d0 + nodes * (d.x + nodes * (d.y + nodes * d.z)));
+    vec3 extinction = max(part.extinction + part.change * there, 0.0);
+    vec3 amount = weights * extinction * (1.0 - shallow_opacity(vec4(before, 0.0)).xyz);
+    if (depth > largest_part_depth) amount = vec3(1.0, 0.0, 0.0);
+    LightSum sum = LightSum(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));
+    vec3 places = at + extent * nodes;
+    float smallest = gradient.smallest_square;
+    add_node(light_effect(gradient_along(gradient, places.x), smallest, to_eye), amount.x, there.x, 1.0, sum);
+    add_node(light_effect(gradient_along(gradient, places.y), smallest, to_eye), amount.y, there.y, -2.0, sum);
+    add_node(light_effect(gradient_along(gradient, places.z), smallest, to_eye), amount.z, there.z, 1.0, sum);
+    float scale = opacity / (amount.x + amount.y + amount.z + 1e-37);
+    color += scale * (interval.left.rgb * sum.change + interval.change.rgb * sum.shared_change + sum.highlight);
+    color = max(color, 0.0);
+    return max(largest_component(abs(sum.bend)), hidden_bend(gradient, at, extent));
+}
+
+// Returns whether a part's light bends too much for one rule. `seen`: what the eye sees of the part's opacity.
+bool bends(float bend, float seen) { return bend > most_bend && bend * seen > faint_light * most_bend; }
+
+// Returns how long the first piece of a part may be: what is missed of a kink falls with the square of that.
+float longest_piece(float bend) { return clamp(sqrt(most_bend / max(bend, 1e-30)), 1.0 / 8.0, 1.0); }

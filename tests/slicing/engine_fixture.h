@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that run with the native engine and with OpenGL.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tile_fixture.h"
+
+namespace lamina {
+
+inline constexpr const char* native_engine = "cpu";
+
+class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
+  protected:
+    using Base = gl::ContextTest<testing::TestWithParam<const char*>>;
+
+    void SetUp() override {
+        const std::string name = GetParam();
+        if (name == "egl" && !gl::has_egl()) GTEST_SKIP() << "no libEGL.so.1";
+        if (!is_native())
+            make_context(name == "egl" ? gl::ContextKind::egl : gl::ContextKind::osmesa);
+    }
+
+    bool is_native() const { return std::string(GetParam()) == native_engine; }
+    Capabilities capabilities() const {
+        return is_native() ? tile_capabilities() : Base::capabilities();
+    }
+    Image draw(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions = {}) {
+        return draw(volume, scene, omissions, capabilities());
+    }
+    Image draw(const Volume& volume, const Scene& scene, const OmissionSwitch& omissions,
+               const Capabilities& capabilities) {
+        return is_native() ? render_tiles(volume, scene, omissions, capabilities)
+                           : render(volume, scene, capabilities, omissions);
+    }
+};
+
+inline const auto every_engine = testing::Values(native_engine, "osmesa", "egl");
+inline std::string engine_name(const testing::TestParamInfo<const char*>& info) {
+    return info.param;
+}
+
+}  // namespace lamina
