@@ -9,7 +9,7 @@ uniform vec3 single_color;
 
 // Returns the associated colour and opacity of a segment on which the scalar is linear from `front` to `back`,
 // normalised so that the intervals cover [0, 1]. It integrates exactly, interval by interval of the transfer function
-// (docs/numerics.md, section 5). This is the twin of integrate_segment (optics/segment_integral.h) in float32.
+// (docs/numerics.md, section 5). LIT: with what light_on_piece() adds. This is the twin of integrate_segment (optics/segment_integral.h) in float32.
 // Optical depth is a sum of terms >= 0. Extinction times length is finite (executors/shader_intervals.h) for lengths
 // up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
@@ -20,6 +20,9 @@ vec4 integrate_segment(float front, float back, float world_length) {
     int step = interval <= last ? 1 : -1;
     float end_share = step > 0 ? 1.0 : 0.0;  // at which an interval is left
     bool one_piece = interval == last;  // front and back may be equal
+#ifdef LIT
+    float from = 0.0;  // share of the segment
+#endif
     float length_per_scalar = world_length / abs(back - front);
 
     float scalar = front;
@@ -43,6 +46,11 @@ vec4 integrate_segment(float front, float back, float world_length) {
         float opacity = opacity_from_depth(piece_depth);
         float weight = front_weight(p, q);
         color += transmittance * (weight * near.rgb + max(opacity - weight, 0.0) * far.rgb);
+#ifdef LIT
+        float to = whole ? abs(next_scalar - front) / abs(back - front) : 1.0;
+        color += light_on_piece(from, to, vec2(p, q), near.rgb, far.rgb, transmittance);
+        from = to;
+#endif
         transmittance *= 1.0 - opacity;
 #endif
         scalar = next_scalar;
@@ -50,6 +58,9 @@ vec4 integrate_segment(float front, float back, float world_length) {
         interval += step;
     }
 #ifdef TABLE_COLORED
+#ifdef LIT
+    color = max(color, 0.0);  // rounding may leave less than nothing
+#endif
     return vec4(color, opacity_from_depth(depth));
 #else
     return vec4(single_color, 1.0) * opacity_from_depth(depth);

@@ -19,6 +19,11 @@ flat in vec4 cuts;
 flat in OPTICS low_optics, high_optics;
 #endif
 
+#ifdef LIT
+flat in vec4 gradients[3];
+uniform vec4 view_axes[3];  // unit vectors to the right, up and forward, in world space
+#endif
+
 uniform vec2 image_middle;  // window coordinates
 uniform float pixel_size;   // at depth 1
 
@@ -35,6 +40,10 @@ uint front_faces() { return floatBitsToUint(limits.z) & 7u; }
 struct TetRun {
     float front, back;   // scalars, of a range that is [0, 1]
     float world_length;  // 0 where the ray misses the tet
+#ifdef LIT
+    vec3 front_gradient, back_gradient;
+    vec3 to_eye;  // unit vector
+#endif
 };
 
 #ifdef CAREFUL
@@ -92,6 +101,25 @@ vec2 cut_depths(vec2 depths, vec2 place) {
 }
 #endif
 
+#ifdef LIT
+// Sets what light needs. `from_center`, `reach`: of the run's ends, as below.
+void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) {
+    for (int axis = 0; axis < 3; ++axis) {
+        vec4 of = gradients[axis];
+        vec2 ends = of.x + from_center * of.y + reach * dot(place, of.zw);
+        ends = clamp(ends, -1.0, 1.0);  // nowhere longer than at the points, but for rounding in slivers
+        run.front_gradient[axis] = ends.x;
+        run.back_gradient[axis] = ends.y;
+    }
+#ifdef ORTHOGRAPHIC
+    run.to_eye = -view_axes[2].xyz;
+#else
+    vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
+    run.to_eye = -normalize((view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]).xyz);
+#endif
+}
+#endif
+
 TetRun find_run() {
     vec2 place = gl_FragCoord.xy - center.xy;  // exact
     vec2 depths = find_depths(place);
@@ -118,6 +146,9 @@ TetRun find_run() {
 #endif
 #ifdef OPACITY_ONLY
     run.world_length *= depth_scale;
+#endif
+#ifdef LIT
+    find_gradients(place, from_center, reach, run);
 #endif
 #ifdef SCALARS
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);

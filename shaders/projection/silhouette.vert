@@ -6,6 +6,10 @@ layout(location = 1) in uint record;
 
 layout(std430, binding = 0) readonly buffer Records { uvec4 records[]; };
 const uint record_size = 12u;
+#ifdef LIT
+layout(std430, binding = 1) readonly buffer GradientRecords { vec4 gradient_records[]; };
+const uint gradient_record_size = 3u;
+#endif
 
 uniform vec2 image_size;
 
@@ -26,6 +30,11 @@ flat out vec4 cuts;             // lower: depth, per column, per row; upper: dep
 flat out OPTICS low_optics, high_optics;  // colour (where TABLE_COLORED) and extinction at least and largest scalar
 #endif
 
+#ifdef LIT
+// Of each component of the gradient: at the center, per z, per column, per row (projection/gradient_record.h).
+flat out vec4 gradients[3];
+#endif
+
 void main() {
     uint first = record * record_size;
     for (uint i = 0u; i < 3u * PAIR; ++i) face_depths[i] = uintBitsToFloat(records[first + i * 2u / PAIR]);
@@ -43,6 +52,9 @@ void main() {
     low_optics = uintBitsToFloat(records[first + 10u].a);
     high_optics = uintBitsToFloat(records[first + 11u].a);
 #endif
+#endif
+#ifdef LIT
+    for (uint i = 0u; i < 3u; ++i) gradients[i] = gradient_records[record * gradient_record_size + i];
 #endif
     gl_Position = vec4(2.0 * position / image_size - 1.0, 0.0, 1.0);
 }

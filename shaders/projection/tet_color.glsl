@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Associated colour and opacity of a fragment's part of its tet.
 #include "optics/opacity.glsl"
+#ifdef LIT
+#include "projection/light_along.glsl"
+#endif
 
 #if SOURCE == SOURCE_CONSTANT
 vec4 tet_color() {
@@ -9,11 +12,24 @@ vec4 tet_color() {
 }
 #elif SOURCE == SOURCE_PARTS
 #include "optics/linear_segment.glsl"
+#ifdef LIT
+vec4 integrate_lit(vec4 front, vec4 back, TetRun run) {
+    vec4 unlit = integrate_linear(front, back, run.world_length);
+    LitRun lit = LitRun(vec2(front.a, back.a) * run.world_length, run.front_gradient,
+                        run.back_gradient - run.front_gradient, run.to_eye);
+    vec3 added = light_added(light_along(lit, 1.0), front.rgb, back.rgb);
+    return vec4(max(unlit.rgb + added, 0.0), unlit.a);  // rounding may leave less than nothing
+}
+#endif
 vec4 tet_color() {
     TetRun run = find_run();
     OPTICS front = low_optics + run.front * (high_optics - low_optics);
     OPTICS back = low_optics + run.back * (high_optics - low_optics);
+#ifdef LIT
+    return integrate_lit(front, back, run);
+#else
     return integrate_linear(front, back, run.world_length);
+#endif
 }
 #elif SOURCE == SOURCE_MEAN
 // Stein, Becker, Max 1994: extinction is linear in the tet, so its mean over the ray is the mean of front and back.
@@ -49,10 +65,29 @@ vec4 tet_color() {
 #if SOURCE == SOURCE_TABLE
 #include "optics/segment_table.glsl"
 #else
+#ifdef LIT
+vec3 segment_gradient, segment_turn, segment_to_eye;
+
+// Of the segment that is integrated next.
+void set_lit_segment(vec3 front_gradient, vec3 back_gradient, vec3 to_eye) {
+    segment_gradient = front_gradient;
+    segment_turn = back_gradient - front_gradient;
+    segment_to_eye = to_eye;
+}
+
+// What light adds to the part of the segment from one share to the other.
+vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, float in_front) {
+    LitRun run = LitRun(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn, segment_to_eye);
+    return light_added(light_along(run, in_front), near, far);
+}
+#endif
 #include "optics/analytic_segment.glsl"
 #endif
 vec4 tet_color() {
     TetRun run = find_run();
+#ifdef LIT
+    set_lit_segment(run.front_gradient, run.back_gradient, run.to_eye);
+#endif
     return integrate_segment(clamp(run.front, 0.0, 1.0), clamp(run.back, 0.0, 1.0), run.world_length);
 }
 #else

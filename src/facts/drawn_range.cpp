@@ -52,6 +52,21 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
     return {range.lo, range.hi + std::max(1e-6 * (range.hi - range.lo), rounding)};
 }
 
+// Colour is linear between knots: its extremes are at knots, both sides of steps, and at the ends
+// of the range.
+double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
+    double largest = 0;
+    const auto include = [&](const glm::dvec3& color) {
+        largest = std::max({largest, color.r, color.g, color.b});
+    };
+    include(transfer_function.at(range.lo).color);
+    include(transfer_function.at(range.hi).color);
+    for (const TransferKnot& knot : transfer_function.knots()) {
+        if (knot.value >= range.lo && knot.value <= range.hi) include(knot.optics.color);
+    }
+    return largest;
+}
+
 float normalised_sample(double value, const ValueRange& range) {
     if (!std::isfinite(value)) return std::numeric_limits<float>::quiet_NaN();
     const double scale = range.hi > range.lo ? 1 / (range.hi - range.lo) : 0;

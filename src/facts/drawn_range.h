@@ -20,6 +20,9 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
 
+// The largest component of a colour in a range.
+double largest_color(const TransferFunction& transfer_function, const ValueRange& range);
+
 // A sample with `range` as [0, 1], as textures of floats hold it. NaN where it is not finite;
 // clamped far outside the range.
 float normalised_sample(double value, const ValueRange& range);

@@ -51,21 +51,6 @@ double side_ratio_of(const Grid& grid) {
     return std::max({sides.x, sides.y, sides.z}) / std::min({sides.x, sides.y, sides.z});
 }
 
-// Colour is linear between knots: its extremes are at knots, both sides of steps, and at the ends
-// of the range.
-double largest_color(const TransferFunction& transfer_function, const ValueRange& range) {
-    double largest = 0;
-    const auto include = [&](const glm::dvec3& color) {
-        largest = std::max({largest, color.r, color.g, color.b});
-    };
-    include(transfer_function.at(range.lo).color);
-    include(transfer_function.at(range.hi).color);
-    for (const TransferKnot& knot : transfer_function.knots()) {
-        if (knot.value >= range.lo && knot.value <= range.hi) include(knot.optics.color);
-    }
-    return largest;
-}
-
 void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                          Facts& facts) {
     const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;

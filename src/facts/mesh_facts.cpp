@@ -30,6 +30,7 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
                              ? transfer_function.constant_color(lo, hi)
                              : transfer_function.single_color(lo, hi);
     facts.max_extinction = transfer_function.max_extinction(lo, hi);
+    facts.max_color = largest_color(transfer_function, facts.range);
     for (const Tet& tet : mesh.mesh.tets()) {
         const TetPieces::Span span = pieces.visible(mesh.scalar.values, tet);
         facts.transparent_tets += span.empty();

@@ -34,6 +34,7 @@ struct MeshFacts {
     // colour everywhere.
     bool single_color = false;
     double max_extinction = 0;  // per world unit
+    double max_color = 0;       // largest component of a colour
     // Number of tets that show nothing, including those with a value that is not finite.
     std::int64_t transparent_tets = 0;
     // Number of cell fragments that show something, where the other tets are cut at the transfer

@@ -128,6 +128,18 @@ std::string text_of_table(const ProjectPlan& project) {
                        name_of(table.store), name_of(table.format));
 }
 
+// With what one colour alone would leave out.
+std::string text_of_light(const ProjectPlan& project, const MeshFacts& facts) {
+    std::string text = fmt::format("{} lights, gradients at the points; off by up to {:.2g} / 255",
+                                   project.lighting->lights.size(), project.light_error);
+    if (facts.constant) {
+        text += "; the gradient needs scalars and colour, though the transfer function is constant";
+    } else if (facts.single_color) {
+        text += "; it makes many colours of the one that the transfer function has";
+    }
+    return text;
+}
+
 template <typename Row>
 void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool tiles,
                         const Row& row) {
@@ -143,6 +155,7 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
                              facts.shortest_edge, facts.longest_edge,
                              facts.longest_edge * facts.max_extinction));
     row("segments", name_of(project.source));
+    if (project.lighting) row("light", text_of_light(project, facts));
     if (project.source == SegmentSource::parts) {
         row("parts", fmt::format("{} visible tets cut at the transfer function's points into {}",
                                  facts.tets - facts.transparent_tets, facts.parts));

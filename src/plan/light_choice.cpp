@@ -14,24 +14,29 @@ constexpr double bend_share = 0.5, light_share = 0.75;
 // Of what it sees light bend, what the rule of three nodes misses of a kink between them.
 constexpr double missed_of_kink = 0.045;
 
-}  // namespace
-
-namespace {
-
 // A ray's opacity is at most 1: where each of its pieces misses no more than this of what it shows,
 // the ray does not either.
 double most_bend(const Scene& scene, double max_color) {
     return bend_share * scene.max_error / 255 / missed_of_kink / std::max(max_color, 1.0);
 }
 
+template <typename MethodPlan>
+void set_light(const Scene& scene, double max_color, MethodPlan& plan) {
+    if (!scene.lighting) return;
+    plan.lighting = scene.lighting;
+    plan.light_error = light_share * scene.max_error;
+    plan.most_bend = most_bend(scene, max_color);
+}
+
 }  // namespace
 
 void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
-    if (!scene.lighting) return;
     slice.lighting = scene.lighting;
-    if (slice.classification != Classification::exact) return;
-    slice.light_error = light_share * scene.max_error;
-    slice.most_bend = most_bend(scene, max_color);
+    if (slice.classification == Classification::exact) set_light(scene, max_color, slice);
+}
+
+void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
+    set_light(scene, max_color, project);
 }
 
 // A piece is tried again, half as long, only where light bends by more than `most_bend` and by more

@@ -3,11 +3,13 @@
 
 #include "lamina/scene.h"
 #include "plan/plan.h"
+#include "plan/project_plan.h"
 
 namespace lamina {
 
 // Sets what the plan of a lit scene says of light; `max_color`: of the unlit picture.
 void plan_light(const Scene& scene, double max_color, SlicePlan& slice);
+void plan_light(const Scene& scene, double max_color, ProjectPlan& project);
 
 // The most rounds of loops that a fragment of OpenGL takes, beyond those of unlit scenes, to cut
 // its ray where light bends.

@@ -2,6 +2,7 @@
 #include "plan/lit_check.h"
 
 #include "base/error.h"
+#include "scene/coloring.h"
 
 namespace lamina {
 
@@ -20,18 +21,38 @@ void check_lit_slicing(const Scene& scene) {
 }
 
 // The two colourings interpolate colours, or one opacity, between the vertices of a fan: they have
-// no place for a gradient.
+// no place for a gradient. Neither has a table of segments.
 void check_lit_projection(const Scene& scene) {
     if (!scene.lighting) return;
-    const Coloring coloring = scene.project.coloring;
-    if (coloring == Coloring::vertex || coloring == Coloring::attenuation) {
+    const ProjectSettings& project = scene.project;
+    const std::string file = scene.file.string();
+    if (mixes_colors(project.coloring)) {
         fail(
             "{}: render.project.coloring: found \"{}\", expected \"preintegrated\" or \"analytic\" "
             "with lighting",
-            scene.file.string(), name_of(coloring));
+            file, name_of(project.coloring));
     }
-    fail("{}: lighting: method \"project\" draws no lit pictures yet, expected method \"trace\"",
-         scene.file.string());
+    if (project.geometry == ProjectGeometry::triangles ||
+        project.interpolation == Interpolation::linear) {
+        fail(
+            "{}: render.project: found geometry \"{}\" and interpolation \"{}\", expected "
+            "silhouettes and perspective with lighting: gradients are found where rays enter and "
+            "leave a tet",
+            file, name_of(project.geometry), name_of(project.interpolation));
+    }
+    if (project.table) {
+        fail(
+            "{}: render.project.table: found a table, expected none with lighting: it knows no "
+            "gradients",
+            file);
+    }
+    if (project.tree) {
+        fail(
+            "{}: render.project.tree: found a tree, expected none with lighting: its nodes have "
+            "one colour (LaMar 2004, section 6), and light makes many of it",
+            file);
+    }
+    check_smallest_gradient(scene);
 }
 
 }  // namespace lamina

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lamina/lighting.h"
 #include "lamina/project_settings.h"
 #include "optics/segment_table.h"
 #include "plan/compositing_plan.h"
@@ -52,6 +54,10 @@ struct ProjectPlan : CompositingPlan {
     TablePlan aligned;          // for SegmentSource::cut_table
     double segment_error = 0;   // measured on rays of the view, in 1/255
     std::string segment_reason;
+    std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
+    // Runs along which light bends by more are cut.
+    double most_bend = 0;
+    double light_error = 0;  // that this leaves, in 1/255
 
     // Whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }

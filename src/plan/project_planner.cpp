@@ -17,6 +17,7 @@
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
+#include "plan/light_choice.h"
 #include "plan/tree_check.h"
 #include "scene/coloring.h"
 
@@ -66,6 +67,7 @@ class ProjectPlanner {
         plan_.table_filtered = capabilities_.exact_float_filter;
         plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
         plan_.range = drawn_range(scene_.transfer_function, facts_.range);
+        plan_light(scene_, facts_.max_color, plan_);
         check_size();
         choose_geometry();
         choose_precision();
@@ -155,7 +157,7 @@ class ProjectPlanner {
                 break;
         }
         const bool asked = settings_.order == ProjectOrder::automatic;
-        if (asked && scene_.target == Target::float32 &&
+        if (asked && scene_.target == Target::float32 && !scene_.lighting &&
             leave_out(
                 facts_.single_color, "order",
                 "one colour: OVER gives the same whatever comes first, to float32's rounding"))
@@ -188,7 +190,7 @@ class ProjectPlanner {
 
     void choose_source() {
         plan_.single_color =
-            leave_out(facts_.single_color, "color",
+            leave_out(facts_.single_color && !scene_.lighting, "color",
                       "one colour in all that can be seen: only extinction is looked up");
         switch (settings_.coloring) {
             case Coloring::vertex:
@@ -205,7 +207,7 @@ class ProjectPlanner {
     }
 
     void choose_integral() {
-        if (leave_out(facts_.constant && facts_.non_finite == 0, "scalars",
+        if (leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting, "scalars",
                       "the transfer function is constant over the mesh: opacity has a "
                       "closed form of the length alone")) {
             plan_.source = SegmentSource::constant;
@@ -276,7 +278,7 @@ class ProjectPlanner {
         if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
             plan_.source = SegmentSource::parts;
             plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
-        } else if (plan_.plain && try_cut_table()) {
+        } else if (plan_.plain && !scene_.lighting && try_cut_table()) {
             plan_.source = SegmentSource::cut_table;
         } else {
             plan_.source = SegmentSource::analytic;  // slower, and right whatever the scene

@@ -35,8 +35,9 @@ class FragmentQueue {
     // The result of the first step.
     struct Found {
         InsideSpan<Vector> span;
-        Vector aside;  // the scalar's change from the record's center, at z = 1
-        Vector slant;  // world length per unit of z
+        // The scalar's change from the record's center, at z = 1, and world length per unit of z.
+        // Of lit fragments: columns and rows from the center.
+        Vector aside, slant;
     };
     // A vector of pixels, and the position of its fragments in the queue.
     struct Place {

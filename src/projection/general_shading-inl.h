@@ -102,6 +102,7 @@ HWY_NOINLINE inline void put_fragments(Tag d, const TetFragments& fragments, std
 }
 
 struct GeneralShader {
+    static constexpr bool lit = false;
     bool cut, scalars, perspective, opacity_only;
 
     explicit GeneralShader(const TetFragments& fragments)

@@ -13,6 +13,8 @@
 #include "base/stage.h"
 #include "base/unreachable.h"
 #include "executors/gl_compositing.h"
+#include "executors/gl_lights.h"
+#include "executors/light_cuts.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "gl/check.h"
@@ -62,6 +64,10 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
+    if (plan.lighting) {
+        defines.set("LIT", 1);
+        set_light_defines(*plan.lighting, defines);
+    }
     if (plan.thickness == Thickness::dz) defines.set("THICKNESS_DZ", 1);
     if (plan.interpolation == Interpolation::linear) defines.set("LINEAR", 1);
     if (!plan.in_codes()) return defines;
@@ -90,6 +96,7 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
       order_(order_for(mesh, plan, std::move(order))) {
     if (plan_.nothing_visible) return;
     tables_.emplace(transfer_function_, plan_);
+    if (plan_.lighting) gradients_ = StoredGradients(gradients_of(mesh));
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
         const auto kind = static_cast<FragmentKind>(i);
         if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));
@@ -107,7 +114,8 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
     const auto parts = static_cast<std::size_t>(parts_->count());
     const bool fan = is_fan(plan_);
     const TetGeometry::Size size =
-        fan ? FanGeometry::largest_size() : SilhouetteGeometry::largest_size();
+        fan ? FanGeometry::largest_size()
+            : SilhouetteGeometry::largest_size(plan_.lighting.has_value());
     stream_ = std::move(ready);
     if (!stream_ || !stream_->serves(size, parts)) {
         stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, parts)
@@ -181,6 +189,18 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
         program.set("seed", static_cast<int>(plan_.seed));
     }
     if (plan_.blending == Blending::barrier) program.set("target", target_unit);
+    if (plan_.lighting) set_light(program, view);
+}
+
+void GlProjectRenderer::set_light(gl::Program& program, const View& view) const {
+    set_lights(*plan_.lighting, world_axes, program);
+    const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
+    const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
+    program.set("view_axes", std::span<const glm::vec4>(axes));
+    const LightCuts cuts = light_cuts(*plan_.lighting);
+    program.set("light_limits",
+                glm::vec4(gradients_.smallest_square(*plan_.lighting), plan_.most_bend,
+                          cuts.most_turn * cuts.most_turn, cuts.largest_effect));
 }
 
 void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,
@@ -191,7 +211,7 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
         fans.emplace(mesh_, transfer_function_, plan_, view);
     } else {
         silhouettes.emplace(TetProjector(mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
-                                         view, plan_.near_depth, margin_));
+                                         view, plan_.near_depth, margin_, gradients_.at_points));
     }
     const TetGeometry& geometry = fans ? static_cast<const TetGeometry&>(*fans) : *silhouettes;
     // A kind without a program is drawn by the next kind that has one. Fans are all plain.

@@ -19,6 +19,7 @@
 #include "projection/gl_tet_leaves.h"
 #include "projection/gl_tet_stream.h"
 #include "projection/project_renderer.h"
+#include "projection/stored_gradients.h"
 #include "projection/visible_parts.h"
 #include "scene/scene_mesh.h"
 #include "visibility/visibility_order.h"
@@ -67,6 +68,7 @@ class GlProjectRenderer : public ProjectRenderer {
     void make_stream(std::shared_ptr<GlTetStream> ready);
     void make_tree();
     void set_view(gl::Program& program, const View& view) const;
+    void set_light(gl::Program& program, const View& view) const;
     void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
 
     const SceneMesh& mesh_;
@@ -78,6 +80,7 @@ class GlProjectRenderer : public ProjectRenderer {
     std::shared_ptr<VisibilityOrder> order_;
     // None where nothing is visible.
     std::optional<GlProjectTables> tables_;
+    StoredGradients gradients_;                                        // empty where nothing is lit
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::shared_ptr<GlTetStream> stream_;
     std::optional<VisibleParts> parts_;

@@ -45,6 +45,8 @@ GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribut
             gl::Buffer::make_mapped(batch_parts_ * size_.indices * sizeof(std::uint32_t));
         if (size_.has_record)
             batch.records = gl::Buffer::make_mapped(batch_parts_ * sizeof(TetRecord));
+        if (size_.has_gradient)
+            batch.gradients = gl::Buffer::make_mapped(batch_parts_ * sizeof(GradientRecord));
         batch.vertex_array.set_indices(batch.indices);
         unsigned location = 0;
         for (const auto& [components, offset, integer] : attributes) {
@@ -97,6 +99,7 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
         timeline_.begin("draw");
         batch.vertex_array.bind();
         if (size_.has_record) batch.records.bind_storage(0);
+        if (size_.has_gradient) batch.gradients.bind_storage(1);
         if (barriers_) {
             submit_with_barriers(batch_parts.size(), programs);
         } else {
@@ -125,13 +128,16 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
     std::size_t vertex = first * size_.vertices, index = first * size_.indices;
     auto* const indices = reinterpret_cast<std::uint32_t*>(batch.indices.mapped());
     auto* const records = reinterpret_cast<TetRecord*>(batch.records.mapped());
+    auto* const gradients = reinterpret_cast<GradientRecord*>(batch.gradients.mapped());
     Chunk& chunk = chunks_[number];
     chunk = {};
     for (std::size_t i = first; i < end; ++i) {
-        const TetGeometry::Written written = geometry.write(
-            parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
-                       static_cast<std::uint32_t>(vertex), indices + index,
-                       size_.has_record ? records + i : nullptr, static_cast<std::uint32_t>(i)});
+        const TetGeometry::Written written =
+            geometry.write(parts[i], {batch.vertices.mapped() + vertex * size_.vertex_bytes,
+                                      static_cast<std::uint32_t>(vertex), indices + index,
+                                      size_.has_record ? records + i : nullptr,
+                                      size_.has_gradient ? gradients + i : nullptr,
+                                      static_cast<std::uint32_t>(i)});
         vertex += written.vertices;
         index += written.indices;
         if (written.indices > 0 && parts[i].tet != chunk.last_tet) {

@@ -51,7 +51,7 @@ class GlTetStream {
 
   private:
     struct Batch {
-        gl::Buffer vertices, indices, records;
+        gl::Buffer vertices, indices, records, gradients;
         gl::VertexArray vertex_array;
         gl::Fence drawn;
     };

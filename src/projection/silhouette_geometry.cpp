@@ -5,20 +5,23 @@
 
 namespace lamina {
 
-TetGeometry::Size SilhouetteGeometry::largest_size() {
+TetGeometry::Size SilhouetteGeometry::largest_size(bool lit) {
     constexpr std::size_t corners = ScreenPolygon::most_corners;
-    return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true};
+    return {sizeof(SilhouetteVertex), corners, 3 * (corners - 2), true, lit};
 }
 
 TetGeometry::Written SilhouetteGeometry::write(const TetPart& part, const Place& place) const {
     ScreenOutline outline;
     TetRecord record;  // not written in place: that memory may be slow to read
-    const std::optional<FragmentKind> kind = projector_.project(part, record, outline);
+    GradientRecord gradient;
+    GradientRecord* const lit = place.gradient != nullptr ? &gradient : nullptr;
+    const std::optional<FragmentKind> kind = projector_.project(part, record, outline, lit);
     if (!kind) return {};
     const ScreenPolygon polygon = surround(outline.points(), projector_.margin(),
                                            projector_.view().width, projector_.view().height);
     if (polygon.count == 0) return {};
     std::memcpy(place.record, &record, sizeof(record));
+    if (lit != nullptr) std::memcpy(place.gradient, &gradient, sizeof(gradient));
     Written written;
     written.kind = *kind;
     for (int i = 0; i < polygon.count; ++i) {

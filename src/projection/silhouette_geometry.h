@@ -17,7 +17,7 @@ struct SilhouetteVertex {
 class SilhouetteGeometry : public TetGeometry {
   public:
     explicit SilhouetteGeometry(const TetProjector& projector) : projector_(projector) {}
-    static Size largest_size();
+    static Size largest_size(bool lit);
     Written write(const TetPart& part, const Place& place) const override;
 
   private:

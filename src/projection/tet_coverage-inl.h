@@ -58,18 +58,19 @@ class TetCoverage {
         return blocks_of(area, area_) & blocks_within(area);
     }
 
-    // `cut`: the cell fragment ends at planes of constant scalar.
+    // `cut`: the cell fragment ends at planes of constant scalar. `lit`: what is found is.
+    template <bool lit>
     HWY_INLINE void find(bool cut, const TetRecord& record, const PartArea& area,
                          std::uint64_t blocks, std::size_t part, FragmentQueue& found) {
         // Blocks at the picture's right and lower edge may stick out of it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
         FragmentQueue::Writer writer(found, part);
         if (area.careful) {
-            find_in<true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
+            find_in<lit, true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
         } else if (area.bounded || !whole_blocks) {
-            find_in<true, PlainDepths<Tag>>(cut, record, area, blocks, writer);
+            find_in<lit, true, PlainDepths<Tag>>(cut, record, area, blocks, writer);
         } else {
-            find_in<false, PlainDepths<Tag>>(cut, record, area, blocks, writer);
+            find_in<lit, false, PlainDepths<Tag>>(cut, record, area, blocks, writer);
         }
         count_ += static_cast<std::int64_t>(writer.finish(d_));
     }
@@ -145,7 +146,7 @@ class TetCoverage {
         hwy::Prefetch(tile_.pixels->alpha.data() + first);
     }
 
-    template <bool bounded, class Depths>
+    template <bool lit, bool bounded, class Depths>
     HWY_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
                             std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
@@ -187,6 +188,10 @@ class TetCoverage {
                     inside = hn::And(inside, hn::And(in_columns, in_rows));
                 }
                 const std::size_t place = number * block * block + step;
+                if constexpr (lit) {
+                    writer.add(d_, place, {span, columns, rows}, inside);
+                    continue;
+                }
                 const Vector slant =
                     slants != nullptr ? hn::Load(d_, slants + place) : hn::Set(d_, 1.0f);
                 const Vector aside =

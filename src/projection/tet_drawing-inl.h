@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws cell fragments over the pixels of a tile. A `Shader` says how fragments are drawn. It has
-// `cut`, `scalars`, `perspective` and `opacity_only` (constants or members), and the functions
-// color() and put().
+// the constant `lit`; `cut`, `scalars`, `perspective` and `opacity_only` (constants or members);
+// and the functions color() (lit: lit_color()) and put().
 #if defined(LAMINA_PROJECTION_TET_DRAWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_PROJECTION_TET_DRAWING_INL_H_
 #undef LAMINA_PROJECTION_TET_DRAWING_INL_H_
@@ -44,8 +44,8 @@ class TetDrawing {
         });
         for (std::size_t i = 0; i < count; ++i) {
             const auto [blocks, part] = blocks_[i];
-            coverage_.find(shader.cut, chunk_.record(part), chunk_.area(part), blocks, part,
-                           queue_);
+            coverage_.find<Shader::lit>(shader.cut, chunk_.record(part), chunk_.area(part), blocks,
+                                        part, queue_);
             if (queue_.is_full()) draw_queue(shader);
         }
         draw_queue(shader);
@@ -60,6 +60,22 @@ class TetDrawing {
 
     template <class Shader>
     HWY_INLINE void draw_queue(const Shader& shader) {
+        if constexpr (Shader::lit) {
+            queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
+                queue_.set_color(d_, i, shader.lit_color(chunk_, part, queue_.found(d_, i)));
+            });
+        } else {
+            find_colors(shader);
+        }
+        for (const FragmentQueue::Place& pixels : queue_.places()) {
+            shader.put(d_, fragments_, chunk_.record(pixels.part).number, queue_.color(d_, pixels),
+                       tile_, pixels.place);
+        }
+        queue_.clear();
+    }
+
+    template <class Shader>
+    HWY_INLINE void find_colors(const Shader& shader) {
         queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
             const FragmentQueue::Found found = queue_.found(d_, i);
             queue_.set_run(d_, i,
@@ -71,11 +87,6 @@ class TetDrawing {
                              shader.color(d_, fragments_, chunk_.record(part), chunk_.area(part),
                                           queue_.run(d_, i)));
         });
-        for (const FragmentQueue::Place& pixels : queue_.places()) {
-            shader.put(d_, fragments_, chunk_.record(pixels.part).number, queue_.color(d_, pixels),
-                       tile_, pixels.place);
-        }
-        queue_.clear();
     }
 
     const TetFragments& fragments_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "projection/fragment_kind.h"
+#include "projection/gradient_record.h"
 #include "projection/tet_part.h"
 #include "projection/tet_record.h"
 
@@ -21,6 +22,7 @@ class TetGeometry {
         std::size_t vertex_bytes;  // of one vertex
         std::size_t vertices, indices;
         bool has_record;
+        bool has_gradient = false;  // for a lit record
 
         friend bool operator==(const Size&, const Size&) = default;
     };
@@ -31,6 +33,7 @@ class TetGeometry {
         std::uint32_t first_vertex;  // number of the vertex at `vertices`, for the indices
         std::uint32_t* indices;      // of triangles
         TetRecord* record;           // null without records
+        GradientRecord* gradient;    // null where nothing is lit
         std::uint32_t record_number;
     };
     // The numbers of vertices and indices that were written; 0 where no pixel centre is covered.

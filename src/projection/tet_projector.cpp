@@ -76,10 +76,11 @@ OpticalProperties optics_at(const LinearPiece& piece, double scalar) {
 
 TetProjector::TetProjector(const TetMesh& mesh, std::span<const double> scalar,
                            const ValueRange& range, const TetPieces& pieces, const View& view,
-                           double near_depth, double margin)
+                           double near_depth, double margin, std::span<const glm::vec3> gradients)
     : points_(mesh.points()),
       tets_(mesh.tets()),
       scalar_(scalar),
+      gradients_(gradients),
       range_(range),
       pieces_(pieces),
       window_(view),
@@ -169,10 +170,9 @@ double TetProjector::inverted(double value) const {
     return window_.perspective() ? -1 / value : value;
 }
 
-// Sets the scalar as (scalar - origin) / width.
-void TetProjector::set_scalars(const PartField& field, double origin, double width,
-                               TetRecord& record) const {
-    const double scale = width > 0 ? 1 / width : 0;
+// Of (value - origin) * scale.
+GradientRecord::Component TetProjector::linear(const PartField& field, double origin, double scale,
+                                               const TetRecord& record) const {
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
                  // Shaders measure depths from here. center_z is rounded, by much of a small tet
@@ -181,10 +181,33 @@ void TetProjector::set_scalars(const PartField& field, double origin, double wid
     const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
     const glm::dvec3 center = window_.perspective() ? z * direction : glm::dvec3(x, y, z);
     const glm::dvec3 gradient = field.gradient() * scale;
-    record.scalar = finite_float((field.at(center) - origin) * scale);
-    record.scalar_per_z = finite_float(glm::dot(gradient, direction));
-    record.scalar_per_column = finite_float(gradient.x * window_.view().pixel);
-    record.scalar_per_row = finite_float(gradient.y * window_.view().pixel);
+    return {finite_float((field.at(center) - origin) * scale),
+            finite_float(glm::dot(gradient, direction)),
+            finite_float(gradient.x * window_.view().pixel),
+            finite_float(gradient.y * window_.view().pixel)};
+}
+
+// Sets the scalar as (scalar - origin) / width.
+void TetProjector::set_scalars(const PartField& field, double origin, double width,
+                               TetRecord& record) const {
+    const auto [at_center, per_z, per_column, per_row] =
+        linear(field, origin, width > 0 ? 1 / width : 0, record);
+    record.scalar = at_center;
+    record.scalar_per_z = per_z;
+    record.scalar_per_column = per_column;
+    record.scalar_per_row = per_row;
+}
+
+void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corners,
+                                 const TetRecord& record, GradientRecord& lit) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        PartField::Values values;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::vec3& gradient = gradients_[static_cast<std::size_t>(tet[i])];
+            values[i] = static_cast<double>(gradient[static_cast<int>(axis)]);
+        }
+        lit.components[axis] = linear(PartField(corners, values, nullptr), 0, 1, record);
+    }
 }
 
 void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
@@ -231,7 +254,8 @@ TetProjector::VisibleCorners TetProjector::clip_near(const std::array<Seen, 4>& 
 }
 
 std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord& record,
-                                                  ScreenOutline& outline) const {
+                                                  ScreenOutline& outline,
+                                                  GradientRecord* lit) const {
     const Tet& tet = tets_[static_cast<std::size_t>(part.tet)];
     std::array<Seen, 4> corners;
     PartField::Values values;
@@ -262,6 +286,7 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
         record.limits = {normalised(field.least()), normalised(field.largest())};
     }
     record.number = part_number(part, tets_.size());
+    if (lit != nullptr) set_gradients(tet, corners, record, *lit);
     if (!plain) return FragmentKind::careful;
     const bool thin = piece != nullptr && largest_depth(corners, record) <= thin_depth;
     return thin ? FragmentKind::thin : FragmentKind::plain;

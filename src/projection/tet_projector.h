@@ -12,6 +12,7 @@
 #include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
 #include "projection/fragment_kind.h"
+#include "projection/gradient_record.h"
 #include "projection/part_field.h"
 #include "projection/screen_polygon.h"
 #include "projection/tet_part.h"
@@ -27,16 +28,18 @@ namespace lamina {
 class TetProjector {
   public:
     // `scalar`: one value a point. `range`: the scalars that become [0, 1] in whole tets. `pieces`:
-    // the pieces that cell fragments refer to. `margin`: see pixel_bounds(). All arguments must
-    // outlive it.
+    // the pieces that cell fragments refer to. `margin`: see pixel_bounds(). `gradients`: at the
+    // points, for project() with `lit`. All arguments must outlive it.
     TetProjector(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
-                 const TetPieces& pieces, const View& view, double near_depth, double margin);
+                 const TetPieces& pieces, const View& view, double near_depth, double margin,
+                 std::span<const glm::vec3> gradients = {});
 
     // Fills the record and the outline, and returns the kind of its fragments. The outline covers
     // the cell fragment and may cover more of its tet. Returns nothing, and leaves the outputs
-    // undefined, where the centre of no pixel is covered.
+    // undefined, where the centre of no pixel is covered. `lit`: null where nothing is lit.
     std::optional<FragmentKind> project(const TetPart& part, TetRecord& record,
-                                        ScreenOutline& outline) const;
+                                        ScreenOutline& outline,
+                                        GradientRecord* lit = nullptr) const;
     double margin() const { return margin_; }
     const View& view() const { return window_.view(); }
 
@@ -73,7 +76,12 @@ class TetProjector {
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
                     const Extent& extent, TetRecord& record) const;
     double inverted(double value) const;
+    // A linear function in the form that a GradientRecord has.
+    GradientRecord::Component linear(const PartField& field, double origin, double scale,
+                                     const TetRecord& record) const;
     void set_scalars(const PartField& field, double origin, double width, TetRecord& record) const;
+    void set_gradients(const Tet& tet, const std::array<Seen, 4>& corners, const TetRecord& record,
+                       GradientRecord& lit) const;
     void set_part(const PartField& field, const LinearPiece& piece, TetRecord& record) const;
     std::array<float, 3> plane_at_center(const DepthPlane& plane, const TetRecord& record) const;
     double depth_at_center(const DepthPlane& plane, const TetRecord& record) const;
@@ -81,6 +89,7 @@ class TetProjector {
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;
     std::span<const double> scalar_;
+    std::span<const glm::vec3> gradients_;
     ValueRange range_;
     const TetPieces& pieces_;
     WindowView window_;

@@ -186,15 +186,26 @@ class PartCuts {
     bool lower_, upper_, lower_is_front_, upper_is_front_;
 };
 
-// `aside`: the scalar's change from the record's center, at z = 1. `slant`: world length per unit
-// of z. Rays that miss the cell fragment get a span of 0. `Shader`: see
-// projection/tet_drawing-inl.h.
+// Where a ray enters or leaves: its z (1 in orthographic views), and how far along z that is behind
+// the record's center.
+template <class V>
+struct TetSpanEnd {
+    V z, from_center;
+};
+template <class V>
+struct TetSpan {
+    TetSpanEnd<V> front, back;
+    V world_length;
+};
+
+// `slant`: world length per unit of z. Rays that miss the cell fragment get a span of 0. `Shader`:
+// see projection/tet_drawing-inl.h.
 template <class D, class Shader>
-HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragments& fragments,
-                                       const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
-                                       hn::Vec<D> aside, hn::Vec<D> slant) {
+HWY_INLINE TetSpan<hn::Vec<D>> find_ends(D d, const Shader& shader, const TetFragments& fragments,
+                                         const TetRecord& record,
+                                         const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> slant) {
     using V = hn::Vec<D>;
-    TetRun<V> run{hn::Zero(d), hn::Zero(d), hn::Sub(span.leave, span.enter)};
+    V length = hn::Sub(span.leave, span.enter);
     V z_front = hn::Set(d, 1.0f), z_back = z_front, front = span.enter, back = span.leave;
     if (shader.perspective) {
         // Differences of z are computed from differences of depth, so that a distant eye costs no
@@ -213,24 +224,41 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
             z_front = hn::Div(minus_one, hn::Min(depth_front, most));
             z_back = hn::Div(minus_one, hn::Min(depth_back, most));
         }
-        run.world_length = hn::Mul(hn::Mul(hn::Mul(run.world_length, z_front), z_back), slant);
+        length = hn::Mul(hn::Mul(hn::Mul(length, z_front), z_back), slant);
         const V z_center = hn::Set(d, record.center_z);
         front = hn::Mul(hn::Mul(front, z_front), z_center);
         back = hn::Mul(hn::Mul(back, z_back), z_center);
     }
-    if (shader.opacity_only)
-        run.world_length = hn::Mul(run.world_length, hn::Set(d, fragments.depth_scale));
+    if (shader.opacity_only) length = hn::Mul(length, hn::Set(d, fragments.depth_scale));
+    return {{z_front, front}, {z_back, back}, length};
+}
+
+// `aside`: the scalar's change from the record's center, at z = 1.
+template <class D, class Shader>
+HWY_INLINE TetRun<hn::Vec<D>> run_between(D d, const Shader& shader, const TetRecord& record,
+                                          const TetSpan<hn::Vec<D>>& ends, hn::Vec<D> aside) {
+    using V = hn::Vec<D>;
+    TetRun<V> run{hn::Zero(d), hn::Zero(d), ends.world_length};
     if (!shader.scalars) return run;
     const V least = hn::Set(d, shader.cut ? 0.0f : record.limits[0]),
             largest = hn::Set(d, shader.cut ? 1.0f : record.limits[1]);
     const V origin = hn::Set(d, record.scalar), per_z = hn::Set(d, record.scalar_per_z);
-    const auto scalar = [&](V from_center, V z) HWY_ATTR {
-        const V sum = hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));
+    const auto scalar = [&](const TetSpanEnd<V>& end) HWY_ATTR {
+        const V sum =
+            hn::Add(hn::Add(origin, hn::Mul(end.from_center, per_z)), hn::Mul(end.z, aside));
         return hn::Min(hn::Max(sum, least), largest);
     };
-    run.front = scalar(front, z_front);
-    run.back = scalar(back, z_back);
+    run.front = scalar(ends.front);
+    run.back = scalar(ends.back);
     return run;
+}
+
+template <class D, class Shader>
+HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragments& fragments,
+                                       const TetRecord& record, const InsideSpan<hn::Vec<D>>& span,
+                                       hn::Vec<D> aside, hn::Vec<D> slant) {
+    return run_between(d, shader, record, find_ends(d, shader, fragments, record, span, slant),
+                       aside);
 }
 
 }  // namespace lamina::HWY_NAMESPACE

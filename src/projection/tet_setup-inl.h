@@ -54,7 +54,7 @@ class TetVectors {
     TetVectors(const SetupView& view, TetSetup::Lanes& lanes, std::size_t first)
         : view_(view), lanes_(lanes), first_(first) {}
 
-    void set_up(bool parts) {
+    void set_up(bool parts, bool lit) {
         see();
         place_center();
         MD good = find_faces();
@@ -64,6 +64,7 @@ class TetVectors {
         } else {
             set_whole();
         }
+        if (lit) set_gradients();
         store(lanes_.good, hn::IfThenElseZero(good, one()));
         store(lanes_.visible, hn::IfThenElseZero(visible_, one()));
     }
@@ -246,6 +247,35 @@ class TetVectors {
         store(lanes_.scalar_per_z, finite(dot(gradient, direction)));
         store(lanes_.scalar_per_column, finite(hn::Mul(gradient.x, pixel)));
         store(lanes_.scalar_per_row, finite(hn::Mul(gradient.y, pixel)));
+    }
+
+    // The components of the gradient, as set_scalars() sets the scalar.
+    void set_gradients() {
+        const Point e1 = seen_[1] - seen_[0], e2 = seen_[2] - seen_[0], e3 = seen_[3] - seen_[0];
+        const Point n1 = cross(e2, e3), n2 = cross(e3, e1), n3 = cross(e1, e2);
+        const VD inverse = hn::Div(one(), dot(e1, n1));
+        const VD pixel = set(view_.view.pixel), x = hn::Mul(column_, pixel),
+                 y = hn::Mul(row_, pixel), z = center_z_;
+        const Point direction =
+            view_.perspective ? Point{x, y, one()} : Point{hn::Zero(d_), hn::Zero(d_), one()};
+        const Point center = view_.perspective ? scaled(direction, z) : Point{x, y, z};
+        const Point from_corner = center - seen_[0];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& corners = lanes_.gradient[axis];
+            const VD first = load(corners[0]);
+            const VD v1 = hn::Sub(load(corners[1]), first), v2 = hn::Sub(load(corners[2]), first),
+                     v3 = hn::Sub(load(corners[3]), first);
+            const auto sum = [&](VD a, VD b, VD c) HWY_ATTR {
+                return hn::Mul(inverse,
+                               hn::Add(hn::Add(hn::Mul(v1, a), hn::Mul(v2, b)), hn::Mul(v3, c)));
+            };
+            const Point slope{sum(n1.x, n2.x, n3.x), sum(n1.y, n2.y, n3.y), sum(n1.z, n2.z, n3.z)};
+            auto& lit = lanes_.lit[axis];
+            store(lit.at_center, finite(hn::Add(first, dot(slope, from_corner))));
+            store(lit.per_z, finite(dot(slope, direction)));
+            store(lit.per_column, finite(hn::Mul(slope.x, pixel)));
+            store(lit.per_row, finite(hn::Mul(slope.y, pixel)));
+        }
     }
 
     void set_whole() {

@@ -16,9 +16,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes) {
+void set_up_vectors(const SetupView& view, bool parts, bool lit, TetSetup::Lanes& lanes) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
-        TetVectors(view, lanes, first).set_up(parts);
+        TetVectors(view, lanes, first).set_up(parts, lit);
 }
 
 }  // namespace lamina::HWY_NAMESPACE
@@ -68,14 +68,40 @@ void TetSetup::prefetch(std::span<const TetPart> next) const {
 }
 
 void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> next,
-                      TetRecord* records, Parts& result) const {
+                      TetRecord* records, GradientRecord* lit, Parts& result) const {
     Lanes lanes;
     prefetch(next);
     load(parts, lanes);
+    if (lit != nullptr) load_gradients(parts, lanes);
     const bool pieces = parts[0].piece != TetPart::whole;
     const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
-    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lanes);
+    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lit != nullptr, lanes);
     store(parts, lanes, records, result);
+    if (lit != nullptr) store_gradients(parts.size(), lanes, lit);
+}
+
+void TetSetup::load_gradients(std::span<const TetPart> parts, Lanes& lanes) const {
+    for (std::size_t lane = 0; lane < most_parts; ++lane) {
+        const TetPart& part = parts[std::min(lane, parts.size() - 1)];
+        const auto corners = sorted_corners(tets_[static_cast<std::size_t>(part.tet)]);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::vec3& gradient = gradients_[corners[i]];
+            for (int axis = 0; axis < 3; ++axis)
+                lanes.gradient[static_cast<std::size_t>(axis)][i][lane] =
+                    static_cast<double>(gradient[axis]);
+        }
+    }
+}
+
+void TetSetup::store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Lanes::Linear& from = lanes.lit[axis];
+            lit[lane].components[axis] = {
+                to_float(from.at_center, lane), to_float(from.per_z, lane),
+                to_float(from.per_column, lane), to_float(from.per_row, lane)};
+        }
+    }
 }
 
 // Lanes without a part repeat the last one.

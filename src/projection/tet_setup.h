@@ -10,6 +10,7 @@
 
 #include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
+#include "projection/gradient_record.h"
 #include "projection/tet_part.h"
 #include "projection/tet_record.h"
 #include "projection/tile_chunk.h"
@@ -32,10 +33,12 @@ class TetSetup {
 
     // The arguments of TetProjector's constructor.
     TetSetup(const TetMesh& mesh, std::span<const double> scalar, const ValueRange& range,
-             const TetPieces& pieces, const View& view, double near_depth, double margin)
+             const TetPieces& pieces, const View& view, double near_depth, double margin,
+             std::span<const glm::vec3> gradients = {})
         : points_(mesh.points()),
           tets_(mesh.tets()),
           scalar_(scalar),
+          gradients_(gradients),
           range_(range),
           pieces_(pieces),
           window_(view),
@@ -43,10 +46,11 @@ class TetSetup {
           margin_(margin) {}
 
     // Takes at most `most_parts` cell fragments: either all are whole tets or none is. Records and
-    // areas are defined where the outcome is `done`. `records`: one for each cell fragment. `next`:
-    // cell fragments that will follow, which are prefetched.
+    // areas are defined where the outcome is `done`. `records`: one for each cell fragment, and so
+    // `lit`, which is null where there are no gradients. `next`: cell fragments that will follow,
+    // which are prefetched.
     void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, TetRecord* records,
-                Parts& result) const;
+                GradientRecord* lit, Parts& result) const;
 
     struct Lanes;  // memory of the vectors (projection/tet_setup_lanes.h)
 
@@ -55,11 +59,14 @@ class TetSetup {
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
     void store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
                Parts& result) const;
+    void load_gradients(std::span<const TetPart> parts, Lanes& lanes) const;
+    static void store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit);
     void store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const;
 
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;
     std::span<const double> scalar_;
+    std::span<const glm::vec3> gradients_;
     ValueRange range_;
     const TetPieces& pieces_;
     WindowView window_;

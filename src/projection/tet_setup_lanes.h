@@ -17,9 +17,11 @@ struct TetSetup::Lanes {
         Row depth, per_column, per_row, front;
     };
 
-    std::array<Row, 4> x, y, z, value;                   // in
-    Row piece_from, piece_to;                            // scalars at the ends of its piece
-    std::array<Row, 4> at_from, at_to;                   // colour and extinction there
+    std::array<Row, 4> x, y, z, value;  // in
+    Row piece_from, piece_to;           // scalars at the ends of its piece
+    std::array<Row, 4> at_from, at_to;  // colour and extinction there
+    // At each corner, component by component; of lit ones alone.
+    std::array<std::array<Row, 4>, 3> gradient;
     Row good, visible, bounded;                          // out: 1 or 0
     Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
     Row center_column, center_row, center_depth, center_z;
@@ -30,6 +32,10 @@ struct TetSetup::Lanes {
     Cut lower_cut, upper_cut;
     std::array<Row, 4> low, high;
     Row largest_depth;
+    struct Linear {
+        Row at_center, per_z, per_column, per_row;
+    };
+    std::array<Linear, 3> lit;  // as in GradientRecord
 };
 
 struct SetupView {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "projection/fragment_kind.h"
+#include "projection/gradient_record.h"
 #include "projection/part_outline.h"
 #include "projection/tet_record.h"
 #include "projection/triangle_record.h"
@@ -40,9 +41,11 @@ class TileChunk {
     // A set of cell fragments, one bit each.
     using Parts = std::array<std::uint64_t, most_parts / 64>;
 
-    // `triangles`: the chunk holds triangles instead of cell fragments.
-    TileChunk(int tiles, bool triangles)
+    // `triangles`: the chunk holds triangles instead of cell fragments. `lit`: these have
+    // gradients.
+    TileChunk(int tiles, bool triangles, bool lit)
         : records_(triangles ? 0 : most_parts),
+          gradients_(lit ? most_parts : 0),
           triangles_(triangles ? most_parts : 0),
           parts_of_tile_(static_cast<std::size_t>(tiles)) {}
 
@@ -55,6 +58,7 @@ class TileChunk {
     }
     // The record that the next cell fragment is written to. It is kept once add() is called.
     TetRecord& next() { return records_[count_]; }
+    GradientRecord* next_gradient() { return gradients_.empty() ? nullptr : &gradients_[count_]; }
     TriangleRecord& next_triangle() { return triangles_[count_]; }
     void add(const PartArea& area, std::int32_t tet) {
         areas_[count_++] = area;
@@ -72,6 +76,8 @@ class TileChunk {
     std::int32_t last_tet() const { return last_tet_; }
     bool has_triangles() const { return !triangles_.empty(); }
     const TetRecord& record(std::size_t part) const { return records_[part]; }
+    bool is_lit() const { return !gradients_.empty(); }
+    const GradientRecord& gradient(std::size_t part) const { return gradients_[part]; }
     const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
     const PartArea& area(std::size_t part) const { return areas_[part]; }
     const Parts& parts(std::size_t tile) const { return parts_of_tile_[tile]; }
@@ -82,6 +88,7 @@ class TileChunk {
     }
     std::int64_t byte_count() const {
         return static_cast<std::int64_t>(sizeof(*this) + records_.size() * sizeof(TetRecord) +
+                                         gradients_.size() * sizeof(GradientRecord) +
                                          triangles_.size() * sizeof(TriangleRecord) +
                                          parts_of_tile_.size() * sizeof(Parts));
     }
@@ -91,6 +98,7 @@ class TileChunk {
     std::int64_t tets_ = 0;
     std::int32_t first_tet_ = -1, last_tet_ = -1;
     std::vector<TetRecord> records_;
+    std::vector<GradientRecord> gradients_;  // of the records; empty where nothing is lit
     std::vector<TriangleRecord> triangles_;
     std::array<PartArea, most_parts> areas_;
     std::vector<Parts> parts_of_tile_;

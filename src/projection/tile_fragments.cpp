@@ -15,7 +15,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Draws coloured parts in perspective over a float32 target.
 struct PartShader {
-    static constexpr bool cut = true, scalars = true, perspective = true, opacity_only = false;
+    static constexpr bool lit = false, cut = true, scalars = true, perspective = true,
+                          opacity_only = false;
 
     HWY_INLINE Fragment<Vector> color(Tag d, const TetFragments& fragments, const TetRecord& record,
                                       const PartArea& area, const TetRun<Vector>& run) const {
@@ -46,6 +47,7 @@ HWY_EXPORT(draw_colored_parts);
 
 std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile) {
+    if (chunk.is_lit()) return draw_lit_tets(fragments, chunk, parts, tile);
     const bool known = fragments.source == SegmentSource::parts && fragments.colored &&
                        fragments.perspective && fragments.output == FragmentOutput::native &&
                        fragments.blend.target == Target::float32 && !fragments.opacity_only &&

@@ -5,8 +5,10 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 
+#include "executors/tile_light.h"
 #include "executors/tile_transfer.h"
 #include "optics/segment_table.h"
 #include "plan/project_plan.h"
@@ -50,6 +52,11 @@ struct TetFragments {
     const SegmentTable* table = nullptr;     // SegmentSource::table
     float inverse_first_length = 0;          // of `table`
     const TileTransfer* transfer = nullptr;  // SegmentSource::cut_table, ::analytic
+    // The following where something is lit.
+    const TileLight* light = nullptr;  // in the axes of the world
+    float smallest_square = 0;         // of the smallest gradient, in the unit of GradientRecord
+    std::array<glm::vec3, 3> axes;     // unit vectors to the right, up and forward
+    bool slanted = false;              // lengths along rays are longer than differences of z
 };
 
 // One tile of a frame. `slants`: world length per unit of z for each pixel, at TileGrid::place();
@@ -66,8 +73,12 @@ struct TetTile {
 std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
                        const TileChunk::Parts& parts, const TetTile& tile);
 
-// The same for everything that a plan may ask for. draw_tets() is specialised for the most frequent
-// plans and calls this for others.
+// The same for chunks that are lit.
+std::int64_t draw_lit_tets(const TetFragments& fragments, const TileChunk& chunk,
+                           const TileChunk::Parts& parts, const TetTile& tile);
+
+// The same for everything else that a plan may ask for. draw_tets() is specialised for the most
+// frequent plans and calls this for others.
 std::int64_t draw_general_tets(const TetFragments& fragments, const TileChunk& chunk,
                                const TileChunk::Parts& parts, const TetTile& tile);
 

@@ -61,6 +61,7 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     fragments_.output = output_of(plan_);
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
+    if (plan_.lighting) set_light();
     Stage cutting("visible parts");
     parts_.emplace(mesh.mesh, mesh.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                    plan_.draw_transparent);
@@ -75,7 +76,8 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
         chunks_of_batch(static_cast<std::size_t>(parts_->count()), parts_a_chunk());
     for (Chunks& batch : batches_) {
         for (std::size_t i = 0; i < chunks; ++i)
-            batch.push_back(std::make_unique<TileChunk>(image_.grid().count(), is_fan()));
+            batch.push_back(
+                std::make_unique<TileChunk>(image_.grid().count(), is_fan(), light_.has_value()));
     }
 }
 
@@ -105,6 +107,7 @@ std::int64_t TileProjectRenderer::byte_count() const {
     }
     if (tables_) bytes += tables_->byte_count();
     if (tree_) bytes += tree_->byte_count();
+    bytes += static_cast<std::int64_t>(gradients_.at_points.size() * sizeof(glm::vec3));
     return bytes;
 }
 
@@ -125,10 +128,12 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     Stage drawing("draw");
     set_view(view);
     const View seen = seeing_in_units(view, plan_.unit);
-    const Projectors projectors{
-        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen, plan_.near_depth, margin},
-        {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen, plan_.near_depth, margin},
-        {mesh_, transfer_function_, plan_, seen}};
+    const auto& gradients = gradients_.at_points;
+    const Projectors projectors{{mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen,
+                                 plan_.near_depth, margin, gradients},
+                                {mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_, seen,
+                                 plan_.near_depth, margin, gradients},
+                                {mesh_, transfer_function_, plan_, seen}};
     if (tree_) {
         draw_tree(projectors, parts, progress);
     } else {
@@ -170,7 +175,17 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
     tree_->draw(std::ref(draw_leaf), image_, progress);
 }
 
+void TileProjectRenderer::set_light() {
+    const Stage stage("gradients");
+    gradients_ = StoredGradients(gradients_of(mesh_));
+    light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend);
+    fragments_.light = &*light_;
+    fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
+    fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
+}
+
 void TileProjectRenderer::set_view(const View& view) {
+    fragments_.axes = {glm::vec3(view.right), glm::vec3(view.up), glm::vec3(view.forward)};
     fragments_.image_middle = 0.5f * glm::vec2(view.width, view.height);
     fragments_.image_rows = view.height;
     fragments_.pixel_size = static_cast<float>(seeing_in_units(view, plan_.unit).pixel);
@@ -179,7 +194,8 @@ void TileProjectRenderer::set_view(const View& view) {
     fragments_.ray_perturbation = ray_perturbation(view);
     fragments_.one_division = !is_fixed_point(plan_.target) && plan_.near_depth > 1e-18 &&
                               plan_.unit * farthest_corner(mesh_.mesh, view.eye) < 1e18;
-    if (!fragments_.perspective || plan_.thickness == Thickness::dz || slant_pixel_ == view.pixel)
+    if (!fragments_.perspective || plan_.thickness == Thickness::dz || light_ ||
+        slant_pixel_ == view.pixel)
         return;
     slant_pixel_ = view.pixel;
     slants_.resize(fragment_counts_.size());
@@ -233,10 +249,14 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         TetSetup::Parts done;
         // Records are written in place, and moved where one before them is not drawn.
         TetRecord* const records = &chunk.next();
-        projectors.setup.set_up(group, parts.subspan(first + group.size()), records, done);
+        GradientRecord* const lit = chunk.next_gradient();
+        projectors.setup.set_up(group, parts.subspan(first + group.size()), records, lit, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             if (done.outcomes[i] == TetSetup::Outcome::done) {
-                if (&chunk.next() != &records[i]) chunk.next() = records[i];
+                if (&chunk.next() != &records[i]) {
+                    chunk.next() = records[i];
+                    if (lit != nullptr) *chunk.next_gradient() = lit[i];
+                }
                 add(done.areas[i], group[i].tet, chunk);
             } else if (done.outcomes[i] == TetSetup::Outcome::doubtful) {
                 project_doubtful(projectors.careful, group[i], chunk);
@@ -249,7 +269,7 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
                                            TileChunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
-    const auto kind = projector.project(part, chunk.next(), outline);
+    const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
     // Doubtful parts are drawn as careful ones, which is right for every kind. They are few, unless
@@ -266,7 +286,8 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
-        part, {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, 0});
+        part,
+        {reinterpret_cast<std::byte*>(vertices.data()), 0, indices.data(), nullptr, nullptr, 0});
     const TileGrid& grid = image_.grid();
     for (std::size_t i = 0; i < written.indices; i += 3) {
         const std::array<const FanVertex*, 3> corners{

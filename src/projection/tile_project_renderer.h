@@ -12,6 +12,7 @@
 #include "plan/plan.h"
 #include "projection/fan_geometry.h"
 #include "projection/project_renderer.h"
+#include "projection/stored_gradients.h"
 #include "projection/tet_projector.h"
 #include "projection/tet_setup.h"
 #include "projection/tile_chunk.h"
@@ -71,6 +72,7 @@ class TileProjectRenderer : public ProjectRenderer {
     std::size_t parts_a_chunk() const;
     std::size_t parts_a_batch() const { return batches_[0].size() * parts_a_chunk(); }
     std::size_t batch_count(std::size_t parts) const;
+    void set_light();
     void set_view(const View& view);
     void clear();
     void draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
@@ -97,6 +99,8 @@ class TileProjectRenderer : public ProjectRenderer {
     std::optional<TileProjectTables> tables_;  // none where nothing is visible, like these:
     std::optional<VisibleParts> parts_;
     std::optional<TileTetTree> tree_;  // where the plan has one
+    StoredGradients gradients_;        // empty where nothing is lit, like this one:
+    std::optional<TileLight> light_;
     TetFragments fragments_{};
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;      // for each tile; empty where all are 1

@@ -25,9 +25,11 @@ ProjectOrder order_of(OrderMethod method) {
 }  // namespace
 
 void ProjectDrawing::clip_mesh(const Scene& scene) {
-    if (scene.clip == clip_) return;
+    const bool lit = scene.lighting.has_value();
+    if (scene.clip == clip_ && (lit_ || !lit)) return;
     clip_ = scene.clip;
-    mesh_ = clipped_mesh(whole_, clip_, name_of_mesh(scene));
+    lit_ = lit;
+    mesh_ = clipped_mesh(whole_, clip_, lit, name_of_mesh(scene));
     clipped_away_ = mesh_ == nullptr;
     if (clipped_away_) mesh_ = whole_;
 }

@@ -32,6 +32,7 @@ class ProjectDrawing : public Drawing {
     std::shared_ptr<const SceneMesh> whole_;
     std::shared_ptr<const SceneMesh> mesh_;  // what the clip leaves; where that is nothing, whole_
     Clip clip_;
+    bool lit_ = false;
     bool clipped_away_ = false;
     MeshFacts facts_;
 };

@@ -203,6 +203,24 @@ bool keeps_all(std::span<const HalfSpace> clip, const TetMesh::Bounds& box) {
     });
 }
 
+// Three scalars behind the scene's.
+void add_gradients(const std::vector<glm::dvec3>& gradients, MeshData& mesh) {
+    for (int axis = 0; axis < 3; ++axis) {
+        MeshScalar& component = mesh.point_scalars.emplace_back();
+        component.values.reserve(gradients.size());
+        for (const glm::dvec3& gradient : gradients) component.values.push_back(gradient[axis]);
+    }
+}
+
+std::vector<glm::dvec3> gradients_in(const std::vector<MeshScalar>& scalars) {
+    std::vector<glm::dvec3> gradients;
+    if (scalars.size() < 4) return gradients;
+    gradients.reserve(scalars[1].values.size());
+    for (std::size_t i = 0; i < scalars[1].values.size(); ++i)
+        gradients.emplace_back(scalars[1].values[i], scalars[2].values[i], scalars[3].values[i]);
+    return gradients;
+}
+
 }  // namespace
 
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip) {
@@ -214,7 +232,7 @@ MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip) {
 }
 
 std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,
-                                              const Clip& clip, const std::string& name) {
+                                              const Clip& clip, bool lit, const std::string& name) {
     const std::vector<HalfSpace> halves = half_spaces(clip);
     if (keeps_all(halves, mesh->mesh.bounds())) return mesh;
     const Stage cutting("clip mesh");
@@ -224,12 +242,13 @@ std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneM
     data.points.assign(points.begin(), points.end());
     data.tets.assign(tets.begin(), tets.end());
     data.point_scalars = {mesh->scalar};
+    if (lit) add_gradients(gradients_of(*mesh), data);
     data = cut_mesh(std::move(data), halves);
     if (data.tets.empty()) return nullptr;
-    MeshScalar scalar = std::move(data.point_scalars.front());
-    data.point_scalars.clear();
-    return std::make_shared<const SceneMesh>(
-        SceneMesh{TetMesh(std::move(data), name), std::move(scalar), mesh->averaged, mesh->report});
+    std::vector<MeshScalar> scalars = std::exchange(data.point_scalars, {});
+    return std::make_shared<const SceneMesh>(SceneMesh{TetMesh(std::move(data), name),
+                                                       std::move(scalars.front()), mesh->averaged,
+                                                       mesh->report, gradients_in(scalars)});
 }
 
 }  // namespace lamina

@@ -19,8 +19,9 @@ namespace lamina {
 MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
 
 // The same of a scene's mesh: the mesh itself where nothing is cut away, null where nothing is
-// left.
+// left. `lit`: the gradients of the mesh before it was clipped are kept, interpolated linearly, as
+// they are in its tets.
 std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneMesh>& mesh,
-                                              const Clip& clip, const std::string& name);
+                                              const Clip& clip, bool lit, const std::string& name);
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/stage.h"
 #include "mesh/cell_average.h"
+#include "mesh/point_gradients.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 
@@ -52,6 +53,11 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
 }
 
 }  // namespace
+
+std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh) {
+    if (!mesh.gradients_before_clip.empty()) return mesh.gradients_before_clip;
+    return point_gradients(mesh.mesh, mesh.scalar.values);
+}
 
 std::string name_of_mesh(const Scene& scene) {
     if (!scene.mesh_file.empty()) return scene.mesh_file.string();

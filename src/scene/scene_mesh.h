@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <optional>
+#include <vector>
 
 #include "lamina/mesh_settings.h"
 #include "lamina/scene.h"
@@ -15,7 +18,13 @@ struct SceneMesh {
     MeshScalar scalar;      // one value a point
     bool averaged = false;  // the file has the scalar at cells; it was averaged to points
     std::optional<MeshReport> report;  // only for a mesh made from the scene's volume
+    // Of a clipped mesh that is lit: at the points, those of the mesh before it was clipped, in
+    // scalar units per world unit. Else empty.
+    std::vector<glm::dvec3> gradients_before_clip = {};
 };
+
+// The gradients at the points by which the mesh is lit (docs/numerics.md, section 10).
+std::vector<glm::dvec3> gradients_of(const SceneMesh& mesh);
 
 // The mesh's name for messages: its file, or the key of the scene that says how to make it.
 std::string name_of_mesh(const Scene& scene);

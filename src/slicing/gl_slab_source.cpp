@@ -15,14 +15,14 @@
 #include "base/stage.h"
 #include "base/unreachable.h"
 #include "executors/gl_lights.h"
+#include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
+#include "executors/smallest_gradient.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "gl/check.h"
 #include "optics/linear_pieces.h"
-#include "slicing/light_cuts.h"
-#include "slicing/smallest_gradient.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {

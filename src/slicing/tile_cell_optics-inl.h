@@ -13,14 +13,12 @@
 #include <cstring>
 
 #include "executors/tile_optics-inl.h"
+#include "executors/tile_shallow-inl.h"
 #include "slicing/tile_cubic-inl.h"
 #include "tiles/opacity-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
-
-// Parts of larger optical depth are split: up to here seen_share() is good to .01 / 255.
-inline constexpr float largest_part_depth = 0.75f;
 
 // The bends of an interval (TileTransfer::bend).
 template <bool curved>
@@ -96,20 +94,6 @@ HWY_INLINE IntervalLanes<curved> interval_lanes(const TileTransfer& transfer, In
     }
     return lanes;
 }
-
-// Gauss' rule on 0 .. 1.
-template <std::size_t points>
-struct GaussRule;
-template <>
-struct GaussRule<3> {
-    static constexpr float nodes[] = {0.11270167f, 0.5f, 0.88729833f};
-    static constexpr float weights[] = {0.27777778f, 0.44444444f, 0.27777778f};
-};
-template <>
-struct GaussRule<4> {
-    static constexpr float nodes[] = {0.069431844f, 0.33000948f, 0.66999052f, 0.93056816f};
-    static constexpr float weights[] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
-};
 
 // A part of a ray in one interval: its share, and its extinction times its length.
 template <bool curved>
@@ -188,13 +172,6 @@ struct RayPart<true> {
         {14.3258584f, -31.3882224f, 24.9981259f, -7.93576185f},
         {-7.42054007f, 18.7954494f, -18.7954494f, 7.42054007f}};
 };
-
-// 1 - exp(-depth) for depths up to largest_part_depth, with a relative error of 2e-5: interpolated
-// at Chebyshev's nodes.
-HWY_INLINE Number shallow_opacity(Number depth) {
-    return depth * Number(polynomial(FloatTag(), depth.v,
-                                     {0.99998385f, -0.49930894f, 0.16195904f, -0.031068699f}));
-}
 
 // The share that reaches a part's front: the integral of share times emission times transmittance,
 // for `opacity` of `depth`, which is at most largest_part_depth. Integrated by parts, so that only

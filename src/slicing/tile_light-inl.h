@@ -11,9 +11,9 @@
 
 #include <cstring>
 
+#include "executors/tile_light-inl.h"
 #include "slicing/tile_cell_optics-inl.h"
 #include "slicing/tile_cell_parts-inl.h"
-#include "slicing/tile_light.h"
 #include "tiles/arithmetic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -192,79 +192,12 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, const TileLight& 
     return lanes;
 }
 
-HWY_INLINE Number dot(const Number (&a)[3], const Number (&b)[3]) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// x^half_power, 0 <= x <= 1.
-HWY_INLINE Number shine_of(const TileLight& light, Number x) {
-    if (light.whole_half_power == 0) {
-        const FloatTag d;
-        const Number log = log_of(d, max(x, Number(1e-37f)).v);
-        return exp_of(d, (Number(light.half_power) * log).v);
-    }
-    Number power(1);
-    for (int rest = light.whole_half_power; true; x = x * x) {
-        if ((rest & 1) != 0) power = power * x;
-        rest >>= 1;
-        if (rest == 0) return power;
-    }
-}
-
-// What light does to a colour c at a place: it adds c * change + highlight. Of one channel where
-// light is grey.
-template <std::size_t channels>
-struct EffectLanes {
-    Number change[channels], highlight[channels];
-};
-
-template <std::size_t channels>
-HWY_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Number (&g)[3],
-                                           Number smallest_square, const Number (&to_eye_unit)[3]) {
-    const Number square = dot(g, g);
-    const Number weight = square / (square + smallest_square);
-    const Number inverse_root = Number(1) / Number(hn::Sqrt(max(square, Number(1e-37f)).v));
-    EffectLanes<channels> effect;
-    const Number to_eye = dot(g, to_eye_unit) * inverse_root;
-    for (std::size_t c = 0; c < channels; ++c) {
-        effect.change[c] = Number(light.ambient - 1);
-        effect.highlight[c] = Number(0);
-    }
-    for (const TileLight::Direction& direction : light.directions) {
-        Number along = to_eye, halfway_square = to_eye * to_eye;
-        if (!direction.to_eye) {
-            const Number to_light[3] = {Number(direction.to_light[0]),
-                                        Number(direction.to_light[1]),
-                                        Number(direction.to_light[2])};
-            along = dot(g, to_light) * inverse_root;
-            // |l + v|^2; where it is 0 there is no highlight.
-            const Number sum = Number(2) + Number(2) * dot(to_light, to_eye_unit);
-            const Number both = along + to_eye;
-            const Number halfway = both * both / max(sum, Number(1e-12f));
-            halfway_square = zero_unless(sum > Number(1e-6f), halfway);
-        }
-        const Number cosine = hn::Abs(along.v);
-        Number shine(0);
-        if (light.specular > 0)
-            shine = Number(light.specular) * shine_of(light, min(halfway_square, Number(1)));
-        for (std::size_t c = 0; c < channels; ++c) {
-            const Number color(direction.color[c]);
-            effect.change[c] = effect.change[c] + Number(light.diffuse) * cosine * color;
-            effect.highlight[c] = effect.highlight[c] + shine * color;
-        }
-    }
-    for (std::size_t c = 0; c < channels; ++c) {
-        effect.change[c] = weight * effect.change[c];
-        effect.highlight[c] = weight * effect.highlight[c];
-    }
-    return effect;
-}
-
 template <std::size_t channels>
 HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const GradientLanes& gradient,
                                            Number t) {
-    const Number g[3] = {gradient.along[0].at(t), gradient.along[1].at(t), gradient.along[2].at(t)};
-    return effect_of<channels>(light, g, gradient.smallest_square, gradient.to_eye);
+    const Number there[3] = {gradient.along[0].at(t), gradient.along[1].at(t),
+                             gradient.along[2].at(t)};
+    return effect_of<channels>(light, there, gradient.smallest_square, gradient.to_eye);
 }
 
 // What may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays
@@ -394,14 +327,6 @@ HWY_INLINE Number longest_piece(const TileLight& light, Number bend) {
     const Number share = Number(light.most_bend) / max(bend, Number(1e-30f));
     return max(min(hn::Sqrt(share.v), Number(1)), least);
 }
-// Light is not looked at more closely than that.
-inline constexpr float shortest_lit_piece = 1.0f / 256;
-
-// Parts whose light bends too much for one rule.
-HWY_INLINE FloatMask bends(const TileLight& light, Number bend, Number opacity) {
-    return hn::And(bend > Number(light.most_bend), bend * opacity > Number(light.faint_bend));
-}
-
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -73,7 +73,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
 
 void TileSlabSource::set_light() {
     if (!plan_.lighting) return;
-    light_ = make_tile_light(*plan_.lighting, grid_, plan_.most_bend);
+    light_ = make_tile_light(*plan_.lighting, grid_.step, plan_.most_bend);
     slabs_.light = &*light_;
 }
 

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "executors/tile_light.h"
 #include "executors/tile_transfer.h"
 #include "facts/facts.h"
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"
-#include "slicing/tile_light.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {

@@ -143,9 +143,9 @@ TEST(CutMesh, FarMeshesStaySound) {
 
 TEST(CutMesh, AClipThatCutsNothingCostsNothing) {
     const auto mesh = std::make_shared<const SceneMesh>(scene_mesh(kuhn(2)));
-    EXPECT_EQ(clipped_mesh(mesh, {{}, ClipBox{{0, 0, 0}, {1, 1, 1}}}, "mesh"), mesh);
-    EXPECT_EQ(clipped_mesh(mesh, {{{{1.1, 0, 0}, {1, 0, 0}}}, {}}, "mesh"), nullptr);
-    EXPECT_EQ(clipped_mesh(mesh, {{{{1, 0, 0}, {1, 0, 0}}}, {}}, "mesh"), nullptr);
+    EXPECT_EQ(clipped_mesh(mesh, {{}, ClipBox{{0, 0, 0}, {1, 1, 1}}}, false, "mesh"), mesh);
+    EXPECT_EQ(clipped_mesh(mesh, {{{{1.1, 0, 0}, {1, 0, 0}}}, {}}, false, "mesh"), nullptr);
+    EXPECT_EQ(clipped_mesh(mesh, {{{{1, 0, 0}, {1, 0, 0}}}, {}}, false, "mesh"), nullptr);
 }
 
 class Clipped : public ProjectionTest {
@@ -164,7 +164,7 @@ class Clipped : public ProjectionTest {
         scene.camera.height = 1.6;
         for (const test::NamedClip& named : test::clips_of_unit_box()) {
             scene.clip = named.clip;
-            const auto cut = clipped_mesh(mesh, scene.clip, "mesh");
+            const auto cut = clipped_mesh(mesh, scene.clip, scene.lighting.has_value(), "mesh");
             for (const glm::dvec3 eye : {glm::dvec3(1.6, -.5, .9), glm::dvec3(.31, .42, .63)}) {
                 for (const auto projection : {Projection::perspective, Projection::orthographic}) {
                     scene.camera.projection = projection;

@@ -85,7 +85,7 @@ inline Image trace(const SceneMesh& mesh, const Scene& scene) {
     const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
     return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, scene.transfer_function,
                                View(scene.camera, scene.width, scene.height),
-                               {.clip = half_spaces(scene.clip)})
+                               {.lighting = scene.lighting, .clip = half_spaces(scene.clip)})
                         .image);
 }
 

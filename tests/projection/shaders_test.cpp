@@ -50,6 +50,28 @@ std::vector<ProjectPlan> output_plans() {
     return plans;
 }
 
+std::vector<ProjectPlan> lit_plans() {
+    Lighting matt;
+    matt.specular = 0;
+    Lighting two;
+    two.lights.push_back({glm::dvec3(1, 2, 3), {1, .5, .2}});
+    std::vector<ProjectPlan> plans;
+    for (const Lighting& lighting : {Lighting{}, matt, two}) {
+        for (const bool orthographic : {false, true}) {
+            ProjectPlan plan;
+            plan.orthographic = orthographic;
+            plan.lighting = lighting;
+            plan.lighting->smallest_gradient = 1;
+            plans.push_back(plan);
+        }
+    }
+    for (ProjectPlan plan : output_plans()) {
+        plan.lighting = plans.front().lighting;
+        plans.push_back(plan);
+    }
+    return plans;
+}
+
 TEST_F(ProjectionShaders, EveryPlanCompiles) {
     const TransferFunction transfer_function =
         TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(.5, {1, 1, 0}, .2),
@@ -101,7 +123,13 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.tree = {4};
         for (const SegmentSource source : sources) compile(plan, source, true, true, 1);
     }
-    EXPECT_GT(seen.size(), 200u);
+    const std::size_t unlit = seen.size();
+    for (const ProjectPlan& plan : lit_plans()) {
+        for (const SegmentSource source : {SegmentSource::parts, SegmentSource::analytic})
+            for (const bool filtered : {false, true}) compile(plan, source, false, filtered, 1);
+    }
+    EXPECT_GT(seen.size(), unlit + 50);
+    EXPECT_GT(unlit, 200u);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "reference/lit_fixtures.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/gradient_map.h"
-#include "slicing/smallest_gradient.h"
+#include "executors/smallest_gradient.h"
 #include "slicing/texture_bricks.h"
 #include "slicing_fixture.h"
 #include "support/volume_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/light_cuts.h"
+#include "executors/light_cuts.h"
 
 #include <algorithm>
 #include <cmath>

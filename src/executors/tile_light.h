@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <vector>
 
-#include "lamina/grid.h"
+#include "executors/smallest_gradient.h"
 #include "lamina/lighting.h"
-#include "slicing/smallest_gradient.h"
 
 namespace lamina {
 
-// A lighting as vectors compute it, in the axes of a grid.
+// A lighting as vectors compute it, in three orthogonal axes.
 struct TileLight {
     struct Direction {
         bool to_eye = false;  // a headlight
@@ -24,7 +25,7 @@ struct TileLight {
     float half_power = 0;      // of the square of a cosine
     int whole_half_power = 0;  // the same where it is a whole number, else 0
     SmallestGradient smallest;
-    std::array<float, 3> spacing{};  // of samples, in the unit of lengths along rays
+    std::array<float, 3> spacing{};  // lengths of the axes
     // Where light bends more along a part of a ray than this, the part is cut.
     float most_bend = 0;
     // Unless it bends, times the part's opacity, by less than this: too faint to be looked at.
@@ -34,7 +35,8 @@ struct TileLight {
     float most_turn = 0, largest_effect = 0;
 };
 
-// `grid`: in the unit of lengths along rays.
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double most_bend);
+// `axes`: orthogonal, in the unit of lengths along rays.
+TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                          double most_bend);
 
 }  // namespace lamina

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/tile_light.h"
+#include "executors/tile_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "executors/light_cuts.h"
 #include "optics/ray_lights.h"
-#include "slicing/light_cuts.h"
 
 namespace lamina {
 namespace {
 
-// Cuts of light (slicing/light_cuts.h) serve where light does so many times what it may bend, as
+// Cuts of light (executors/light_cuts.h) serve where light does so many times what it may bend, as
 // usual light does at max_error 1. What a rule of three nodes misses of what is smooth falls with
 // the sixth power of the turn.
 constexpr double usual_effect = 25, order = 6;
@@ -20,13 +20,13 @@ constexpr double usual_effect = 25, order = 6;
 // light of strength 1, and the more the stronger it is.
 constexpr double faint_share = 1.0 / 8;
 
-TileLight::Direction direction_of(const Light& light, const Grid& grid) {
+TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     TileLight::Direction direction;
     direction.to_eye = !light.direction;
     for (std::size_t i = 0; i < 3; ++i) {
         direction.color[i] = static_cast<float>(light.color[static_cast<int>(i)]);
         if (light.direction) {
-            const double along = glm::dot(unit_vector(*light.direction), unit_vector(grid.step[i]));
+            const double along = glm::dot(unit_vector(*light.direction), unit_vector(axes[i]));
             direction.to_light[i] = static_cast<float>(along);
         }
     }
@@ -36,12 +36,13 @@ TileLight::Direction direction_of(const Light& light, const Grid& grid) {
 
 }  // namespace
 
-TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double most_bend) {
+TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
+                          double most_bend) {
     TileLight light;
     light.smallest = smallest_gradient_of(lighting);
     light.gray = true;
     for (const Light& each : lighting.lights) {
-        light.directions.push_back(direction_of(each, grid));
+        light.directions.push_back(direction_of(each, axes));
         light.gray = light.gray && each.color.x == each.color.y && each.color.x == each.color.z;
     }
     light.ambient = static_cast<float>(lighting.ambient);
@@ -51,7 +52,7 @@ TileLight make_tile_light(const Lighting& lighting, const Grid& grid, double mos
     if (std::floor(lighting.power / 2) == lighting.power / 2)
         light.whole_half_power = static_cast<int>(lighting.power / 2);
     for (std::size_t axis = 0; axis < 3; ++axis)
-        light.spacing[axis] = static_cast<float>(glm::length(grid.step[axis]));
+        light.spacing[axis] = static_cast<float>(glm::length(axes[axis]));
     light.most_bend = static_cast<float>(most_bend);
     const LightCuts cuts = light_cuts(lighting);
     light.most_turn = static_cast<float>(cuts.most_turn);

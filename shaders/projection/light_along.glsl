@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What light adds to a run on which extinction and gradient are linear: twin of projection/light_along-inl.h.
+#include "optics/opacity.glsl"
+#include "optics/lighting.glsl"
+
+// The square of the smallest gradient, and how far light may bend; the gradient turn, squared, of its length in the
+// middle; and what light can do at all (executors/tile_light.h).
+uniform vec4 light_limits;
+
+struct LitRun {
+    vec2 depths;  // extinction at both ends, times the length
+    vec3 gradient, turn;  // at the front, and from there to the back
+    vec3 to_eye;
+};
+
+// Where the colour at the front of a run is f and that at its back b, light adds f * change + (b - f) * farther +
+// highlight.
+struct LightSums {
+    LIGHT_COLOR change, farther, highlight;
+};
+
+vec3 light_added(LightSums sums, vec3 front, vec3 back) {
+    return front * sums.change + (back - front) * sums.farther + vec3(sums.highlight);
+}
+
+float largest_of(float v) { return abs(v); }
+float largest_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
+// What may lie between the nodes of a piece.
+float hidden_bend(LitRun run, float at, float extent) {
+    vec3 center = run.gradient + (at + 0.5 * extent) * run.turn;
+    vec3 reach = 0.5 * extent * run.turn;
+    float center_square = dot(center, center), reach_square = dot(reach, reach);
+    float steepest = 2.0 * (center_square + reach_square);
+    float weight = steepest / (steepest + light_limits.x);
+    return reach_square > light_limits.z * center_square ? light_limits.w * weight : 0.0;
+}
+
+// Adds a node of the rule; returns change and highlight together.
+LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums) {
+    LightEffect effect = light_effect(run.gradient + place * run.turn, light_limits.x, run.to_eye);
+    sums.change += amount * effect.change;
+    sums.farther += amount * place * effect.change;
+    sums.highlight += amount * effect.highlight;
+    return effect.change + effect.highlight;
+}
+
+// `in_front`: transmittance in front of the run.
+LightSums light_along(LitRun run, float in_front) {
+    const float deepest = 1e12, shallow = 0.75, goal = 0.7;
+    LightSums sums = LightSums(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));
+    float at = 0.0, longest = 1.0;
+    float first = min(run.depths.x, deepest), change = min(run.depths.y, deepest) - first;
+    if (!(2.0 * first + change > 0.0)) return sums;
+    while (at < 1.0 && in_front > 1e-5) {
+        float rest = 1.0 - at;
+        float front = max(first + change * at, 0.0);
+        float extent = min(longest, rest);
+        // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
+        if (extent * (front + 0.5 * change * extent) > shallow) {
+            float root = sqrt(max(front * front + 2.0 * goal * change, 0.0));
+            extent = min(max(2.0 * goal / max(front + root, 1e-30), 1e-6), rest);
+        }
+        bool last = extent >= rest;
+        float depth = max(extent * (front + 0.5 * change * extent), 0.0);
+        float opacity = opacity_from_depth(depth);
+
+        // Gauss' rule with three nodes, whose weights add up to the piece's opacity.
+        vec3 along = extent * vec3(0.11270167, 0.5, 0.88729833);
+        vec3 before = along * (front + 0.5 * change * along);
+        vec3 amounts = vec3(0.27777778, 0.44444444, 0.27777778) * max(front + change * along, 0.0) * exp(-before);
+        amounts = depth > shallow ? vec3(1.0, 0.0, 0.0) : amounts;
+        LightSums piece = LightSums(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));
+        LIGHT_COLOR bends = add_node(run, at + along.x, amounts.x, piece);
+        bends -= 2.0 * add_node(run, at + along.y, amounts.y, piece);
+        bends += add_node(run, at + along.z, amounts.z, piece);
+        float bend = max(hidden_bend(run, at, extent), largest_of(bends));
+
+        float weight = in_front * opacity;
+        float most = light_limits.y;
+        if (bend > most && bend * weight > 0.125 * most && extent > 0.00390625) {
+            longest = extent * clamp(sqrt(most / bend), 0.125, 0.5);
+            continue;
+        }
+        float scale = weight / (amounts.x + amounts.y + amounts.z + 1e-37);
+        sums.change += scale * piece.change;
+        sums.farther += scale * piece.farther;
+        sums.highlight += scale * piece.highlight;
+        in_front -= weight;
+        at = last ? 1.0 : at + extent;
+        longest = max(longest, 2.0 * extent);
+    }
+    return sums;
+}
