@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lit slabs of the native engine, post-classified and pre-integrated (docs/numerics.md, section
-// 10), against closed forms and the reference tracer.
+// Lit slabs, post-classified and pre-integrated (docs/numerics.md, section 10), against closed
+// forms and the reference tracer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine_fixture.h"
 #include "reference/lit_fixtures.h"
 #include "slicing/slab_trials.h"
 #include "support/volume_of.h"
-#include "tile_fixture.h"
 
 namespace lamina {
 namespace {
@@ -19,9 +19,12 @@ using reference_test::lit_by_one_gradient;
 
 constexpr Classification both[] = {Classification::post, Classification::preintegrated};
 
-// Sums of a few hundred roundings of float32 at full scale, and those of half-precision gradients,
-// 5e-4, of which a direction and a length have a third.
+// Sums of a few hundred roundings of float32 at full scale, those of 16-bit gradients, 3e-5, and
+// rays in float32 on OpenGL.
 constexpr double float_error = .05;
+
+using LitSlabsOf = EngineTest;
+INSTANTIATE_TEST_SUITE_P(Engines, LitSlabsOf, every_engine, engine_name);
 
 double linf(const Image& a, const Image& b) {
     return image_error(a, b).all.linf;
@@ -78,19 +81,20 @@ std::vector<Lighting> lightings() {
 }
 
 // The slabs are so thin that what they miss, of second order, is .01 of what a few voxels miss.
-TEST(LitSlabs, ManySlabsMeetTheTracer) {
+TEST_P(LitSlabsOf, ManySlabsMeetTheTracer) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
         for (const Lighting& lighting : lightings()) {
             for (const Projection projection :
                  {Projection::perspective, Projection::orthographic}) {
+                if (!is_native() && projection == Projection::orthographic) continue;
                 Scene scene = lit_scene(each, lighting);
                 scene.camera.projection = projection;
                 const Image traced = trace(volume, scene, 1e-6);
                 scene.slice.samples = 40;
-                const double few = linf(render_tiles(volume, scene), traced);
+                const double few = linf(draw(volume, scene), traced);
                 scene.slice.samples = 640;
-                const double many = linf(render_tiles(volume, scene), traced);
+                const double many = linf(draw(volume, scene), traced);
                 EXPECT_LE(many, few / 100 + float_error) << name_of(each) << few;
             }
         }
@@ -129,7 +133,7 @@ TEST(LitSlabs, ErrorFallsWithTheSquareOfTheThickness) {
 }
 
 // Samples are exact, and so are their differences. All rays are parallel.
-TEST(LitSlabs, ALinearFieldIsTheUnlitPictureTimesAConstant) {
+TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
     const Grid grid = unit_grid(9);
     const glm::dvec3 gradient(.25, -.125, .5);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
@@ -142,7 +146,7 @@ TEST(LitSlabs, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             scene.slice.samples = slabs;
             Scene unlit = scene;
             unlit.lighting.reset();
-            const Image lit = render_tiles(volume, scene), plain = render_tiles(volume, unlit);
+            const Image lit = draw(volume, scene), plain = draw(volume, unlit);
             for (std::size_t i = 0; i < lit.rgba.size(); i += 4) {
                 const float *const a = &plain.rgba[i], *const b = &lit.rgba[i];
                 const glm::dvec3 expected =
@@ -152,6 +156,17 @@ TEST(LitSlabs, ALinearFieldIsTheUnlitPictureTimesAConstant) {
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
             }
         }
+    }
+}
+
+TEST_P(LitSlabsOf, AmbientAloneIsTheUnlitPicture) {
+    const Volume volume = waves(9);
+    for (const Classification each : both) {
+        Scene scene = lit_scene(each, reference_test::ambient_alone());
+        scene.slice.samples = 50;
+        const Image lit = draw(volume, scene);
+        scene.lighting.reset();
+        EXPECT_LE(linf(lit, draw(volume, scene)), float_error) << name_of(each);
     }
 }
 
@@ -205,7 +220,7 @@ TEST(LitSlabs, AutomaticSamplesKeepMaxErrorAgainstTheLitTracer) {
 }
 
 // Neighbours of what is no number have one-sided gradients.
-TEST(LitSlabs, WhatIsNoNumberIsTransparent) {
+TEST_P(LitSlabsOf, WhatIsNoNumberIsTransparent) {
     const Grid grid = unit_grid(10);
     const Volume volume = test::volume_of<float>(grid, [&](double x, double y, double z) {
         return x > 4 && y > 3 && z < 5 ? NAN : .1 + .05 * x + .02 * y + .01 * z * z;
@@ -216,7 +231,7 @@ TEST(LitSlabs, WhatIsNoNumberIsTransparent) {
         const Image traced = trace(volume, scene, 1e-6);
         const auto error = [&](int slabs) {
             scene.slice.samples = slabs;
-            return mean_square(render_tiles(volume, scene), traced);
+            return mean_square(draw(volume, scene), traced);
         };
         // Segments that end in NaN are left out: errors are of first order there.
         EXPECT_LE(error(1600), error(100) / 8) << name_of(each);
@@ -231,52 +246,51 @@ Lighting dim() {
     return lighting;
 }
 
-TEST(LitSlabs, TreesAndClipsAreLit) {
+TEST_P(LitSlabsOf, TreesAndClipsAreLit) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
         Scene scene = lit_scene(each, dim());
         scene.clip.planes = {{{.5, .5, .5}, {.3, -.5, .7}}};
         scene.slice.samples = 600;
-        const Image straight = render_tiles(volume, scene);
+        const Image straight = draw(volume, scene);
         // 600 slabs of 11 voxels: 1 / 50 of a voxel, whose square is 1 / 2500 of full scale at
         // most.
         EXPECT_LE(linf(straight, trace(volume, scene, 1e-6)), 255. / 2500 + float_error);
         // Nodes in float32 are straight compositing, to rounding.
         scene.slice.tree = TreeSettings{.factors = {20, 30}};
-        EXPECT_LE(linf(render_tiles(volume, scene), straight), float_error) << name_of(each);
+        EXPECT_LE(linf(draw(volume, scene), straight), float_error) << name_of(each);
         // 20 children and the root, each rounded by half a code in colour and opacity.
         scene.target = Target::fixed16;
-        EXPECT_LE(linf(render_tiles(volume, scene), straight), 21 * 255. / 65535 + float_error)
+        EXPECT_LE(linf(draw(volume, scene), straight), 21 * 255. / 65535 + float_error)
             << name_of(each);
     }
 }
 
 // Codes of 16 bits: per slab its opacity, its colour and what it leaves of the rest are rounded by
 // half a code, and colours before that.
-TEST(LitSlabs, CodesAreLit) {
+TEST_P(LitSlabsOf, CodesAreLit) {
     const Volume volume = waves(12);
     for (const Classification each : both) {
         Scene scene = lit_scene(each, dim());
         scene.slice.samples = 60;
-        const Image in_float = render_tiles(volume, scene);
+        const Image in_float = draw(volume, scene);
         scene.target = Target::emulated;
         scene.emulate = {16, AlphaRounding::nearest, OverRounding::fused, 3};
-        EXPECT_LE(linf(render_tiles(volume, scene), in_float),
+        EXPECT_LE(linf(draw(volume, scene), in_float),
                   (3 * 60 + 1) * .5 * 255 / 65535 + float_error)
             << name_of(each);
     }
 }
 
-TEST(LitSlabs, BricksKnowTheGradientsOfTheirNeighbours) {
+TEST_P(LitSlabsOf, BricksKnowTheGradientsOfTheirNeighbours) {
     const Volume volume = waves(30);
-    Capabilities small = tile_capabilities();
+    Capabilities small = capabilities();
     small.max_texture_bytes = 16 * 75 * 53;
     for (const Classification each : both) {
         Scene scene = lit_scene(each, directional());
         scene.slice.samples = 300;
         // Segments that a face of a brick cuts are two.
-        EXPECT_LE(linf(render_tiles(volume, scene, {}, small), render_tiles(volume, scene)),
-                  2 * float_error)
+        EXPECT_LE(linf(draw(volume, scene, {}, small), draw(volume, scene)), 2 * float_error)
             << name_of(each);
     }
 }

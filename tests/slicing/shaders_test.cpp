@@ -46,6 +46,14 @@ void add_lit_plans(std::vector<SlicePlan>& plans) {
             if ((bits & 4) != 0) plan.lighting->specular = 0;
             if ((bits & 8) != 0) plan.lighting->lights.back().color = {1, .5, .25};
             plans.push_back(plan);
+            for (const Classification each :
+                 {Classification::post, Classification::preintegrated}) {
+                plan.classification = each;
+                plan.table.lit = true;
+                plan.table.length_layers = (bits & 1) != 0 ? 5 : 1;
+                plan.table_filtered = (bits & 2) != 0;
+                plans.push_back(plan);
+            }
         }
     }
 }

@@ -41,8 +41,8 @@ TEST_F(SlicingTest, OpacityFromDepthIsItsTwinsToFloat32) {
 }
 
 // Front scalar by column, back scalar by row, over a transfer function with a ramp, a peak and a
-// step.
-void compare_runs(bool colored, int layers, bool filtered) {
+// step. `lit`: of the front parts.
+void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     const glm::dvec3 grey(.6, .6, .6);
     const auto color = [&](const glm::dvec3& other) { return colored ? other : grey; };
     const TransferFunction transfer_function = TransferFunction::linear(
@@ -53,40 +53,51 @@ void compare_runs(bool colored, int layers, bool filtered) {
     plan.classification = Classification::preintegrated;
     plan.single_color = !colored;
     plan.table_filtered = filtered;
-    plan.table = {256, layers, 1.0, colored};
+    plan.table = {256, layers, 1.0, colored, lit};
     const GlTransferTables tables(transfer_function, {0, 1}, &plan.table, filtered, 0);
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
         "#include \"optics/preintegration.glsl\"\n"
         "uniform float world_length;\n"
         "out vec4 result;\n"
-        "void main() { result = integrate_run(gl_FragCoord.x / 128.0, gl_FragCoord.y / 128.0, "
-        "world_length, false).whole; }\n",
+        "void main() {\n"
+        "    RunSum sum = integrate_run(gl_FragCoord.x / 128.0, gl_FragCoord.y / 128.0, "
+        "world_length, "
+        "false);\n"
+        "    result = sum.whole;\n"
+        "#ifdef TABLE_LIT\n"
+        "    result = sum.front;\n"
+        "#endif\n"
+        "}\n",
         segment_defines(plan, tables.intervals(), tables.nodes()));
     tables.bind(program);
     program.set("world_length", .35f);
     const Image image = run(program);
     const PreintegrationTable table =
-        build_preintegration_table(transfer_function, {0, 1, 1.0, 256, layers, colored});
+        build_preintegration_table(transfer_function, {0, 1, 1.0, 256, layers, colored, lit});
     for (int row = 0; row < edge; ++row) {
         for (int column = 0; column < edge; ++column) {
             const double front = (column + .5) / edge, back = (edge - row - .5) / edge;
-            const SegmentIntegral expected = table.lookup(front, back, .35f);
+            const LitIntegral both = table.lookup_lit(front, back, .35f);
+            const SegmentIntegral& expected = both.whole;
             const float* const pixel = image.pixel(column, row);
             // Node coordinates near 300 in float32 are good to 3e-5 of a cell, over which
             // extinction changes by at most 30 / 3 (the peak's few nodes): 3e-4 of optical depth
             // per world length, and some as much again for the ends of the pieces.
-            EXPECT_NEAR(pixel[3], expected.optical_depth, 3e-4) << front << " " << back;
+            EXPECT_NEAR(pixel[3], lit ? both.front.alpha : expected.optical_depth, 3e-4)
+                << front << " " << back;
             if (!colored) continue;
-            for (int channel = 0; channel < 3; ++channel) {
-                EXPECT_NEAR(pixel[channel], expected.color[channel], 3e-4) << front << " " << back;
-            }
+            const glm::dvec3& color_there = lit ? both.front.color : expected.color;
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(pixel[channel], color_there[channel], 3e-4) << front << " " << back;
         }
     }
 }
 
 TEST_F(SlicingTest, PreintegratedRunsAreTheirTwins) {
     for (const bool filtered : {false, true}) {
+        compare_runs(true, 1, filtered, true);
+        compare_runs(true, 5, filtered, true);
         compare_runs(false, 1, filtered);
         compare_runs(true, 1, filtered);
         compare_runs(true, 5, filtered);
