@@ -46,6 +46,8 @@ std::vector<SelftestCase> depth_cases();
 std::vector<SelftestCase> mesh_cases();
 std::vector<SelftestCase> view_cases();
 std::vector<SelftestCase> number_cases();
+std::vector<SelftestCase> clip_cases();
+std::vector<SelftestCase> light_cases();
 std::vector<SelftestCase> metamorphic_cases();
 
 }  // namespace lamina::selftest

@@ -116,6 +116,18 @@ std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, d
         begin = std::max(begin, std::min(a, b));
         end = std::min(end, std::max(a, b));
     }
+    for (const ClipPlane& cut : box.cuts) {
+        const glm::dvec3 normal = glm::normalize(cut.normal);
+        const double inside = glm::dot(normal, ray.origin - cut.point) + slack * box.longest_edge();
+        const double slope = glm::dot(normal, ray.direction);
+        if (slope == 0) {
+            if (inside < 0) return {};
+        } else if (slope > 0) {
+            begin = std::max(begin, -inside / slope);
+        } else {
+            end = std::min(end, -inside / slope);
+        }
+    }
     if (!(begin < end)) return {};
     chord.parameters = {begin, end};
     return chord;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lamina/clip.h"
 #include "lamina/volume.h"
 #include "scene/camera.h"
 #include "selftest/interval.h"
@@ -21,6 +22,7 @@ struct LayeredBox {
     glm::dvec3 corner{0};  // world position of (0, 0, 0)
     std::array<glm::dvec3, 3> edges{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // orthogonal
     std::array<std::int64_t, 2> samples_across{2, 2};                    // along u and v
+    std::vector<ClipPlane> cuts;  // planes that cut it, world space
 
     Volume volume() const;
 
@@ -49,8 +51,8 @@ struct BoxChord {
     double w(double parameter) const { return start.z + parameter * step.z; }
 };
 
-// The chord of the box widened by `slack` (a share of each edge) on all sides; empty where the ray
-// misses it.
+// The chord of the box widened by `slack` (a share of each edge) on all sides, cuts included (by
+// that share of the longest edge); empty where the ray misses it.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
 }  // namespace lamina::selftest

@@ -13,6 +13,7 @@
 #include "base/unreachable.h"
 #include "selftest/layered_pieces.h"
 #include "selftest/mesh_chords.h"
+#include "selftest/one_gradient_light.h"
 #include "selftest/optics_range.h"
 
 namespace lamina::selftest {
@@ -24,9 +25,18 @@ constexpr Interval everything{-1e30, 1e30};
 // Opacity does not.
 constexpr double place_in_table = 0x1p-32;
 
+// Of stored gradients a direction and a weight are off by at most 2^-15 (slicing/gradient_map.h),
+// and a power of n by n 2^-21.
+constexpr double light_error = 0x1p-14;
+
 // Returns the largest number of pieces that a tet is cut into.
 double parts_in(const TransferFunction& transfer_function) {
     return static_cast<double>(transfer_function.knots().size() + 1);
+}
+
+// What planes leave of a tet is drawn as up to three tets for each plane.
+double tets_for_one(const LayeredBox& box) {
+    return std::pow(3, static_cast<double>(box.cuts.size()));
 }
 
 void widen(PixelBounds& pixel, double absolute, double relative, double of_color = 0) {
@@ -168,8 +178,8 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
             double blends = static_cast<double>(box.layers());
             if (chords) {
                 const MeshChords::Along along = chords->along(ray, optics);
-                length_error = along.length_error;
-                blends = along.crossed * parts_in(optics);
+                length_error = tets_for_one(box) * along.length_error;
+                blends = tets_for_one(box) * along.crossed * parts_in(optics);
             }
             possible = composite(tet_pieces(box, optics, ray, length_error, precision), {});
             widen(possible, blends * way.rounding.absolute(), blends * way.rounding.relative);
@@ -177,6 +187,11 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
                 widen(possible, scene.trace_tolerance, precision.relative);
             else
                 widen(possible, 0, 0, blends * place_in_table);
+        }
+        if (scene.lighting) {
+            const OneGradientLight light(*scene.lighting, box, ray);
+            light.shine_on(exact);
+            light.shine_on(possible, way.method == Method::trace ? 1e-12 : light_error);
         }
         widen(possible, 0, 0x1p-23);  // as stored
     });

@@ -27,20 +27,16 @@ const char* name_of(Verdict verdict) {
 }
 
 const std::vector<std::string>& selftest_groups() {
-    static const std::vector<std::string> groups{"optics", "cells",   "depth",      "meshes",
-                                                 "views",  "numbers", "metamorphic"};
+    static const std::vector<std::string> groups{"optics",  "cells", "depth", "meshes",     "views",
+                                                 "numbers", "clips", "light", "metamorphic"};
     return groups;
 }
 
 std::vector<SelftestCase> selftest_cases(const std::vector<std::string>& groups) {
     static const std::map<std::string, std::vector<SelftestCase> (*)()> makers{
-        {"optics", optics_cases},
-        {"cells", cell_cases},
-        {"depth", depth_cases},
-        {"meshes", mesh_cases},
-        {"views", view_cases},
-        {"numbers", number_cases},
-        {"metamorphic", metamorphic_cases}};
+        {"optics", optics_cases}, {"cells", cell_cases},  {"depth", depth_cases},
+        {"meshes", mesh_cases},   {"views", view_cases},  {"numbers", number_cases},
+        {"clips", clip_cases},    {"light", light_cases}, {"metamorphic", metamorphic_cases}};
     for (const std::string& each : groups) {
         if (!makers.contains(each))
             throw UsageError(fmt::format("--group: found \"{}\", expected one of {}", each,

@@ -43,6 +43,13 @@ Scene MistakenMaker::mistaken(Scene scene) const {
         case Mistake::order:
             scene.project.order = ProjectOrder::none;
             break;
+        case Mistake::clip:
+            for (ClipPlane& plane : scene.clip.planes)
+                plane.point += 1e-3 * glm::normalize(plane.normal);
+            break;
+        case Mistake::light:
+            if (scene.lighting) scene.lighting->ambient += .01;
+            break;
         case Mistake::bits:
             if (scene.target == Target::emulated) scene.emulate.bits -= 2;
             break;

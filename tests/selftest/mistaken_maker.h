@@ -12,7 +12,9 @@ enum class Mistake {
     slabs,       // a slab too few
     thickness,   // Kraus's thickness along the depth axis
     order,       // no visibility order
-    bits         // two bits too few
+    bits,        // two bits too few
+    clip,        // planes of the clip off by 1e-3
+    light        // ambient light off by .01
 };
 
 // Draws another scene than it is asked for.

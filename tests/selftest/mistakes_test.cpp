@@ -16,7 +16,8 @@ namespace {
 
 std::vector<SelftestResult> run_with(Mistake mistake) {
     static const Capabilities capabilities = tile_capabilities();
-    std::vector<SelftestCase> cases = selftest_cases({"optics", "meshes", "views", "metamorphic"});
+    std::vector<SelftestCase> cases =
+        selftest_cases({"optics", "meshes", "views", "clips", "light", "metamorphic"});
     std::erase_if(cases, [](const SelftestCase& each) { return each.scene == "hub_1e6"; });
     return run_selftest(cases, MistakenMaker(capabilities, mistake));
 }
@@ -80,6 +81,32 @@ TEST(Mistakes, NoVisibilityOrderShowsInColoredMeshesAlone) {
     EXPECT_TRUE(failed(results, "reorder_tets", "project float32"));
     EXPECT_FALSE(failed(results, "edge_fan", "project float32"));
     EXPECT_FALSE(failed(results, "homogeneous_1", "project float32"));
+}
+
+TEST(Mistakes, PlanesOffByAThousandthShowInCutPicturesAlone) {
+    const auto results = run_with(Mistake::clip);
+    for (const char* way : {"trace volume", "trace mesh", "slice post float32",
+                            "slice exact float32", "project float32", "project analytic float32"}) {
+        for (const char* scene : {"oblique", "wedge", "eye_in_cut"})
+            EXPECT_TRUE(failed(results, scene, way)) << scene << ", " << way;
+    }
+    for (const SelftestResult& result : results) {
+        if (result.group == "clips") continue;
+        EXPECT_EQ(result.outcome.verdict, Verdict::passed) << result.scene << ", " << result.way;
+    }
+}
+
+TEST(Mistakes, AHundredthOfAmbientLightShowsInLitPicturesAlone) {
+    const auto results = run_with(Mistake::light);
+    for (const char* way : {"trace volume", "trace mesh", "slice exact float32"}) {
+        for (const char* scene : {"directional", "headlight", "steep", "ambient"})
+            EXPECT_TRUE(failed(results, scene, way)) << scene << ", " << way;
+        EXPECT_FALSE(failed(results, "flat", way)) << way;
+    }
+    for (const SelftestResult& result : results) {
+        if (result.group == "light") continue;
+        EXPECT_EQ(result.outcome.verdict, Verdict::passed) << result.scene << ", " << result.way;
+    }
 }
 
 TEST(Mistakes, TwoBitsTooFewShowsInEmulatedTargetsAlone) {
