@@ -92,6 +92,10 @@ const Scene& Session::scene() const {
     return parts_->asked;
 }
 
+const Scene& Session::chosen_scene() const {
+    return parts_->scene;
+}
+
 const Scene& Session::resolved_scene() {
     if (parts_->scene.method == Method::trace) return parts_->scene;
     const Scene* resolved = nullptr;
@@ -135,20 +139,23 @@ std::string Session::explanation() {
 }
 
 const Image& Session::draw(std::stop_token stop, const ProgressCallback& progress) {
-    Stopwatch watch;
-    if (parts_->scene.method == Method::trace) {
-        parts_->picture = to_float(trace(std::move(stop), progress));
-        parts_->statistics = {};
-        parts_->statistics.drawn_by = "reference tracer";
-    } else {
-        parts_->run_drawing([&] { parts_->draw(); }, std::move(stop), progress);
-    }
-    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+    draw(parts_->picture, std::move(stop), progress);
     return parts_->picture;
 }
 
+void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback& progress) {
+    Stopwatch watch;
+    if (parts_->scene.method == Method::trace)
+        picture = to_float(trace(std::move(stop), progress));
+    else
+        parts_->run_drawing([&] { parts_->draw(picture); }, std::move(stop), progress);
+    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+}
+
 const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress) {
+    Stopwatch watch;
     parts_->run([&] { parts_->trace(); }, std::move(stop), progress);
+    parts_->statistics.draw_ms = 1e3 * watch.seconds();
     return parts_->truth;
 }
 
