@@ -19,8 +19,9 @@ class Camera:
     ``projection``: ``"perspective"`` (``fov_y``: its full vertical angle in degrees) or ``"orthographic"`` (``height``
     of the picture in world units).
 
-    >>> lamina.Camera(eye=(0, 0, 5), center=(0, 0, 0)).turned(90).eye
-    (5.0, 0.0, 0.0)
+    >>> camera = lamina.Camera(eye=(0, 0, 5), center=(0, 0, 0))
+    >>> [round(number, 12) for number in camera.turned(90).eye]
+    [5.0, 0.0, 0.0]
     """
 
     eye: Vector

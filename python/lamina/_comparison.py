@@ -33,7 +33,8 @@ class Comparison:
         everything, channels, worst = found
         self.linf, self.l1, self.l2 = everything
         self.channels = {name: Norms(*norms) for name, norms in channels.items()}
-        self.worst: tuple[int, int, str] = tuple(worst)
+        column, row, channel = worst
+        self.worst: tuple[int, int, str] = (column, row, channel)
         self._a, self._b = a, b
 
     @property
@@ -41,7 +42,8 @@ class Comparison:
         """The signed difference e."""
         if self._a is None or self._b is None:
             return None
-        return (self._a.astype(np.float64) - self._b) * 255
+        difference: np.ndarray = (self._a.astype(np.float64) - self._b) * 255
+        return difference
 
     def save(self, file: Path, range: float | None = None) -> None:
         """Writes e in false colour as ``.png``, from -``range`` (dark blue) over 0 (white) to ``range`` (dark red), in

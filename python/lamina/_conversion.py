@@ -8,6 +8,8 @@ from typing import Any, Sequence
 import numpy as np
 
 DRAWN = (np.dtype(np.uint8), np.dtype(np.int16), np.dtype(np.uint16), np.dtype(np.float32))
+# Smallest and largest value of the types of whole numbers.
+WHOLE = ((0, 255, "uint8"), (-32768, 32767, "int16"), (0, 65535, "uint16"))
 LARGEST_COORDINATE = 1e100
 
 
@@ -61,7 +63,7 @@ def centers_of(value: str | Sequence[str], shape: tuple[int, ...]) -> tuple[str,
 
 def plain_array(values: Any, what: str) -> np.ndarray:
     """Numbers in an array, whatever they come in."""
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and bool(np.any(values.mask)):
         raise TypeError(f"{what}: found a masked array, expected an array without a mask; "
                         "values.filled(numpy.nan) with nan=\"transparent\" shows nothing where values are masked")
     array = np.asarray(values)
@@ -98,9 +100,9 @@ def drawn_array(array: np.ndarray) -> tuple[np.ndarray, str]:
         return np.ascontiguousarray(array, dtype=np.float32), ""
     if native.kind in "iu":
         lowest, highest = int(array.min()), int(array.max())
-        for type_ in (np.uint8, np.int16, np.uint16):
-            if np.iinfo(type_).min <= lowest and highest <= np.iinfo(type_).max:
-                return np.ascontiguousarray(array, dtype=type_), ""
+        for smallest, largest, kind in WHOLE:
+            if smallest <= lowest and highest <= largest:
+                return np.ascontiguousarray(array, dtype=kind), ""
     return rounded(array)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ._picture import Picture
+from ._scene import scene_of
 from ._session import Progress, Session
 
 
@@ -44,4 +45,7 @@ def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progres
     >>> picture.compare(truth).linf < 1
     True
     """
-    return Session(data, transfer_function, threads=threads, **keywords).trace(progress)
+    scene = scene_of(data, transfer_function, keywords)
+    if scene._parsed().method == "project":
+        scene.setdefault("render", {}).setdefault("trace", {}).setdefault("of", "mesh")
+    return Session(scene, threads=threads, method="trace").trace(progress)

@@ -98,8 +98,9 @@ class Mesh:
     @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Smallest and largest corner of the mesh's box, in world units."""
-        lowest, highest = self.points.min(axis=0).tolist(), self.points.max(axis=0).tolist()
-        return tuple(lowest), tuple(highest)
+        lowest, highest = (_conversion.triple("bounds", corner) for corner in
+                           (self.points.min(axis=0), self.points.max(axis=0)))
+        return lowest, highest
 
     @property
     def report(self) -> dict[str, Any]:

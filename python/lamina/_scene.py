@@ -19,7 +19,7 @@ from ._plain import plain
 from ._volume import Path, Volume
 
 # Keyword arguments by the keys of scene files that they set.
-KEYWORDS = {
+KEYWORDS: dict[str, tuple[str, ...]] = {
     **{name: (name,) for name in ("volume", "mesh", "scalar", "nan", "camera", "clip", "lighting")},
     **{name: ("image", name) for name in ("width", "height", "background", "color_space")},
     **{name: ("render", name) for name in ("method", "target", "max_error", "emulate", "slice", "project", "trace")},

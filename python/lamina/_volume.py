@@ -107,8 +107,8 @@ class Volume:
     @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Smallest and largest corner of the box that is drawn, in world units."""
-        lowest, highest = self._core.bounds
-        return tuple(lowest), tuple(highest)
+        lowest, highest = (_conversion.triple("bounds", corner) for corner in self._core.bounds)
+        return lowest, highest
 
     @property
     def conversion(self) -> str:

@@ -66,6 +66,15 @@ def _affine(matrix: Any) -> np.ndarray:
     return rows
 
 
+def scale_of(volume: Any) -> float:
+    """How much larger the volume's matrix makes it."""
+    factors = np.linalg.norm(_affine(volume.GetMatrix())[:3, :3], axis=0)
+    if np.ptp(factors) > 1e-6 * factors.max():
+        raise Error(f"volume: found a matrix that scales x, y and z by {', '.join(f'{f:g}' for f in factors)}, expected one "
+                    "factor: VTK's opacity then depends on the direction")
+    return float(factors[0])
+
+
 def _image(image: Any, values: np.ndarray, matrix: np.ndarray) -> Volume:
     x, y, z = image.GetDimensions()
     directions = image.GetDirectionMatrix()
@@ -94,7 +103,7 @@ def _tets(grid: Any, values: np.ndarray, matrix: np.ndarray, name: str) -> Mesh:
 
 def clip_keys(volume: Any) -> dict[str, Any]:
     """What a scene file has for clipping planes and a cropping box."""
-    mapper, keys = volume.GetMapper(), {}
+    mapper, keys = volume.GetMapper(), dict[str, Any]()
     planes = mapper.GetClippingPlanes()
     if planes is not None and planes.GetNumberOfItems():
         listed = [planes.GetItem(index) for index in range(planes.GetNumberOfItems())]

@@ -10,16 +10,17 @@ from ._errors import Error
 from ._mesh import Mesh
 from ._volume import Volume
 
-PIECES = 64  # straight ones, for each piece of a function that is curved
+PIECES = 256  # straight ones, for each piece of a function that is curved
 RGB, LINEAR = 0, 0  # VTK_CTF_RGB, VTK_CTF_LINEAR
 
 
-def transfer_function_keys(properties: Any, data: Volume | Mesh) -> dict[str, Any]:
-    """What a scene file has for a vtkVolumeProperty."""
+def transfer_function_keys(properties: Any, data: Volume | Mesh, scale: float = 1) -> dict[str, Any]:
+    """What a scene file has for a vtkVolumeProperty; `scale`: of the volume, whose own unit is the unit distance's."""
     _refuse_what_is_more(properties, data)
     unit = properties.GetScalarOpacityUnitDistance()
     if not unit > 0:
         raise Error(f"property: found the unit distance {unit}, expected a number above 0")
+    unit *= scale
     opacity = _pieces_of_opacity(properties.GetScalarOpacity())
     color = _pieces_of_color(properties)
     points = []
@@ -105,13 +106,12 @@ def _limit(pieces: Pieces, value: float, side: str) -> np.ndarray:
     """From below or above."""
     values, rows = pieces
     index = int(np.searchsorted(values, value, "left" if side == "below" else "right"))
-    if side == "below":
-        if index < len(values) and values[index] == value:
-            return rows[index]
-    elif index > 0 and values[index - 1] == value:
-        return rows[index - 1]
-    if index == 0 or index == len(values):
-        return rows[0 if index == 0 else -1]
-    share = (value - values[index - 1]) / (values[index] - values[index - 1])
-    row: np.ndarray = rows[index - 1] + share * (rows[index] - rows[index - 1])
+    near = index if side == "below" else index - 1
+    if 0 <= near < len(values) and values[near] == value:
+        row: np.ndarray = rows[near]
+    elif index in (0, len(values)):
+        row = rows[0 if index == 0 else -1]
+    else:
+        share = (value - values[index - 1]) / (values[index] - values[index - 1])
+        row = rows[index - 1] + share * (rows[index] - rows[index - 1])
     return row

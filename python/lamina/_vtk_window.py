@@ -18,6 +18,9 @@ def pixels_of(renderer: Any, precise: bool) -> np.ndarray:
         raise Error("renderer: found no window, expected one (renderWindow.AddRenderer(renderer))")
     window.Render()
     rgb = _floats(renderer, window) if precise else _codes(renderer, window)
+    wrong = np.count_nonzero(~np.isfinite(rgb).all(axis=2))
+    if wrong:
+        raise Error(f"VTK's picture has {wrong} pixels that are no numbers, expected none; precise=False takes its codes")
     return np.array(rgb[::-1], dtype=np.float64)
 
 

@@ -8,9 +8,9 @@ What is taken over as VTK means it:
 
 - Colours are display values, and VTK composites them as they are: ``image.color_space`` is ``"display"``.
 - Image data span their samples, with spacing, origin, direction and the volume's matrix. Opacity is linear between the
-  function's points, over its unit distance.
+  function's points, over its unit distance, which is in the volume's own units: a matrix that scales it does so, too.
 - Unstructured tets: their mappers take the opacity as an extinction, 1 - exp(-opacity * length / unit distance), linear
-  between points. So does the scene.
+  between points and in world units. So does the scene.
 - Parallel and perspective cameras, clipping planes, a cropping box, the viewport's size, one background colour.
 
 What VTK does differently, and so is part of its difference: it takes steps along rays, reads colours and opacities from
@@ -25,8 +25,9 @@ from typing import Any
 from ._errors import Error
 from ._held import Held
 from ._scene import Scene
+from ._volume import Volume
 from ._vtk_camera import camera_keys, check_clipping_range
-from ._vtk_data import clip_keys, drawn_data, volume_of
+from ._vtk_data import clip_keys, drawn_data, scale_of, volume_of
 from ._vtk_functions import transfer_function_keys
 from ._vtk_window import pixels_of
 
@@ -48,8 +49,10 @@ def scene(renderer: Any) -> Scene:
         raise Error("renderer: found no size, expected one in a window: renderWindow.SetSize(width, height)")
     if renderer.GetGradientBackground() or renderer.GetTexturedBackground():
         raise Error("renderer: found a background of several colours, expected one")
+    # VTK's mappers of tets measure in world units.
+    scale = scale_of(volume) if isinstance(data, Volume) else 1.0
     document = {"version": 1, "nan": "transparent", "camera": camera_keys(renderer),
-                "transfer_function": transfer_function_keys(volume.GetProperty(), data),
+                "transfer_function": transfer_function_keys(volume.GetProperty(), data, scale),
                 "image": {"width": width, "height": height, "color_space": "display",
                           "background": list(renderer.GetBackground())}}
     clip = clip_keys(volume)

@@ -8,9 +8,10 @@ PYBIND11_MODULE(_lamina, module) {
     module.doc() = "What the package lamina is made of; use lamina itself.";
     module.attr("version") = LAMINA_VERSION;
     bind_errors(module);
+    // Before what takes it: signatures name types that are known.
     bind_volume(module);
-    bind_mesh(module);
     bind_scene(module);
+    bind_mesh(module);
     bind_camera(module);
     bind_session(module);
     bind_pictures(module);

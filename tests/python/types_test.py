@@ -54,20 +54,8 @@ def test_the_package_and_a_client_pass_mypy(source, tmp_path):
     assert (PACKAGE / "py.typed").exists()
 
 
-def test_the_stub_is_that_of_the_module(source, tmp_path):
-    """tests/python/types_test.py --stub writes it."""
+def test_the_stub_is_that_of_the_module(source):
     needed("stubgen")
-    assert stub_of_the_module(tmp_path) == (source / "python" / "lamina" / "_lamina.pyi").read_text()
-
-
-def stub_of_the_module(folder):
-    made = run("/usr/bin/stubgen", "-m", "lamina._lamina", "-o", folder, cwd=folder)
-    assert made.returncode == 0, made.stdout + made.stderr
-    text = (pathlib.Path(folder) / "lamina" / "_lamina.pyi").read_text()
-    return "# SPDX-License-Identifier: Apache-2.0\n" + text
-
-
-if __name__ == "__main__" and sys.argv[1:2] == ["--stub"]:
-    import tempfile
-    with tempfile.TemporaryDirectory() as made_in:
-        print(stub_of_the_module(made_in), end="")
+    made = run(sys.executable, "-B", source / "tools" / "python_stub")
+    assert made.returncode == 0, made.stderr
+    assert made.stdout == (source / "python" / "lamina" / "_lamina.pyi").read_text()
