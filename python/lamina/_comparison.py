@@ -29,7 +29,7 @@ class Comparison:
     column, row and channel of the largest |e|. ``array``: e itself, (height, width, channels) float64; of PNG files None.
     """
 
-    def __init__(self, found: tuple[Any, Any, Any], a: np.ndarray | None = None, b: np.ndarray | None = None) -> None:
+    def __init__(self, found: tuple[Any, ...], a: np.ndarray | None = None, b: np.ndarray | None = None) -> None:
         everything, channels, worst = found
         self.linf, self.l1, self.l2 = everything
         self.channels = {name: Norms(*norms) for name, norms in channels.items()}

@@ -79,7 +79,8 @@ class Volume:
     @property
     def dtype(self) -> np.dtype[Any]:
         """Type of the samples as they are drawn: uint8, int16, uint16 or float32."""
-        return self.array.dtype
+        kind: np.dtype[Any] = self.array.dtype
+        return kind
 
     @property
     def spacing(self) -> tuple[float, float, float]:
@@ -90,7 +91,8 @@ class Volume:
     @property
     def directions(self) -> np.ndarray:
         """Unit vectors along x, y and z of the array, one a row."""
-        return np.array(self._core.steps) / np.array(self.spacing)[:, None]
+        directions: np.ndarray = np.array(self._core.steps) / np.array(self.spacing)[:, None]
+        return directions
 
     @property
     def origin(self) -> tuple[float, float, float]:

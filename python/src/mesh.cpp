@@ -65,14 +65,15 @@ py::dict report_of(const MeshReport& report) {
     return found;
 }
 
-// `scene`: where its transfer function shows nothing, the mesh may be coarse.
+// `scene`: where its transfer function shows nothing, the mesh may be coarse; or None.
 py::tuple make(const Volume& volume, double tolerance, std::int64_t max_tets, bool kuhn,
-               const Scene* scene, const py::object& progress) {
+               const py::object& scene, const py::object& progress) {
+    const TransferFunction* const transfer_function =
+        scene.is_none() ? nullptr : &scene.cast<const Scene&>().transfer_function;
     MadeMesh made;
     run_waiting(
         [&](std::stop_token stop, const ProgressCallback& said) {
-            made = make_mesh(volume, {tolerance, max_tets, kuhn},
-                             scene ? &scene->transfer_function : nullptr, stop, said);
+            made = make_mesh(volume, {tolerance, max_tets, kuhn}, transfer_function, stop, said);
         },
         progress);
     return py::make_tuple(std::make_shared<MeshData>(std::move(made.mesh)), report_of(made.report));
