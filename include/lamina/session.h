@@ -25,6 +25,8 @@ struct SessionOptions {
     // Many pictures will be drawn: choices may take longer where they make each of them quicker.
     // Otherwise the time to the first one counts.
     bool many_frames = false;
+    // Ends the constructor, which reads and measures the data, by Interrupted.
+    std::stop_token stop = {};
 };
 
 // Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in

@@ -11,6 +11,7 @@ import numpy as np
 from . import _lamina
 from ._conversion import plain_array
 from ._errors import Error
+from ._files import write_file
 from ._volume import Path
 
 
@@ -51,7 +52,7 @@ class Comparison:
         path = pathlib.Path(file)
         if path.suffix != ".png":
             raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .png")
-        path.write_bytes(self._png(range))
+        write_file(path, self._png(range))
 
     def _png(self, range: float | None = None) -> bytes:
         if self._a is None or self._b is None:

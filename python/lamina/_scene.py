@@ -14,6 +14,7 @@ import numpy as np
 from . import _lamina
 from ._conversion import shown
 from ._errors import Error
+from ._files import write_file
 from ._mesh import Mesh
 from ._plain import plain
 from ._volume import Path, Volume
@@ -84,15 +85,16 @@ class Scene(dict[str, Any]):
         for key in ("volume", "mesh"):
             if self.data is None and isinstance(document.get(key), str):
                 document[key] = self._absolute(document[key])
-        path.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+        write_file(path, (json.dumps(document, indent=1) + "\n").encode())
 
     def _absolute(self, name: str) -> str:
         if name.startswith("${LAMINA_DATA}"):
             return name
         return os.path.abspath(self.folder / name)
 
-    def _parsed(self) -> _lamina.Scene:
-        text = json.dumps(self, allow_nan=False)
+    def _parsed(self, without: str = "") -> _lamina.Scene:
+        """Checked and read by the library; `without`: a key that does not matter, because it may take long to read."""
+        text = json.dumps({key: value for key, value in self.items() if key != without}, allow_nan=False)
         return _lamina.Scene.parse(text, str(self.folder / self._name), None if self.data is None else self.data._core)
 
     def _changed(self, keywords: Mapping[str, Any]) -> Scene:

@@ -70,14 +70,15 @@ class Session:
         """Changes keys of the scene, as ``Scene`` lists them, and ``transfer_function``. Settings of ``render`` choose what
         is automatic again; ``camera``, ``size``, ``transfer_function`` and ``clip`` do not."""
         changed = self._scene._changed(keywords)
-        parsed = changed._parsed()
         cheap = {"camera": self._core.set_camera, "size": self._core.set_size, "clip": self._core.set_clip,
                  "transfer_function": self._core.set_transfer_function}
         given = [name for name, value in keywords.items() if value is not None]
         automatic = any(changed.get(name, "auto") == "auto" for name in ("camera", "transfer_function") if name in given)
         if automatic or not set(given) <= set(cheap):
-            self._core.set_scene(parsed)
+            self._core.set_scene(changed._parsed())
         else:
+            # A colour map may be stretched over the range of the data, which then is measured.
+            parsed = changed._parsed(without="" if "transfer_function" in given else "transfer_function")
             for name in given:
                 cheap[name](parsed)
         self._scene = changed
@@ -98,8 +99,8 @@ class Session:
     @property
     def size(self) -> tuple[int, int]:
         """Width and height in pixels. To be set."""
-        image = self.resolved_scene["image"]
-        return image["width"], image["height"]
+        parsed = self._scene._parsed(without="transfer_function")
+        return parsed.width, parsed.height
 
     @size.setter
     def size(self, size: tuple[int, int]) -> None:

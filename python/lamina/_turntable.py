@@ -7,6 +7,7 @@ import struct
 import zlib
 from typing import Iterator, Sequence, overload
 
+from ._files import write_file
 from ._picture import Picture
 from ._volume import Path
 
@@ -39,7 +40,7 @@ class Turntable(Sequence[Picture]):
         path = pathlib.Path(file)
         if path.suffix != ".png":
             raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .png")
-        path.write_bytes(self._repr_png_())
+        write_file(path, self._repr_png_())
 
     def _repr_png_(self) -> bytes:
         return animated([picture._repr_png_() for picture in self._pictures], self._milliseconds)

@@ -22,7 +22,7 @@ ContextChoice context_of(const std::string& word) {
 // `data`: a volume or a mesh in memory, or None: what the scene names.
 std::unique_ptr<SharedSession> opened(const Scene& scene, const py::object& data,
                                       const std::string& context, int threads, bool many_frames) {
-    const SessionOptions options{context_of(context), threads, many_frames};
+    SessionOptions options{context_of(context), threads, many_frames};
     std::optional<Volume> volume;
     std::shared_ptr<MeshData> mesh;
     if (py::isinstance<Volume>(data))
@@ -30,7 +30,8 @@ std::unique_ptr<SharedSession> opened(const Scene& scene, const py::object& data
     else if (!data.is_none())
         mesh = data.cast<std::shared_ptr<MeshData>>();
     std::unique_ptr<SharedSession> session;
-    run_waiting([&](const std::stop_token&, const ProgressCallback&) {
+    run_waiting([&](std::stop_token stop, const ProgressCallback&) {
+        options.stop = std::move(stop);
         if (volume)
             session = std::make_unique<SharedSession>(scene, options, *volume);
         else if (mesh)

@@ -13,31 +13,37 @@
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run([&] {
-        parts_->scene = parts_->chosen();
-        if (parts_->scene.draws_mesh())
-            parts_->mesh_data();
-        else
-            parts_->volume_data();
-    });
+    parts_->run(
+        [&] {
+            parts_->scene = parts_->chosen();
+            if (parts_->scene.draws_mesh())
+                parts_->mesh_data();
+            else
+                parts_->volume_data();
+        },
+        options.stop);
 }
 
 Session::Session(Scene scene, Volume volume, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run([&] {
-        parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
-        parts_->scene = parts_->chosen();
-    });
+    parts_->run(
+        [&] {
+            parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
+            parts_->scene = parts_->chosen();
+        },
+        options.stop);
 }
 
 Session::Session(Scene scene, MeshData mesh, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->mesh_given = true;
-    parts_->run([&] {
-        parts_->mesh =
-            std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
-        parts_->scene = parts_->chosen();
-    });
+    parts_->run(
+        [&] {
+            parts_->mesh =
+                std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
+            parts_->scene = parts_->chosen();
+        },
+        options.stop);
 }
 
 Session::~Session() = default;

@@ -45,6 +45,14 @@ def test_examples_of_docstrings(name, tmp_path):
     assert examples_run(inspect.getdoc(DOCUMENTED[name]), name, tmp_path) > 0
 
 
+def test_the_page_of_vtk():
+    pytest.importorskip("vtkmodules", reason="python3-vtk9 is not installed")
+    import lamina.vtk
+    assert {"scene", "hold", "Held"} == set(lamina.vtk.__all__)
+    for thing in (lamina.vtk, lamina.vtk.scene, lamina.vtk.hold, lamina.vtk.Held):
+        assert len(inspect.getdoc(thing)) > 100
+
+
 def test_everything_is_documented():
     for name, thing in DOCUMENTED.items():
         is_field = name.split(".")[0] in ("Camera", "Light", "Lighting", "Norms", "Omission", "Plan") and not callable(thing)

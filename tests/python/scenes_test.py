@@ -103,6 +103,15 @@ def test_the_command_line_repeats_a_picture(blob, function, method, program, tmp
     assert picture.compare(tmp_path / "a.exr").linf == 0
 
 
+def test_nothing_half_is_left(blob, tmp_path):
+    with pytest.raises(lamina.Error, match="nowhere.*cannot write"):
+        lamina.Scene(SCENE).save(tmp_path / "nowhere" / "a.json")
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(lamina.Error, match="folder: cannot write"):
+        lamina.Scene(SCENE).save(tmp_path / "folder")
+    assert [file.name for file in tmp_path.iterdir()] == ["folder"]
+
+
 def test_a_mesh_in_memory_is_kept_beside_its_scene(blob, function, program, tmp_path):
     mesh = lamina.mesh(blob, 0.1)
     picture = lamina.render(mesh, function, size=(40, 30), context="cpu")

@@ -29,6 +29,16 @@ def test_control_c_ends_a_picture():
     assert session.draw().array.max() > 0
 
 
+def test_control_c_ends_a_session_that_reads_its_data():
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        lamina.Session({"version": 1, "volume": {"generate": "mixing", "size": [800, 800, 800]}})  # takes minutes
+    assert time.monotonic() - begin < 30
+    timer.join()
+
+
 def test_control_c_ends_a_program():
     code = ("import lamina, sys\n"
             "session = lamina.Session(" + repr(LONG) + ")\n"
