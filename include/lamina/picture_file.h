@@ -4,6 +4,8 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "lamina/export.h"
 #include "lamina/image.h"
@@ -12,11 +14,23 @@
 namespace lamina {
 
 // Writes a picture that appears under its name only when it is complete. By the suffix: .png is for
-// looking at (over `background`; 8 bits, sRGB); .exr and .npy (NumPy's, of shape (height, width, 4))
-// keep every number as 32-bit float. `space`: of picture and background, as in the scene
-// (Scene::color_space). Throws Error for other suffixes and where the file cannot be written.
+// looking at (over `background`; 8 bits, sRGB); .exr and .npy (NumPy's, of shape (height, width,
+// 4)) keep every number as 32-bit float. `space`: of picture and background, as in the scene
+// (Scene::color_space). `attributes`: texts by name, which .exr has beside the pixels. Throws Error
+// for other suffixes and where the file cannot be written.
 LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
                              const glm::dvec3& background = glm::dvec3(0),
-                             ImageColorSpace space = ImageColorSpace::linear);
+                             ImageColorSpace space = ImageColorSpace::linear,
+                             const std::map<std::string, std::string>& attributes = {});
+// The same of a traced picture: .npy keeps double precision, the others are of its float32.
+LAMINA_API void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
+                             const glm::dvec3& background = glm::dvec3(0),
+                             ImageColorSpace space = ImageColorSpace::linear,
+                             const std::map<std::string, std::string>& attributes = {});
+
+// The bytes of the PNG file.
+LAMINA_API std::string picture_png(const Image& picture,
+                                   const glm::dvec3& background = glm::dvec3(0),
+                                   ImageColorSpace space = ImageColorSpace::linear);
 
 }  // namespace lamina

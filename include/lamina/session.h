@@ -25,6 +25,8 @@ struct SessionOptions {
     // Many pictures will be drawn: choices may take longer where they make each of them quicker.
     // Otherwise the time to the first one counts.
     bool many_frames = false;
+    // Ends the constructor, which reads and measures the data, by Interrupted.
+    std::stop_token stop = {};
 };
 
 // Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in
@@ -76,6 +78,7 @@ class LAMINA_API Session {
     // (docs/scene.md) names the data by the scene's own file names: a scene of data in memory has
     // to name files that hold the same, or `lamina render` will not find them.
     const Scene& scene() const;
+    const Scene& chosen_scene() const;  // transfer function and camera alone
     const Scene& resolved_scene();
     void save_resolved_scene(const std::filesystem::path& file);
 
@@ -86,6 +89,9 @@ class LAMINA_API Session {
     // allocation of its own where the size stays. Throws Interrupted once a stop is requested; the
     // next picture is then drawn from the start. The method trace gives the truth, see trace().
     const Image& draw(std::stop_token stop = {}, const ProgressCallback& progress = {});
+    // The same into the caller's picture, whose memory is kept where it suffices. An exception
+    // leaves its numbers without a meaning.
+    void draw(Image& picture, std::stop_token stop = {}, const ProgressCallback& progress = {});
     // The truth: the same view by the reference tracer, in double precision, to
     // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});

@@ -107,28 +107,42 @@ void expand(Reader& reader) {
     png_read_update_info(reader.png, reader.info);
 }
 
-}  // namespace
+struct DisplayPicture {
+    CodedImage codes;
+    std::size_t clamped_pixels = 0;
+};
 
-std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
-                      ImageColorSpace space) {
-    const std::string name = file.path().string();
+DisplayPicture display_picture(const std::string& name, const Image& image,
+                               const glm::dvec3& background, ImageColorSpace space) {
     check_image_size(name, image.width, image.height);
     require_finite(name, image);
     constexpr double rounding = 1.0 / 510;
-    CodedImage coded(image.width, image.height, 3, 8);
-    std::size_t clamped_pixels = 0;
+    DisplayPicture shown{CodedImage(image.width, image.height, 3, 8)};
     for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
         const float* const rgba = &image.rgba[4 * pixel];
         bool clamped = false;
         for (int channel = 0; channel < 3; ++channel) {
             const double value = rgba[channel] + (1.0 - rgba[3]) * background[channel];
             clamped = clamped || value < -rounding || value > 1 + rounding;
-            coded.codes[3 * pixel + static_cast<std::size_t>(channel)] = display_code(value, space);
+            shown.codes.codes[3 * pixel + static_cast<std::size_t>(channel)] =
+                display_code(value, space);
         }
-        clamped_pixels += clamped;
+        shown.clamped_pixels += clamped;
     }
-    write_png(file, coded);
-    return clamped_pixels;
+    return shown;
+}
+
+}  // namespace
+
+std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
+                      ImageColorSpace space) {
+    const DisplayPicture shown = display_picture(file.path().string(), image, background, space);
+    write_png(file, shown.codes);
+    return shown.clamped_pixels;
+}
+
+std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space) {
+    return encode_png(display_picture("picture", image, background, space).codes);
 }
 
 void write_png(OutputFile& file, const CodedImage& image) {

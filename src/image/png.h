@@ -24,8 +24,10 @@ std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& ba
 // Writes the codes unchanged, marked as sRGB.
 void write_png(OutputFile& file, const CodedImage& image);
 
-// The bytes of a PNG file with an RGB picture of 8 bits.
+// The bytes of a PNG file with an RGB picture of 8 bits; the second of the codes that write_png()
+// writes of a picture.
 std::string encode_png(const CodedImage& image);
+std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
 
 // Reads a PNG file. Palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
 // transparent colour becomes an alpha channel. Other codes are as stored. Throws Error for damaged

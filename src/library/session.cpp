@@ -13,31 +13,37 @@
 namespace lamina {
 Session::Session(Scene scene, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run([&] {
-        parts_->scene = parts_->chosen();
-        if (parts_->scene.draws_mesh())
-            parts_->mesh_data();
-        else
-            parts_->volume_data();
-    });
+    parts_->run(
+        [&] {
+            parts_->scene = parts_->chosen();
+            if (parts_->scene.draws_mesh())
+                parts_->mesh_data();
+            else
+                parts_->volume_data();
+        },
+        options.stop);
 }
 
 Session::Session(Scene scene, Volume volume, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
-    parts_->run([&] {
-        parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
-        parts_->scene = parts_->chosen();
-    });
+    parts_->run(
+        [&] {
+            parts_->volume = std::make_shared<const VolumeData>(std::move(volume));
+            parts_->scene = parts_->chosen();
+        },
+        options.stop);
 }
 
 Session::Session(Scene scene, MeshData mesh, SessionOptions options)
     : parts_(std::make_unique<Parts>(std::move(scene), options)) {
     parts_->mesh_given = true;
-    parts_->run([&] {
-        parts_->mesh =
-            std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
-        parts_->scene = parts_->chosen();
-    });
+    parts_->run(
+        [&] {
+            parts_->mesh =
+                std::make_shared<const SceneMesh>(scene_mesh(parts_->scene, std::move(mesh)));
+            parts_->scene = parts_->chosen();
+        },
+        options.stop);
 }
 
 Session::~Session() = default;
@@ -92,6 +98,10 @@ const Scene& Session::scene() const {
     return parts_->asked;
 }
 
+const Scene& Session::chosen_scene() const {
+    return parts_->scene;
+}
+
 const Scene& Session::resolved_scene() {
     if (parts_->scene.method == Method::trace) return parts_->scene;
     const Scene* resolved = nullptr;
@@ -135,20 +145,23 @@ std::string Session::explanation() {
 }
 
 const Image& Session::draw(std::stop_token stop, const ProgressCallback& progress) {
-    Stopwatch watch;
-    if (parts_->scene.method == Method::trace) {
-        parts_->picture = to_float(trace(std::move(stop), progress));
-        parts_->statistics = {};
-        parts_->statistics.drawn_by = "reference tracer";
-    } else {
-        parts_->run_drawing([&] { parts_->draw(); }, std::move(stop), progress);
-    }
-    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+    draw(parts_->picture, std::move(stop), progress);
     return parts_->picture;
 }
 
+void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback& progress) {
+    Stopwatch watch;
+    if (parts_->scene.method == Method::trace)
+        picture = to_float(trace(std::move(stop), progress));
+    else
+        parts_->run_drawing([&] { parts_->draw(picture); }, std::move(stop), progress);
+    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+}
+
 const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress) {
+    Stopwatch watch;
     parts_->run([&] { parts_->trace(); }, std::move(stop), progress);
+    parts_->statistics.draw_ms = 1e3 * watch.seconds();
     return parts_->truth;
 }
 

@@ -105,21 +105,30 @@ SceneRenderer& Session::Parts::renderer() {
     unreachable_enum();
 }
 
-void Session::Parts::draw() {
+void Session::Parts::draw(Image& into) {
     SceneRenderer& frames = renderer();
     frames.draw();
-    frames.read(picture);
+    frames.read(into);
+    statistics = {};
     statistics.drawn_by = renderer_and_threads(context->capabilities());
     statistics.stages_ms = frames.stages_ms();
     for (const auto& [stage, ms] : frames.renderer().stages_ms()) statistics.stages_ms[stage] = ms;
     statistics.fragments = frames.renderer().fragments();
     statistics.bytes = frames.renderer().byte_count();
-    warn_of(picture);
+    warn_of(into);
 }
 
 void Session::Parts::trace() {
-    truth = scene.draws_mesh() ? lamina::trace(scene, mesh_data()).image
-                               : lamina::trace(scene, volume_data().volume).image;
+    statistics = {};
+    statistics.drawn_by = "reference tracer";
+    const auto keep = [&](auto traced) {
+        truth = std::move(traced.image);
+        statistics.trace_error = 255 * traced.error_estimate;
+    };
+    if (scene.draws_mesh())
+        keep(lamina::trace(scene, mesh_data()));
+    else
+        keep(lamina::trace(scene, volume_data().volume));
     warn_of(to_float(truth));
 }
 

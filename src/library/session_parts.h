@@ -51,7 +51,7 @@ struct Session::Parts {
     const VolumeData& volume_data();
     const SceneMesh& mesh_data();
     SceneRenderer& renderer();  // of Method::slice or project
-    void draw();
+    void draw(Image& into);
     void trace();
 
     // The scene that was asked for, with what it leaves open chosen from the data that it draws.

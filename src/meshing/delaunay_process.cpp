@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meshing/delaunay_process.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -186,13 +187,22 @@ bool is_program(const std::filesystem::path& path) {
     return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
+// The folder of programs that was installed with the library, for other programs that load it.
+std::filesystem::path programs_of_library() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&is_program), &info) == 0 || !info.dli_fname)
+        return {};
+    return std::filesystem::path(info.dli_fname).parent_path() / LAMINA_PROGRAMS_FROM_LIBRARY;
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_tetrahedralizer() {
     std::error_code failure;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
-    if (!failure && is_program(self.parent_path() / tetrahedralize_program)) {
-        return self.parent_path() / tetrahedralize_program;
+    for (const auto& folder : {self.parent_path(), programs_of_library()}) {
+        if (!folder.empty() && is_program(folder / tetrahedralize_program))
+            return folder / tetrahedralize_program;
     }
     const char* const folders = std::getenv("PATH");
     std::istringstream list(folders ? folders : "");

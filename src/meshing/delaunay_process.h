@@ -8,8 +8,8 @@
 
 namespace lamina {
 
-// The path of the program lamina-tetrahedralize: beside the running program, or else in one of the
-// folders of PATH.
+// The path of the program lamina-tetrahedralize: beside the running program, or where it is
+// installed with the library, or else in one of the folders of PATH.
 std::optional<std::filesystem::path> find_tetrahedralizer();
 
 // The same; throws Error, which says how to get the program, where it is not found.

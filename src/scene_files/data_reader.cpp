@@ -63,28 +63,34 @@ MeshSettings read_mesh_settings(JsonReader reader) {
     return settings;
 }
 
-void read_mesh_source(JsonReader& reader, Scene& scene) {
+void read_mesh_source(JsonReader& reader, Scene& scene, bool has_volume) {
     if (!reader.has("mesh")) return;
     if (!reader.value("mesh").is_object()) {
         scene.mesh_file = reader.path_of("mesh");
         return;
     }
     scene.mesh_request = read_mesh_settings(reader.object("mesh"));
-    if (!scene.has_volume()) reader.reject("volume", "a volume, which \"mesh\" is made from");
+    if (!has_volume) reader.reject("volume", "a volume, which \"mesh\" is made from");
 }
 
 }  // namespace
 
-void read_data(JsonReader& reader, Scene& scene) {
+PresentData read_data(JsonReader& reader, Scene& scene, const GivenData* given) {
+    const bool given_volume = given != nullptr && given->kind == GivenData::Kind::volume;
+    const bool given_mesh = given != nullptr && given->kind == GivenData::Kind::mesh;
     read_volume_source(reader, scene);
-    read_mesh_source(reader, scene);
-    if (!scene.has_volume() && !scene.has_mesh())
+    const bool has_volume = given_volume || scene.has_volume();
+    read_mesh_source(reader, scene, has_volume);
+    const bool has_mesh = given_mesh || scene.has_mesh();
+    if (!has_volume && !has_mesh)
         reader.reject("volume", "a path, an object {...}, or a mesh under \"mesh\"");
     if (reader.has("scalar")) {
         scene.scalar = reader.text("scalar");
-        if (scene.mesh_file.empty()) reader.reject("scalar", "a mesh from a file beside it");
+        if (!given_mesh && scene.mesh_file.empty())
+            reader.reject("scalar", "a mesh from a file beside it");
     }
     scene.nan = reader.choice<NanPolicy>("nan", enum_words<NanPolicy>());
+    return {has_volume, has_mesh};
 }
 
 }  // namespace lamina

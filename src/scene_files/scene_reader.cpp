@@ -81,13 +81,12 @@ void read_image(JsonReader reader, Scene& scene) {
     reader.close();
 }
 
-TraceOf read_trace_of(JsonReader& trace, const Scene& scene) {
-    if (!trace.has("of")) return scene.has_volume() ? TraceOf::volume : TraceOf::mesh;
+TraceOf read_trace_of(JsonReader& trace, const PresentData& data) {
+    if (!trace.has("of")) return data.volume ? TraceOf::volume : TraceOf::mesh;
     const TraceOf of = trace.choice<TraceOf>("of", enum_words<TraceOf>());
-    if (of == TraceOf::volume && !scene.has_volume())
+    if (of == TraceOf::volume && !data.volume)
         trace.reject("of", "\"mesh\": the scene has no volume");
-    if (of == TraceOf::mesh && !scene.has_mesh())
-        trace.reject("of", "\"volume\": the scene has no mesh");
+    if (of == TraceOf::mesh && !data.mesh) trace.reject("of", "\"volume\": the scene has no mesh");
     return of;
 }
 
@@ -109,9 +108,9 @@ void read_target(JsonReader& reader, Scene& scene) {
     scene.target = target.value_or(Target::float32);
 }
 
-void read_render(JsonReader reader, Scene& scene) {
+void read_render(JsonReader reader, Scene& scene, const PresentData& data) {
     scene.method = reader.has("method") ? reader.choice<Method>("method", enum_words<Method>())
-                   : scene.has_volume() ? Method::slice
+                   : data.volume        ? Method::slice
                                         : Method::project;
     read_target(reader, scene);
     scene.emulate = read_emulation(reader.object("emulate"));
@@ -122,16 +121,16 @@ void read_render(JsonReader reader, Scene& scene) {
     scene.slice = read_slice(reader.object("slice"));
     scene.project = read_project(reader.object("project"));
     JsonReader trace = reader.object("trace");
-    scene.trace_of = read_trace_of(trace, scene);
+    scene.trace_of = read_trace_of(trace, data);
     scene.trace_tolerance = trace.number_or("tolerance", scene.trace_tolerance);
     // Below 1e-12 the tracer's own rounding would be larger than the tolerance.
     if (!(scene.trace_tolerance >= 1e-12 && scene.trace_tolerance <= 1)) {
         trace.reject("tolerance", "a number from 1e-12 to 1");
     }
     trace.close();
-    if (scene.method == Method::slice && !scene.has_volume())
+    if (scene.method == Method::slice && !data.volume)
         reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
-    if (scene.method == Method::project && !scene.has_mesh())
+    if (scene.method == Method::project && !data.mesh)
         reader.reject("method", "\"slice\" or \"trace\" for a scene without a mesh");
     check_project_dither(reader, scene);
     reader.close();
@@ -172,28 +171,29 @@ nlohmann::json value_of(const std::string& key, const std::string& text) {
 }  // namespace
 
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
-                 std::set<std::string>* known) {
+                 std::set<std::string>* known, const GivenData* given) {
     JsonReader reader(document, file, "", known);
     Scene scene;
     scene.file = file;
     reader.whole("version", 1, 1);
-    read_data(reader, scene);
+    const PresentData data = read_data(reader, scene, given);
     scene.color_space = read_color_space(reader);
     scene.automatic_transfer_function = is_automatic(reader, "transfer_function");
     if (!scene.automatic_transfer_function) {
         JsonReader transfer_function = reader.object("transfer_function");
         scene.colormap_file = colormap_file_of(transfer_function);
         scene.transfer_function = read_transfer_function(
-            transfer_function, {.space = scene.color_space,
-                                .data_range = [&] { return data_range(scene); },
-                                .warnings = &scene.warnings});
+            transfer_function,
+            {.space = scene.color_space,
+             .data_range = [&] { return given ? given->range() : data_range(scene); },
+             .warnings = &scene.warnings});
     }
     scene.automatic_camera = is_automatic(reader, "camera");
     if (!scene.automatic_camera) scene.camera = read_camera(reader.object("camera"));
     if (reader.has("clip")) scene.clip = read_clip(reader.object("clip"));
     scene.lighting = read_lighting(reader, scene.color_space);
     read_image(reader.object("image"), scene);
-    read_render(reader.object("render"), scene);
+    read_render(reader.object("render"), scene, data);
     reader.close();
     try {
         View(scene.camera, scene.width, scene.height);

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "lamina/scene.h"
+#include "scene_files/data_reader.h"
 
 namespace lamina {
 
 // Reads the scene in `document`. `file` is for messages and relative paths. Throws KeyError
 // (scene_files/json_reader.h). `known`: collects the path of every key that the reader asks for, or
-// null.
+// null. `given`: data in memory, which the scene need not name then; or null.
 Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file,
-                 std::set<std::string>* known = nullptr);
+                 std::set<std::string>* known = nullptr, const GivenData* given = nullptr);
 
 // Sets `key` ("render.slice.samples", list elements by number) to `value`, which is JSON where it
 // parses as JSON and a string otherwise. Throws UsageError where the path leads through a value

@@ -178,9 +178,19 @@ TEST(PublicHeaders, IncludeEachOtherGlmAndTheStandardLibrary) {
     }
 }
 
+// Whatever the Python module needs of the library, other programs need, too.
+TEST(PythonModule, IncludesPublicHeadersAndItsOwn) {
+    for (const fs::path& file : files_under({"python/src"})) {
+        for (const std::string& include :
+             all_matches(read_bytes_of(file), R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])")) {
+            EXPECT_FALSE(is_room(room_of(include))) << file << " includes " << include;
+        }
+    }
+}
+
 TEST(SourceFiles, BeginWithTheLicence) {
     for (const fs::path& file :
-         files_under({"include", "src", "tools", "shaders", "share", "tests", "cmake"})) {
+         files_under({"include", "src", "python", "tools", "shaders", "share", "tests", "cmake"})) {
         if (!is_code(file)) continue;
         const std::string text = read_bytes_of(file);
         // Second line where the first must be something else: #! and #version.
@@ -215,8 +225,8 @@ TEST(Citations, TheCheckItselfSeesViolations) {
 }
 
 TEST(Citations, ArePartOfTheCheckout) {
-    for (const fs::path& file :
-         files_under({"include", "src", "tools", "shaders", "share", "tests", "cmake", "docs"})) {
+    for (const fs::path& file : files_under(
+             {"include", "src", "python", "tools", "shaders", "share", "tests", "cmake", "docs"})) {
         if (!is_code(file) && file.extension() != ".md") continue;
         for (const std::string& wrong : wrong_citations(read_bytes_of(file))) {
             ADD_FAILURE() << file << " cites " << wrong << ", which is not there";
@@ -225,7 +235,8 @@ TEST(Citations, ArePartOfTheCheckout) {
 }
 
 TEST(SourceFiles, AreShortEnoughToRead) {
-    for (const fs::path& file : files_under({"include", "src", "tools", "shaders", "share"})) {
+    for (const fs::path& file :
+         files_under({"include", "src", "python", "tools", "shaders", "share"})) {
         if (!is_code(file)) continue;
         const std::string text = read_bytes_of(file);
         EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 400) << file;

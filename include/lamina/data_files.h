@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "lamina/export.h"
+#include "lamina/mesh_data.h"
+#include "lamina/volume.h"
+
+namespace lamina {
+
+enum class FileKind { scene, volume, mesh };
+
+// What a file holds: by its content, and by its name where that does not tell. Throws Error where
+// neither does.
+LAMINA_API FileKind kind_of_file(const std::filesystem::path& file);
+
+// Reads a volume, or a tetrahedral mesh with its scalars, of any kind that scenes may name
+// (docs/scene.md, "What is drawn"). Throws Error: one line that names the file, what was found and
+// what was expected.
+LAMINA_API Volume load_volume(const std::filesystem::path& file);
+LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file);
+
+// Writes a NRRD file, from which load_volume() gives back the same volume bit for bit; or a mesh as
+// .vtu with numbers in double precision. The file appears when it is complete. Throws Error, also
+// for other suffixes than .nrrd and .vtu.
+LAMINA_API void save_volume(const Volume& volume, const std::filesystem::path& file);
+LAMINA_API void save_mesh(const MeshData& mesh, const std::filesystem::path& file);
+
+}  // namespace lamina

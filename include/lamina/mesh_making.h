@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stop_token>
+
+#include "lamina/export.h"
+#include "lamina/mesh_data.h"
+#include "lamina/mesh_settings.h"
+#include "lamina/session.h"
+#include "lamina/transfer_function.h"
+#include "lamina/volume.h"
+
+namespace lamina {
+
+struct MadeMesh {
+    MeshData mesh;  // with one scalar at points, "scalar"
+    MeshReport report;
+};
+
+// Tetrahedra that fill the volume's box (docs/meshes.md). `transfer_function`: where it shows
+// nothing they may be coarse; with null everything counts. Throws Error for samples that are not
+// finite, for a Kuhn split with more than settings.max_tets tets, and where lamina-tetrahedralize
+// is neither beside the program or the library nor in PATH; Interrupted once a stop is requested.
+LAMINA_API MadeMesh make_mesh(const Volume& volume, const MeshSettings& settings = {},
+                              const TransferFunction* transfer_function = nullptr,
+                              std::stop_token stop = {}, const ProgressCallback& progress = {});
+
+}  // namespace lamina

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files that appear when they are complete."""
+from __future__ import annotations
+
+import os
+import pathlib
+import tempfile
+
+from ._errors import Error
+
+
+def write_file(file: pathlib.Path, content: bytes) -> None:
+    """Writes beside the file and renames. Raises lamina.Error where that cannot be done."""
+    try:
+        descriptor, name = tempfile.mkstemp(dir=file.parent, prefix=f"{file.name}.", suffix=".part")
+        try:
+            with os.fdopen(descriptor, "wb") as stream:
+                stream.write(content)
+            umask = os.umask(0)
+            os.umask(umask)
+            os.chmod(name, 0o666 & ~umask)
+            os.replace(name, file)
+        except BaseException:
+            os.unlink(name)
+            raise
+    except OSError as error:
+        raise Error(f"{file}: cannot write: {error.strerror}") from None

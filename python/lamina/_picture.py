@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What was drawn."""
+from __future__ import annotations
+
+import functools
+import json
+import pathlib
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _lamina
+from ._comparison import Comparison, compare
+from ._mesh import Mesh
+from ._scene import Scene
+from ._volume import Path, Volume
+
+
+class Omission(NamedTuple):
+    """Something that the scene did not need, and why it was left out."""
+
+    name: str
+    reason: str
+
+
+class Plan(NamedTuple):
+    """What ran for a picture. ``slabs``: of slicing. ``text``: all of it for people, line by line."""
+
+    method: str
+    target: str
+    slabs: int
+    text: str
+
+
+class Picture:
+    """A picture and what is known of it. It does not change when its session draws again.
+
+    >>> picture = lamina.render({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]}}, size=(32, 24))
+    >>> picture
+    <lamina.Picture 32 x 24, slice>
+    >>> picture.array.dtype, picture.array.shape
+    (dtype('float32'), (24, 32, 4))
+    >>> picture.array is picture.array
+    True
+    """
+
+    def __init__(self, drawn: _lamina.Drawn, data: Volume | Mesh | None) -> None:
+        self._drawn, self._data, self._array = drawn, data, drawn.array
+
+    @property
+    def array(self) -> np.ndarray:
+        """(height, width, 4): red, green, blue, opacity; associated, before any background, in linear light unless the
+        scene's ``color_space`` is ``"display"``; row 0 on top. float32, of ``trace`` float64. No copy: a session uses
+        the memory again only when nobody holds it."""
+        return self._array
+
+    @property
+    def error(self) -> float:
+        """Of what was chosen ("auto"): the largest error that the choice may leave, in 1/255, as far as it was measured
+        or bounded; of a traced picture: the tracer's own estimate."""
+        return self._drawn.error
+
+    @property
+    def plan(self) -> Plan:
+        """What ran."""
+        scene, traced = self._drawn.scene, self._drawn.scene.method == "trace"
+        return Plan(scene.method, "float64" if self._drawn.traced else "float32" if traced else self._drawn.target,
+                    self._drawn.slabs, self._drawn.explanation)
+
+    @property
+    def omitted(self) -> list[Omission]:
+        """What was left out, and why. It does not change the picture."""
+        return [Omission(*omission) for omission in self._drawn.omitted]
+
+    @property
+    def stats(self) -> dict[str, Any]:
+        """``drawn_by``, ``draw_ms``, ``stages_ms`` (by name), ``fragments`` (segments of rays; 0: not counted),
+        ``bytes`` (of memory beside the data)."""
+        return self._drawn.statistics
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is noteworthy in data and picture, each said once by a session."""
+        return list(self._drawn.warnings)
+
+    @functools.cached_property
+    def scene(self) -> Scene:
+        """The scene with every key written out, what was automatic as well: drawn again, by the command line too, it
+        gives the same picture, bit for bit on the native engine."""
+        document = json.loads(self._drawn.scene.text())
+        scene = Scene(document, self._data)
+        return scene
+
+    def save(self, file: Path) -> None:
+        """Writes ``.exr`` (float32, with scene and plan), ``.npy`` (every number as it is) or ``.png`` (to look at, over
+        the scene's background). The file appears when it is complete."""
+        scene = self._drawn.scene
+        attributes = {"scene": scene.text(), "plan": self._drawn.explanation,
+                      "renderer": str(self.stats["drawn_by"]), "software": f"lamina {_lamina.version}"}
+        _lamina.save_picture(self._array, pathlib.Path(file), scene.background, scene.color_space, attributes)
+
+    def compare(self, other: Any) -> Comparison:
+        """How this picture differs from another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
+        return compare(self, other)
+
+    def _repr_png_(self) -> bytes:
+        scene = self._drawn.scene
+        return _lamina.picture_png(self._array, scene.background, scene.color_space)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        return np.array(self._array, dtype=dtype, copy=bool(copy))
+
+    def __dlpack__(self, *, stream: Any = None) -> Any:
+        return self._array.__dlpack__(stream=stream)
+
+    def __dlpack_device__(self) -> Any:
+        return self._array.__dlpack_device__()
+
+    def __repr__(self) -> str:
+        height, width = self._array.shape[:2]
+        return f"<lamina.Picture {width} x {height}, {self._drawn.scene.method}>"

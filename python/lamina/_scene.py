@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes: what to draw, and how."""
+from __future__ import annotations
+
+import copy
+import difflib
+import json
+import os
+import pathlib
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _lamina
+from ._conversion import shown
+from ._errors import Error
+from ._files import write_file
+from ._mesh import Mesh
+from ._plain import plain
+from ._volume import Path, Volume
+
+# Keyword arguments by the keys of scene files that they set.
+KEYWORDS: dict[str, tuple[str, ...]] = {
+    **{name: (name,) for name in ("volume", "mesh", "scalar", "nan", "camera", "clip", "lighting")},
+    **{name: ("image", name) for name in ("width", "height", "background", "color_space")},
+    **{name: ("render", name) for name in ("method", "target", "max_error", "emulate", "slice", "project", "trace")},
+}
+
+
+class Scene(dict[str, Any]):
+    """A scene file's keys, and the data in memory that it draws, if any.
+
+    It is a dictionary, to be read and changed as such: ``scene["camera"]["eye"]``. ``data``: a ``Volume`` or a ``Mesh``,
+    drawn whatever the keys ``volume`` and ``mesh`` say, or None. ``folder``: what relative paths start from.
+
+    ``render``, ``trace`` and ``Session`` take, wherever they take data: a scene, a plain dictionary of that form, the
+    path of a scene file or of a data file, a ``Volume``, a ``Mesh`` or an array. All of them take keywords with the
+    names of scene files:
+
+    - ``volume``, ``mesh``, ``scalar``, ``nan``, ``camera``, ``clip``, ``lighting``;
+    - of ``image``: ``width``, ``height``, ``background``, ``color_space``; and ``size=(width, height)``;
+    - of ``render``: ``method``, ``target``, ``max_error``, ``emulate``, ``slice``, ``project``, ``trace``;
+    - ``set={"render.slice.samples": 64}``: any key, named by its path.
+
+    A keyword replaces what the scene has under its key; None leaves it.
+
+    >>> scene = lamina.Scene({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]}})
+    >>> lamina.render(scene, size=(40, 30)).array.shape
+    (30, 40, 4)
+    """
+
+    def __init__(self, document: Mapping[str, Any], data: Volume | Mesh | None = None, folder: Path = "") -> None:
+        if not isinstance(document, Mapping):
+            raise TypeError(f"scene: found {type(document).__name__}, expected a dictionary")
+        super().__init__(plain(document))
+        self.data = data
+        self.folder = pathlib.Path(folder)
+        self._name = "scene"
+
+    @classmethod
+    def load(cls, file: Path) -> Scene:
+        """The scene in a file. Raises ``lamina.Error`` where the file is not one."""
+        path = pathlib.Path(file)
+        try:
+            document = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_without_duplicates)
+        except OSError as error:
+            raise Error(f"{path}: cannot open: {error.strerror}") from None
+        except ValueError as error:
+            raise Error(f"{path}: found no JSON: {error}") from None
+        if not isinstance(document, dict):
+            raise Error(f"{path}: found no object, expected a scene {{...}}")
+        scene = cls(document, folder=path.parent)
+        scene._name = path.name
+        return scene
+
+    def save(self, file: Path) -> None:
+        """Writes a scene file from which the command line draws the same. Data that are in memory alone go beside it
+        (``.nrrd``, ``.vtu``)."""
+        path = pathlib.Path(file)
+        document = dict(self)
+        if isinstance(self.data, Volume):
+            document["volume"] = str(_kept(self.data, path.with_suffix(".nrrd")))
+        elif self.data is not None:
+            document["mesh"] = str(_kept(self.data, path.with_suffix(".vtu")))
+        for key in ("volume", "mesh"):
+            if self.data is None and isinstance(document.get(key), str):
+                document[key] = self._absolute(document[key])
+        write_file(path, (json.dumps(document, indent=1) + "\n").encode())
+
+    def _absolute(self, name: str) -> str:
+        if name.startswith("${LAMINA_DATA}"):
+            return name
+        return os.path.abspath(self.folder / name)
+
+    def _parsed(self, without: str = "") -> _lamina.Scene:
+        """Checked and read by the library; `without`: a key that does not matter, because it may take long to read."""
+        text = json.dumps({key: value for key, value in self.items() if key != without}, allow_nan=False)
+        return _lamina.Scene.parse(text, str(self.folder / self._name), None if self.data is None else self.data._core)
+
+    def _changed(self, keywords: Mapping[str, Any]) -> Scene:
+        """A copy with the keys that keyword arguments stand for."""
+        scene = Scene(copy.deepcopy(dict(self)), self.data, self.folder)
+        scene._name = self._name
+        for name, value in keywords.items():
+            if value is None:
+                continue
+            if name == "set":
+                for key, item in value.items():
+                    _set(scene, str(key), plain(item, str(key)))
+            elif name == "size":
+                width, height = _size(value)
+                _set(scene, "image.width", width)
+                _set(scene, "image.height", height)
+            elif name == "transfer_function" or name in KEYWORDS:
+                _set(scene, ".".join(KEYWORDS.get(name, (name,))), plain(value, name))
+            else:
+                near = difflib.get_close_matches(name, [*KEYWORDS, "size", "set", "transfer_function"], 1)
+                raise TypeError(f"unexpected keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+        return scene
+
+    def __repr__(self) -> str:
+        return f"<lamina.Scene {shown(dict(self))}, {self.data!r}>" if self.data is not None else super().__repr__()
+
+
+def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, Any] | None = None) -> Scene:
+    """The scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
+    changes = {"transfer_function": transfer_function, **(keywords or {})}
+    return _plain_scene_of(data)._changed(changes)
+
+
+def _plain_scene_of(data: Any) -> Scene:
+    if isinstance(data, Scene):
+        return data
+    if isinstance(data, Mapping):
+        return Scene(data)
+    if isinstance(data, (str, os.PathLike)):
+        return _file_scene(pathlib.Path(data))
+    if isinstance(data, Volume):
+        return Scene({"version": 1, **({"volume": data.file} if data.file else {})}, data)
+    if isinstance(data, Mesh):
+        document: dict[str, Any] = {"version": 1, **({"mesh": data.file} if data.file else {})}
+        if not data._core.point_scalars:
+            document["scalar"] = next(iter(data.scalars), "")
+        return Scene(document, data)
+    if hasattr(data, "__array__") or hasattr(data, "__array_interface__") or isinstance(data, memoryview):
+        return Scene({"version": 1}, Volume(np.asanyarray(data)))
+    raise TypeError(f"found {type(data).__name__}, expected a Volume, a Mesh, an array, a Scene, a dictionary or the path "
+                    "of a scene or data file")
+
+
+def _file_scene(path: pathlib.Path) -> Scene:
+    kind = _lamina.kind_of_file(path)
+    if kind == "scene":
+        return Scene.load(path)
+    # As the command line has it (docs/first-picture.md).
+    return Scene({"version": 1, kind: str(path.absolute()), "nan": "transparent"})
+
+
+def _kept(data: Volume | Mesh, beside: pathlib.Path) -> pathlib.Path:
+    """The file that has the data: their own, or a new one."""
+    if data.file is not None:
+        return data.file
+    data.save(beside)
+    return beside.absolute()
+
+
+def _size(size: Any) -> tuple[int, int]:
+    if not hasattr(size, "__len__") or len(size) != 2:
+        raise TypeError(f"size: found {shown(size)}, expected (width, height)")
+    width, height = plain(list(size), "size")
+    return width, height
+
+
+def _set(document: dict[str, Any], key: str, value: Any) -> None:
+    """Sets a key that is named by its path; None removes it."""
+    *path, last = key.split(".")
+    node: Any = document
+    for part in path:
+        if isinstance(node, dict):
+            node = node.setdefault(part, {})
+        elif isinstance(node, list) and part.isdigit() and int(part) < len(node):
+            node = node[int(part)]
+        else:
+            raise ValueError(f"set: {key}: {part!r} is not inside an object")
+    if isinstance(node, list) and last.isdigit() and int(last) < len(node):
+        node[int(last)] = value
+    elif not isinstance(node, dict):
+        raise ValueError(f"set: {key}: {last!r} is not inside an object")
+    elif value is None:
+        node.pop(last, None)
+    else:
+        node[last] = value
+
+
+def _without_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in found:
+            raise ValueError(f"the key {name!r} stands twice in one object")
+        found[name] = value
+    return found

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Regular grids of samples."""
+from __future__ import annotations
+
+import os
+import pathlib
+from typing import Any, Sequence
+
+import numpy as np
+
+from . import _conversion, _lamina
+from ._errors import PrecisionWarning, warn
+
+Path = str | os.PathLike[str]
+
+
+class Volume:
+    """Samples on a regular grid.
+
+    ``array``: three axes, whose order ``axes`` says: ``"zyx"`` for ``array[z, y, x]``, ``"xyz"`` for
+    ``array[x, y, z]`` and so on. ``spacing`` (> 0) and ``origin`` (the first sample's place) are in world units and always in
+    the order x, y, z, as are ``directions`` (unit vectors along the array's x, y and z, perpendicular to each other)
+    and ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a voxel more
+    at each end.
+
+    Contiguous arrays of uint8, int16, uint16 and float32 in native byte order are not copied: do not change them while
+    they are drawn. (Contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order.) All others are copied
+    once: any strides, either byte order, bool, int8, float16 and larger integers that fit 16 bits without a loss; other
+    integers, float64 and longdouble to float32, with a ``PrecisionWarning`` where that cannot hold the values.
+
+    NaN and infinity are kept; what they do is the scene's ``nan``: ``"error"`` or ``"transparent"``.
+
+    Raises ``TypeError`` for arrays that hold no real numbers and masked ones, ``ValueError`` for other shapes, axes and
+    values out of range.
+
+    >>> values = np.zeros((4, 5, 6), np.uint8)
+    >>> volume = lamina.Volume(values, spacing=(1, 1, 2))
+    >>> volume
+    <lamina.Volume 6 x 5 x 4 uint8, from (0, 0, 0) to (5, 4, 6)>
+    >>> np.shares_memory(volume.array, values)
+    True
+    >>> lamina.Volume(np.zeros((4, 5)))
+    Traceback (most recent call last):
+    ValueError: array: found the shape (4, 5), expected three axes (z, y, x)
+    """
+
+    def __init__(self, array: Any, spacing: float | Sequence[float] = (1, 1, 1),
+                 origin: Sequence[float] = (0, 0, 0), axes: str = "zyx", *,
+                 directions: Any = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+                 centers: str | Sequence[str] = "node") -> None:
+        ordered = _conversion.array_zyx(array, axes)
+        steps = [tuple(length * number for number in direction) for length, direction
+                 in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
+        place = _conversion.triple("origin", origin)
+        words = _conversion.centers_of(centers, ordered.shape)
+        drawn, self._conversion = _conversion.drawn_array(ordered)
+        if self._conversion:
+            warn(self._conversion, PrecisionWarning)
+        self._core = _lamina.Volume.over(np.asarray(drawn), steps, place, words)
+        self._file: pathlib.Path | None = None
+
+    @classmethod
+    def _of(cls, core: _lamina.Volume, file: pathlib.Path | None = None) -> Volume:
+        volume = cls.__new__(cls)
+        volume._core, volume._conversion, volume._file = core, "", file
+        return volume
+
+    @property
+    def array(self) -> np.ndarray:
+        """The samples as they are drawn, ``array[z, y, x]``: read-only, no copy."""
+        return self._core.array
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Samples along z, y and x."""
+        z, y, x = self.array.shape
+        return z, y, x
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the samples as they are drawn: uint8, int16, uint16 or float32."""
+        kind: np.dtype[Any] = self.array.dtype
+        return kind
+
+    @property
+    def spacing(self) -> tuple[float, float, float]:
+        """Distance of neighbouring samples along x, y and z, in world units."""
+        x, y, z = (float(np.linalg.norm(step)) for step in self._core.steps)
+        return x, y, z
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Unit vectors along x, y and z of the array, one a row."""
+        directions: np.ndarray = np.array(self._core.steps) / np.array(self.spacing)[:, None]
+        return directions
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """World place (x, y, z) of the first sample."""
+        x, y, z = self._core.origin
+        return x, y, z
+
+    @property
+    def centers(self) -> tuple[str, str, str]:
+        """``"node"`` or ``"cell"``, along x, y and z."""
+        x, y, z = self._core.centers
+        return x, y, z
+
+    @property
+    def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Smallest and largest corner of the box that is drawn, in world units."""
+        lowest, highest = (_conversion.triple("bounds", corner) for corner in self._core.bounds)
+        return lowest, highest
+
+    @property
+    def conversion(self) -> str:
+        """What the conversion to the drawn type lost; empty: nothing."""
+        return self._conversion
+
+    @property
+    def file(self) -> pathlib.Path | None:
+        """The file that it was read from, or None."""
+        return self._file
+
+    def save(self, file: Path) -> None:
+        """Writes a NRRD file (``.nrrd``), from which the command line draws the same."""
+        self._core.save(pathlib.Path(file))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        return np.array(self.array, dtype=dtype, copy=bool(copy))
+
+    def __repr__(self) -> str:
+        z, y, x = self.shape
+        lowest, highest = (", ".join(f"{number:g}" for number in corner) for corner in self.bounds)
+        return f"<lamina.Volume {x} x {y} x {z} {self.dtype}, from ({lowest}) to ({highest})>"

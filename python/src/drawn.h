@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bindings.h"
+
+namespace lamina::python {
+
+// A picture and what belongs to it, as it was when it was drawn.
+struct Drawn {
+    std::shared_ptr<Image> picture;       // one of the two
+    std::shared_ptr<PreciseImage> truth;  // of a traced picture
+    Scene scene;                          // resolved
+    PlanSummary plan;                     // of slicing and projection
+    std::string explanation;
+    FrameStatistics statistics;
+    std::vector<std::string> warnings;
+
+    py::array array() const;
+    double error() const;  // in 1/255: the plan's, or the tracer's estimate
+};
+
+void bind_drawn(py::module_& module);
+
+}  // namespace lamina::python

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+
+#include "bindings.h"
+#include "shared_array.h"
+#include "vectors.h"
+
+namespace lamina::python {
+namespace {
+
+using Pixels = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using FloatPixels = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+// A copy. The package's Python code has checked the shape (height, width, 4).
+template <typename Real, typename Array>
+RgbaImage<Real> image_of(const Array& array) {
+    RgbaImage<Real> image(static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)));
+    std::copy_n(array.data(), array.size(), image.rgba.begin());
+    return image;
+}
+
+ImageColorSpace space_of(const std::string& word) {
+    return word == name_of(ImageColorSpace::display) ? ImageColorSpace::display
+                                                     : ImageColorSpace::linear;
+}
+
+using Attributes = std::map<std::string, std::string>;
+
+void save(const py::array& pixels, const std::filesystem::path& file, const Vector& background,
+          const std::string& space, const Attributes& attributes) {
+    const auto write = [&](const auto& image) {
+        const py::gil_scoped_release released;
+        save_picture(image, file, to_glm(background), space_of(space), attributes);
+    };
+    if (pixels.dtype().itemsize() == sizeof(double))
+        write(image_of<double>(Pixels(pixels)));
+    else
+        write(image_of<float>(FloatPixels(pixels)));
+}
+
+py::bytes png_of(const FloatPixels& pixels, const Vector& background, const std::string& space) {
+    const Image image = image_of<float>(pixels);
+    std::string bytes;
+    {
+        const py::gil_scoped_release released;
+        bytes = picture_png(image, to_glm(background), space_of(space));
+    }
+    return bytes;
+}
+
+py::tuple norms_of(const ErrorNorms& norms) {
+    return py::make_tuple(norms.linf, norms.l1, norms.l2);
+}
+
+// (all, {channel: norms}, (column, row, channel))
+py::tuple found(const PictureComparison& comparison) {
+    py::dict channels;
+    for (std::size_t i = 0; i < comparison.channels.size(); ++i)
+        channels[py::str(comparison.channels[i])] = norms_of(comparison.of_channel[i]);
+    return py::make_tuple(
+        norms_of(comparison.all), channels,
+        py::make_tuple(comparison.column, comparison.row, comparison.channels[comparison.channel]));
+}
+
+py::tuple compared(const Pixels& a, const Pixels& b) {
+    return found(compare(image_of<double>(a), image_of<double>(b)));
+}
+
+py::tuple files_compared(const std::filesystem::path& a, const std::filesystem::path& b) {
+    PictureComparison comparison;
+    {
+        const py::gil_scoped_release released;
+        comparison = compare_files(a, b);
+    }
+    return found(comparison);
+}
+
+py::bytes difference(const Pixels& a, const Pixels& b, double range) {
+    return difference_png(image_of<double>(a), image_of<double>(b), range);
+}
+
+// (pixels, color space or None)
+py::tuple loaded(const std::filesystem::path& file) {
+    LoadedPicture picture;
+    {
+        const py::gil_scoped_release released;
+        picture = load_picture(file);
+    }
+    const auto image = std::make_shared<PreciseImage>(std::move(picture.image));
+    const double* const first = image->rgba.data();
+    return py::make_tuple(
+        array_over(first, {image->height, image->width, 4}, image),
+        picture.space ? py::object(py::str(name_of(*picture.space))) : py::object(py::none()));
+}
+
+}  // namespace
+
+void bind_pictures(py::module_& module) {
+    module.def("save_picture", &save, py::arg("pixels"), py::arg("file"), py::arg("background"),
+               py::arg("space"), py::arg("attributes"));
+    module.def("picture_png", &png_of, py::arg("pixels"), py::arg("background"), py::arg("space"));
+    module.def("compare", &compared, py::arg("a"), py::arg("b"));
+    module.def("compare_files", &files_compared, py::arg("a"), py::arg("b"));
+    module.def("difference_png", &difference, py::arg("a"), py::arg("b"), py::arg("range"));
+    module.def("load_picture", &loaded, py::arg("file"));
+}
+
+}  // namespace lamina::python

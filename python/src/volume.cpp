@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <optional>
+
+#include "bindings.h"
+#include "shared_array.h"
+#include "vectors.h"
+
+namespace lamina::python {
+namespace {
+
+// By number: equal types need not be one object.
+template <typename Sample>
+bool is_native(const py::dtype& type) {
+    return type.num() == py::dtype::of<Sample>().num() && type.attr("isnative").cast<bool>();
+}
+
+std::optional<SampleType> sample_type(const py::dtype& type) {
+    if (is_native<std::uint8_t>(type)) return SampleType::uint8;
+    if (is_native<std::int16_t>(type)) return SampleType::int16;
+    if (is_native<std::uint16_t>(type)) return SampleType::uint16;
+    if (is_native<float>(type)) return SampleType::float32;
+    return std::nullopt;
+}
+
+Centering centering_of(const std::string& word) {
+    if (word == "node") return Centering::node;
+    if (word == "cell") return Centering::cell;
+    throw py::value_error("centers: found \"" + word + "\", expected \"node\" or \"cell\"");
+}
+
+// The array is C contiguous, z first; the package's Python code has made it so.
+Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
+                   const std::array<std::string, 3>& centers) {
+    const auto type = sample_type(array.dtype());
+    if (!type || array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
+        throw py::type_error("expected a contiguous array [z, y, x] of a type that is drawn");
+    Grid grid;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.size[axis] = array.shape(static_cast<py::ssize_t>(2 - axis));
+        grid.step[axis] = to_glm(steps[axis]);
+        grid.centering[axis] = centering_of(centers[axis]);
+    }
+    grid.origin = to_glm(origin);
+    return {grid, *type, keep(array, array.data())};
+}
+
+py::array array_of(const Volume& volume) {
+    const auto& size = volume.grid().size;
+    return volume.visit([&](const auto* first) {
+        return constant_array_over(first, {size[2], size[1], size[0]},
+                                   std::make_shared<Volume>(volume));
+    });
+}
+
+py::tuple bounds_of(const Volume& volume) {
+    const Grid::Bounds bounds = volume.grid().bounds();
+    return py::make_tuple(from_glm(bounds.min), from_glm(bounds.max));
+}
+
+std::array<Vector, 3> steps_of(const Volume& volume) {
+    const auto& step = volume.grid().step;
+    return {from_glm(step[0]), from_glm(step[1]), from_glm(step[2])};
+}
+
+std::array<std::string, 3> centers_of(const Volume& volume) {
+    std::array<std::string, 3> words;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        words[axis] = volume.grid().centering[axis] == Centering::node ? "node" : "cell";
+    return words;
+}
+
+}  // namespace
+
+void bind_volume(py::module_& module) {
+    py::class_<Volume>(module, "Volume")
+        .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
+                    py::arg("centers"))
+        .def_static(
+            "load", [](const std::filesystem::path& file) { return load_volume(file); },
+            py::arg("file"), py::call_guard<py::gil_scoped_release>())
+        .def(
+            "save",
+            [](const Volume& volume, const std::filesystem::path& file) {
+                save_volume(volume, file);
+            },
+            py::arg("file"), py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly("array", &array_of)
+        .def_property_readonly("steps", &steps_of)
+        .def_property_readonly("origin",
+                               [](const Volume& volume) { return from_glm(volume.grid().origin); })
+        .def_property_readonly("centers", &centers_of)
+        .def_property_readonly("bounds", &bounds_of);
+}
+
+}  // namespace lamina::python

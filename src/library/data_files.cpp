@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/data_files.h"
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "mesh_files/mesh_file.h"
+#include "volume/nrrd.h"
+#include "volume/volume_file.h"
+
+namespace lamina {
+namespace {
+
+void expect_suffix(const std::filesystem::path& file, const char* suffix) {
+    if (file.extension() != suffix) {
+        fail("{}: found the suffix \"{}\", expected {}", file.string(), file.extension().string(),
+             suffix);
+    }
+}
+
+}  // namespace
+
+Volume load_volume(const std::filesystem::path& file) {
+    return read_volume(file);
+}
+
+MeshData load_mesh_data(const std::filesystem::path& file) {
+    return read_mesh(file);
+}
+
+void save_volume(const Volume& volume, const std::filesystem::path& file) {
+    expect_suffix(file, ".nrrd");
+    AtomicFile output(file);
+    write_nrrd(output, volume);
+    output.commit();
+}
+
+void save_mesh(const MeshData& mesh, const std::filesystem::path& file) {
+    expect_suffix(file, ".vtu");
+    AtomicFile output(file);
+    write_vtu(output, mesh);
+    output.commit();
+}
+
+}  // namespace lamina

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/picture_comparison.h"
+
+#include "base/error.h"
+#include "image/difference_picture.h"
+#include "image/loaded_image.h"
+#include "image/metrics.h"
+#include "image/png.h"
+
+namespace lamina {
+namespace {
+
+PictureComparison compared(const Difference& difference) {
+    ImageError error = measure(difference);
+    return {std::move(error.channels), std::move(error.of_channel), error.all, error.worst.column,
+            error.worst.row,           error.worst.channel};
+}
+
+PreciseImage to_double(const Image& image) {
+    PreciseImage precise(image.width, image.height);
+    precise.rgba.assign(image.rgba.begin(), image.rgba.end());
+    return precise;
+}
+
+}  // namespace
+
+PictureComparison compare(const PreciseImage& a, const PreciseImage& b) {
+    return compared(difference(a, b));
+}
+
+PictureComparison compare_files(const std::filesystem::path& a, const std::filesystem::path& b) {
+    return compared(difference(load_image(a), load_image(b)));
+}
+
+std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range) {
+    if (!(range > 0)) fail("range: found {}, expected a number above 0, in 1/255", range);
+    return encode_png(difference_picture(difference(a, b), range));
+}
+
+LoadedPicture load_picture(const std::filesystem::path& file) {
+    LoadedImage image = load_image(file);
+    if (const auto* const pixels = std::get_if<Image>(&image.pixels))
+        return {to_double(*pixels), image.space};
+    if (auto* const pixels = std::get_if<PreciseImage>(&image.pixels))
+        return {std::move(*pixels), image.space};
+    fail("{}: holds codes over a background, expected .exr or .npy", file.string());
+}
+
+}  // namespace lamina

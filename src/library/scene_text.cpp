@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/scene_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/json_text.h"
+#include "mesh/scalar_range.h"
+#include "scene/scene_mesh.h"
+#include "scene_files/scene_json.h"
+#include "scene_files/scene_reader.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+Scene parse_scene(const std::string& json, const std::filesystem::path& name) {
+    return read_scene(parse_json(json), name);
+}
+
+Scene parse_scene(const std::string& json, const std::filesystem::path& name, const Volume& data) {
+    const GivenData given{GivenData::Kind::volume, [&] { return measure_bricks(data).whole; }};
+    return read_scene(parse_json(json), name, nullptr, &given);
+}
+
+Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                  const MeshData& data) {
+    const nlohmann::json document = parse_json(json);
+    // Only the scalar that the scene names counts.
+    const GivenData given{GivenData::Kind::mesh, [&] {
+                              Scene scene;
+                              if (document.contains("scalar")) scene.scalar = document["scalar"];
+                              return measure_range(scene_mesh(scene, data).scalar.values).range;
+                          }};
+    return read_scene(document, name, nullptr, &given);
+}
+
+std::string scene_text(const Scene& scene) {
+    return json_text(scene_json(scene), 1) + "\n";
+}
+
+}  // namespace lamina

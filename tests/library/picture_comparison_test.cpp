@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/picture_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include "lamina/picture_file.h"
+#include "lamina/session.h"
+#include "lamina/study.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
+    PreciseImage a(2, 1), b(2, 1);
+    a.pixel(1, 0)[2] = 3.0 / 255;
+    a.pixel(0, 0)[2] = 1.0 / 255;
+    b.pixel(1, 0)[3] = 2.0 / 255;
+    const PictureComparison found = compare(a, b);
+    EXPECT_EQ(found.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+    EXPECT_EQ(found.all.linf, 3);
+    EXPECT_EQ(found.of_channel[2].l1, 2);
+    EXPECT_EQ(found.of_channel[3].l1, -1);
+    EXPECT_EQ(found.column, 1);
+    EXPECT_EQ(found.channel, 2u);
+    EXPECT_EQ(difference_png(a, b, 3).substr(1, 3), "PNG");
+    test::expect_error([&] { difference_png(a, b, 0); }, {"range"});
+    test::expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
+}
+
+TEST(PictureFiles, ComeBack) {
+    const TemporaryFolder folder;
+    PreciseImage precise(3, 2);
+    precise.pixel(2, 1)[0] = 1.0 / 3;
+    precise.pixel(2, 1)[3] = 0.5;
+    const Image picture = to_float(precise);
+    save_picture(precise, folder.path() / "a.npy");
+    EXPECT_EQ(load_picture(folder.path() / "a.npy").image.rgba, precise.rgba);
+    save_picture(precise, folder.path() / "a.exr", {}, ImageColorSpace::display, {{"note", "x"}});
+    const LoadedPicture exr = load_picture(folder.path() / "a.exr");
+    EXPECT_EQ(exr.space, ImageColorSpace::display);
+    EXPECT_EQ(to_float(exr.image).rgba, picture.rgba);
+    save_picture(picture, folder.path() / "a.png", {0, 0, 1});
+    EXPECT_EQ(compare_files(folder.path() / "a.npy", folder.path() / "a.npy").all.linf, 0);
+    EXPECT_EQ(compare_files(folder.path() / "a.png", folder.path() / "a.png").channels.size(), 3u);
+    test::expect_error([&] { load_picture(folder.path() / "a.png"); }, {"a.png", ".exr"});
+    EXPECT_EQ(picture_png(picture, {0, 0, 1}).substr(1, 3), "PNG");
+}
+
+constexpr const char* small_scene =
+    R"({"version": 1, "volume": {"generate": "gaussians", "size": [12, 12, 12]},
+        "transfer_function": {"points": [{"value": 0, "extinction": 0},
+                                         {"value": 255, "extinction": 4}]},
+        "camera": {"eye": [2, 1, 2], "center": [0.5, 0.5, 0.5]},
+        "image": {"width": 16, "height": 12}})";
+
+TEST(Session, DrawsIntoTheCallersPicture) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder.path() / "scene.json", small_scene);
+    Session session(load_scene(folder.path() / "scene.json"), {ContextChoice::cpu, 0});
+    Image own;
+    session.draw(own);
+    const float* const memory = own.rgba.data();
+    EXPECT_EQ(own.rgba, session.draw().rgba);
+    session.draw(own);
+    EXPECT_EQ(own.rgba.data(), memory);
+    session.trace();
+    EXPECT_GT(session.statistics().trace_error, 0);
+    EXPECT_LT(session.statistics().trace_error, 255e-5);
+}
+
+TEST(Study, RunsIntoAnEmptyFolder) {
+    const TemporaryFolder folder;
+    write_bytes_to(folder.path() / "scene.json", small_scene);
+    write_bytes_to(folder.path() / "study.json",
+                   R"({"version": 1, "scenes": ["scene.json"], "rounds": 1, "frames": 1,
+                       "base": {"context": "cpu", "render.slice.classification": "post"},
+                       "sweep": {"render.slice.samples": [4, 8]}})");
+    const std::filesystem::path study = folder.path() / "study.json", out = folder.path() / "out";
+    EXPECT_EQ(run_study(study, out).runs, 2u);
+    EXPECT_TRUE(std::filesystem::exists(out / "results.csv"));
+    test::expect_error([&] { run_study(study, out); }, {"out", "holds this study", "resume"});
+    EXPECT_TRUE(run_study(study, out, true).failures.empty());
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(run_study(study, folder.path() / "other", false, stop.get_token()), Interrupted);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamina/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "lamina/camera_choice.h"
+#include "lamina/data_files.h"
+#include "lamina/mesh_making.h"
+#include "lamina/session.h"
+#include "support/expect_error.h"
+#include "support/split_box.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+Volume ramp(int size) {
+    auto samples = std::make_shared<std::vector<std::uint8_t>>();
+    for (int i = 0; i < size * size * size; ++i)
+        samples->push_back(static_cast<std::uint8_t>(i % size));
+    Grid grid;
+    grid.size = {size, size, size};
+    grid.centering = {Centering::node, Centering::node, Centering::node};
+    const std::uint8_t* const first = samples->data();
+    return {grid, SampleType::uint8, {std::move(samples), first}};
+}
+
+TEST(SceneText, ComesBack) {
+    const std::string text =
+        R"({"version": 1, "volume": {"generate": "ramp"}, "image": {"width": 31},
+            "transfer_function": {"points": [{"value": 0.1, "extinction": 3}]}})";
+    const std::string full = scene_text(parse_scene(text, "scene"));
+    EXPECT_NE(full.find("\"width\": 31"), std::string::npos);
+    EXPECT_EQ(scene_text(parse_scene(full, "scene")), full);
+}
+
+TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
+    test::expect_error([] { parse_scene(R"({"version": 1, "volmue": "a"})", "mine"); },
+                       {"mine", "volume"});
+    test::expect_error([] { parse_scene("{", "mine"); }, {"JSON"});
+    const Scene scene = parse_scene(R"({"version": 1, "volume": "a.nrrd"})", "/there/scene.json");
+    EXPECT_EQ(scene.volume_file, "/there/a.nrrd");
+}
+
+TEST(SceneText, NeedsNoNamesForDataInMemory) {
+    const Volume volume = ramp(8);
+    // The map is stretched over the volume's own range, 0 to 7.
+    const std::string text =
+        R"({"version": 1, "transfer_function": {"colormap": "greys",
+            "points": [{"value": 0, "extinction": 1}]}})";
+    test::expect_error([&] { parse_scene(text, "scene"); }, {"volume"});
+    const Scene scene = parse_scene(text, "scene", volume);
+    EXPECT_EQ(scene.method, Method::slice);
+    EXPECT_EQ(scene.transfer_function.knots().back().value, 7);
+    EXPECT_EQ(parse_scene(R"({"version": 1, "mesh": {"kuhn": true},
+                              "render": {"method": "project"}})",
+                          "scene", volume)
+                  .method,
+              Method::project);
+    const MeshData mesh = test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return 5 * p.x; });
+    const Scene of_mesh = parse_scene(text, "scene", mesh);
+    EXPECT_EQ(of_mesh.method, Method::project);
+    EXPECT_EQ(of_mesh.trace_of, TraceOf::mesh);
+    test::expect_error(
+        [&] { parse_scene(R"({"version": 1, "render": {"method": "slice"}})", "scene", mesh); },
+        {"render.method"});
+}
+
+TEST(CameraChoice, IsTheAutomaticCamera) {
+    const Volume volume = ramp(8);
+    Scene scene;
+    scene.automatic_transfer_function = scene.automatic_camera = true;
+    const Camera camera = fitted_camera(scene, volume);
+    EXPECT_EQ(camera.eye, Session(scene, volume).chosen_scene().camera.eye);
+    EXPECT_NE(fitted_camera(scene, volume, 40, 10).eye, camera.eye);
+}
+
+TEST(DataFiles, ComeBackBitForBit) {
+    const TemporaryFolder folder;
+    const Volume volume = ramp(5);
+    save_volume(volume, folder.path() / "a.nrrd");
+    EXPECT_EQ(kind_of_file(folder.path() / "a.nrrd"), FileKind::volume);
+    const Volume again = load_volume(folder.path() / "a.nrrd");
+    ASSERT_EQ(again.byte_count(), volume.byte_count());
+    EXPECT_EQ(std::memcmp(again.data(), volume.data(), volume.byte_count()), 0);
+    const MadeMesh made = make_mesh(volume, {.kuhn = true});
+    EXPECT_EQ(made.report.tets, 6 * 4 * 4 * 4);
+    save_mesh(made.mesh, folder.path() / "a.vtu");
+    EXPECT_EQ(kind_of_file(folder.path() / "a.vtu"), FileKind::mesh);
+    EXPECT_EQ(load_mesh_data(folder.path() / "a.vtu").points, made.mesh.points);
+    test::expect_error([&] { save_volume(volume, folder.path() / "a.vti"); }, {"a.vti", ".nrrd"});
+    test::expect_error([&] { save_mesh(made.mesh, folder.path() / "a.stl"); }, {"a.stl", ".vtu"});
+}
+
+TEST(MeshMaking, StopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(make_mesh(ramp(40), {.kuhn = true}, nullptr, stop.get_token()), Interrupted);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+import threading
+
+import numpy as np
+import pytest
+
+import lamina
+
+SIZE = (48, 36)
+
+
+@pytest.fixture
+def session(blob, function):
+    return lamina.Session(blob, function, size=SIZE, context="cpu")
+
+
+def test_after_changes_it_draws_what_a_new_one_draws(session, blob, function):
+    session.draw()
+    session.camera = lamina.Camera.orbit(blob, 60, 10)
+    other = lamina.TransferFunction([(0.2, "red", 0), (1, "yellow", 6)])
+    session.transfer_function = other
+    session.size = (40, 20)
+    session.set(clip={"planes": [{"point": [1, 1, 1.5], "normal": [1, 0, 0]}]})
+    fresh = lamina.render(blob, other, camera=lamina.Camera.orbit(blob, 60, 10), size=(40, 20), context="cpu",
+                          clip={"planes": [{"point": [1, 1, 1.5], "normal": [1, 0, 0]}]})
+    assert np.array_equal(session.draw().array, fresh.array)
+    assert session.size == (40, 20) and session.camera == lamina.Camera.orbit(blob, 60, 10)
+    session.set(slice={"samples": 20, "classification": "post"}, target="fixed16", max_error=2)
+    picture = session.draw()
+    assert picture.plan.slabs == 20 and picture.plan.target == "fixed16"
+
+
+def test_what_is_automatic_is_kept_until_it_is_chosen_again(session):
+    first = session.camera
+    session.set(transfer_function={"points": [{"value": 0.9, "extinction": 0}, {"value": 1, "extinction": 50}]})
+    session.draw()
+    assert session.camera == first
+    session.choose_again()
+    assert session.camera != first
+    session.camera = first
+    assert session.camera == first
+    session.camera = "auto"
+    assert session.camera != first
+
+
+def test_a_failed_change_leaves_it_as_it_was(session):
+    expected = session.draw().array.copy()
+    for keywords, error in [({"target": "fixed99"}, lamina.Error), ({"size": (0, 5)}, lamina.Error), ({"siez": 5}, TypeError),
+                            ({"size": 5}, TypeError), ({"set": {"render.slcie.samples": 5}}, lamina.Error)]:
+        with pytest.raises(error):
+            session.set(**keywords)
+        assert np.array_equal(session.draw().array, expected)
+
+
+def test_turntable(session):
+    heard = []
+    table = session.turntable(6, progress=lambda activity, share: heard.append(share))
+    assert len(table) == 6 and heard[-1] == 1
+    assert np.array_equal(session.draw().array, table[0].array)
+    assert not any(np.array_equal(table[0].array, picture.array) for picture in table[1:])
+    camera = session.camera
+    session.camera = camera.turned(60)
+    assert np.array_equal(session.draw().array, table[1].array)
+    assert len(table[2:4]) == 2
+    with pytest.raises(ValueError, match="views"):
+        session.turntable(0)
+
+
+def test_a_turntable_moves(session, tmp_path):
+    table = session.turntable(3)
+    table.save(tmp_path / "a.png")
+    moving = (tmp_path / "a.png").read_bytes()
+    assert [moving.count(kind) for kind in (b"acTL", b"fcTL", b"IEND")] == [1, 3, 1]
+    # Programs that do not know APNG show the first picture.
+    table[0].save(tmp_path / "first.png")
+    assert lamina.compare(tmp_path / "a.png", tmp_path / "first.png").linf == 0
+
+
+def test_threads_do_not_disturb_each_other(blob, function):
+    cameras = [lamina.Camera.orbit(blob, 40 * number) for number in range(4)]
+    expected = [lamina.render(blob, function, camera=camera, size=SIZE, context="cpu").array for camera in cameras]
+    shared, wrong = lamina.Session(blob, function, size=SIZE, context="cpu"), []
+
+    def draw(number):
+        own = lamina.Session(blob, function, camera=cameras[number], size=SIZE, context="cpu")
+        for _ in range(5):
+            if not np.array_equal(own.draw().array, expected[number]):
+                wrong.append(number)
+            shared.draw()  # threads take turns
+
+    threads = [threading.Thread(target=draw, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert wrong == []
+
+
+def test_the_number_of_threads_changes_nothing(blob, function):
+    one, all_ = (lamina.render(blob, function, size=SIZE, context="cpu", threads=n) for n in (1, 0))
+    assert np.array_equal(one.array, all_.array)
+    with pytest.raises(lamina.Error, match="threads"):
+        lamina.Session(blob, function, threads=-1)
+    with pytest.raises(ValueError, match="context: found \"gpu\", expected \"auto\""):
+        lamina.Session(blob, function, context="gpu")
+
+
+def test_the_native_engine_needs_no_opengl(tmp_path):
+    import subprocess
+    import sys
+    code = ("import lamina, numpy\n"
+            "lamina.render(numpy.ones((4, 4, 4), numpy.float32), size=(8, 6), context='cpu')\n"
+            "maps = open('/proc/self/maps').read()\n"
+            "assert 'liblamina' in maps\n"
+            "print([name for name in ('libGL.', 'libEGL', 'libOSMesa', 'libGLX', 'libgallium') if name in maps])")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
