@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/tile_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
