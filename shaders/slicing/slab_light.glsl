@@ -54,7 +54,7 @@ void light_segment(Ray ray, REAL2 depths, inout LitEnd end, inout Segment segmen
     end.known = shows;
     if (!shows) return;
     vec3 changed = segment.color * end.effect.change + segment.front.rgb * (front.change - end.effect.change);
-    vec3 highlight = end.effect.highlight + segment.front.a * (front.highlight - end.effect.highlight);
+    vec3 highlight = vec3(end.effect.highlight + segment.front.a * (front.highlight - end.effect.highlight));
     segment.color = max(segment.color + changed + highlight, 0.0);
 }
 #endif
