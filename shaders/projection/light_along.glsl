@@ -36,6 +36,40 @@ float hidden_bend(LitRun run, float at, float extent) {
     return reach_square > light_limits.z * center_square ? light_limits.w * weight : 0.0;
 }
 
+// The place behind `at` where the gradient is perpendicular to the light, 2 where there is none.
+float kink_behind(LitRun run, float at, int light) {
+    vec3 to_light = light_directions[light].w > 0.0 ? run.to_eye : light_directions[light].xyz;
+    float from = dot(run.gradient, to_light), change = dot(run.turn, to_light);
+    float kink = from * (from + change) < 0.0 ? -from / change : 2.0;
+    return kink - at > 1e-6 ? kink : 2.0;
+}
+
+float next_kink(LitRun run, float at) {
+    float kink = kink_behind(run, at, 0);
+#if LIGHTS > 1
+    kink = min(kink, kink_behind(run, at, 1));
+#endif
+#if LIGHTS > 2
+    kink = min(kink, kink_behind(run, at, 2));
+#endif
+#if LIGHTS > 3
+    kink = min(kink, kink_behind(run, at, 3));
+#endif
+#if LIGHTS > 4
+    kink = min(kink, kink_behind(run, at, 4));
+#endif
+#if LIGHTS > 5
+    kink = min(kink, kink_behind(run, at, 5));
+#endif
+#if LIGHTS > 6
+    kink = min(kink, kink_behind(run, at, 6));
+#endif
+#if LIGHTS > 7
+    kink = min(kink, kink_behind(run, at, 7));
+#endif
+    return kink;
+}
+
 // Adds a node of the rule; returns change and highlight together.
 LIGHT_COLOR add_node(LitRun run, float place, float amount, inout LightSums sums) {
     LightEffect effect = light_effect(run.gradient + place * run.turn, light_limits.x, run.to_eye);
@@ -55,7 +89,7 @@ LightSums light_along(LitRun run, float in_front) {
     while (at < 1.0 && in_front > 1e-5) {
         float rest = 1.0 - at;
         float front = max(first + change * at, 0.0);
-        float extent = min(longest, rest);
+        float extent = min(min(longest, rest), next_kink(run, at) - at);
         // To the depth of a shallow piece: a quadratic equation, in the form without cancellation.
         if (extent * (front + 0.5 * change * extent) > shallow) {
             float root = sqrt(max(front * front + 2.0 * goal * change, 0.0));
