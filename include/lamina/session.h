@@ -96,7 +96,8 @@ class LAMINA_API Session {
     // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
 
-    const FrameStatistics& statistics() const;
+    const FrameStatistics& statistics() const;        // of the last picture that was drawn
+    const FrameStatistics& trace_statistics() const;  // of the last one that was traced
     // The warnings since the last call, each once: what is noteworthy in the data and shows in no
     // picture, and pictures that show nothing or are saturated.
     std::vector<std::string> take_warnings();

@@ -37,7 +37,7 @@ Drawn SharedSession::trace(std::stop_token stop, const ProgressCallback& progres
     drawn.scene = session_.chosen_scene();
     drawn.scene.trace_of = drawn.scene.draws_mesh() ? TraceOf::mesh : TraceOf::volume;
     drawn.scene.method = Method::trace;
-    drawn.statistics = session_.statistics();
+    drawn.statistics = session_.trace_statistics();
     drawn.warnings = session_.take_warnings();
     return drawn;
 }

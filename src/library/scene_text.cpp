@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/json_text.h"
 #include "mesh/scalar_range.h"
 #include "scene/scene_mesh.h"
@@ -11,19 +12,30 @@
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
+namespace {
+
+nlohmann::json parsed(const std::string& json, const std::filesystem::path& name) {
+    try {
+        return parse_json(json);
+    } catch (const Error& error) {
+        fail("{}: {}", name.string(), error.what());
+    }
+}
+
+}  // namespace
 
 Scene parse_scene(const std::string& json, const std::filesystem::path& name) {
-    return read_scene(parse_json(json), name);
+    return read_scene(parsed(json, name), name);
 }
 
 Scene parse_scene(const std::string& json, const std::filesystem::path& name, const Volume& data) {
     const GivenData given{GivenData::Kind::volume, [&] { return measure_bricks(data).whole; }};
-    return read_scene(parse_json(json), name, nullptr, &given);
+    return read_scene(parsed(json, name), name, nullptr, &given);
 }
 
 Scene parse_scene(const std::string& json, const std::filesystem::path& name,
                   const MeshData& data) {
-    const nlohmann::json document = parse_json(json);
+    const nlohmann::json document = parsed(json, name);
     // Only the scalar that the scene names counts.
     const GivenData given{GivenData::Kind::mesh, [&] {
                               Scene scene;

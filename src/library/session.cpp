@@ -151,22 +151,28 @@ const Image& Session::draw(std::stop_token stop, const ProgressCallback& progres
 
 void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback& progress) {
     Stopwatch watch;
-    if (parts_->scene.method == Method::trace)
+    if (parts_->scene.method == Method::trace) {
         picture = to_float(trace(std::move(stop), progress));
-    else
+        parts_->statistics = parts_->trace_statistics;
+    } else {
         parts_->run_drawing([&] { parts_->draw(picture); }, std::move(stop), progress);
+    }
     parts_->statistics.draw_ms = 1e3 * watch.seconds();
 }
 
 const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress) {
     Stopwatch watch;
     parts_->run([&] { parts_->trace(); }, std::move(stop), progress);
-    parts_->statistics.draw_ms = 1e3 * watch.seconds();
+    parts_->trace_statistics.draw_ms = 1e3 * watch.seconds();
     return parts_->truth;
 }
 
 const FrameStatistics& Session::statistics() const {
     return parts_->statistics;
+}
+
+const FrameStatistics& Session::trace_statistics() const {
+    return parts_->trace_statistics;
 }
 
 std::vector<std::string> Session::take_warnings() {

@@ -119,11 +119,11 @@ void Session::Parts::draw(Image& into) {
 }
 
 void Session::Parts::trace() {
-    statistics = {};
-    statistics.drawn_by = "reference tracer";
+    trace_statistics = {};
+    trace_statistics.drawn_by = "reference tracer";
     const auto keep = [&](auto traced) {
         truth = std::move(traced.image);
-        statistics.trace_error = 255 * traced.error_estimate;
+        trace_statistics.trace_error = 255 * traced.error_estimate;
     };
     if (scene.draws_mesh())
         keep(lamina::trace(scene, mesh_data()));

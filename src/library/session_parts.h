@@ -76,7 +76,7 @@ struct Session::Parts {
     std::unique_ptr<SceneRenderer> drawn;
     Image picture;
     PreciseImage truth;
-    FrameStatistics statistics;
+    FrameStatistics statistics, trace_statistics;
     std::mutex keeping;
     std::vector<std::string> warnings;
 };

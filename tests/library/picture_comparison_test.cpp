@@ -25,8 +25,8 @@ TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
     EXPECT_EQ(found.column, 1);
     EXPECT_EQ(found.channel, 2u);
     EXPECT_EQ(difference_png(a, b, 3).substr(1, 3), "PNG");
-    test::expect_error([&] { difference_png(a, b, 0); }, {"range"});
-    test::expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
+    expect_error([&] { difference_png(a, b, 0); }, {"range"});
+    expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
 }
 
 TEST(PictureFiles, ComeBack) {
@@ -44,14 +44,14 @@ TEST(PictureFiles, ComeBack) {
     save_picture(picture, folder.path() / "a.png", {0, 0, 1});
     EXPECT_EQ(compare_files(folder.path() / "a.npy", folder.path() / "a.npy").all.linf, 0);
     EXPECT_EQ(compare_files(folder.path() / "a.png", folder.path() / "a.png").channels.size(), 3u);
-    test::expect_error([&] { load_picture(folder.path() / "a.png"); }, {"a.png", ".exr"});
+    expect_error([&] { load_picture(folder.path() / "a.png"); }, {"a.png", ".exr"});
     EXPECT_EQ(picture_png(picture, {0, 0, 1}).substr(1, 3), "PNG");
 }
 
 constexpr const char* small_scene =
     R"({"version": 1, "volume": {"generate": "gaussians", "size": [12, 12, 12]},
-        "transfer_function": {"points": [{"value": 0, "extinction": 0},
-                                         {"value": 255, "extinction": 4}]},
+        "transfer_function": {"points": [{"value": 0, "color": "red", "extinction": 0},
+                                         {"value": 255, "color": "blue", "extinction": 4}]},
         "camera": {"eye": [2, 1, 2], "center": [0.5, 0.5, 0.5]},
         "image": {"width": 16, "height": 12}})";
 
@@ -66,8 +66,10 @@ TEST(Session, DrawsIntoTheCallersPicture) {
     session.draw(own);
     EXPECT_EQ(own.rgba.data(), memory);
     session.trace();
-    EXPECT_GT(session.statistics().trace_error, 0);
-    EXPECT_LT(session.statistics().trace_error, 255e-5);
+    EXPECT_GT(session.trace_statistics().trace_error, 0);
+    EXPECT_LT(session.trace_statistics().trace_error, 255e-5);
+    EXPECT_EQ(session.trace_statistics().drawn_by, "reference tracer");
+    EXPECT_EQ(session.statistics().trace_error, 0);  // of the picture that was drawn
 }
 
 TEST(Study, RunsIntoAnEmptyFolder) {
@@ -80,7 +82,7 @@ TEST(Study, RunsIntoAnEmptyFolder) {
     const std::filesystem::path study = folder.path() / "study.json", out = folder.path() / "out";
     EXPECT_EQ(run_study(study, out).runs, 2u);
     EXPECT_TRUE(std::filesystem::exists(out / "results.csv"));
-    test::expect_error([&] { run_study(study, out); }, {"out", "holds this study", "resume"});
+    expect_error([&] { run_study(study, out); }, {"out", "holds this study", "resume"});
     EXPECT_TRUE(run_study(study, out, true).failures.empty());
     std::stop_source stop;
     stop.request_stop();

@@ -37,9 +37,9 @@ TEST(SceneText, ComesBack) {
 }
 
 TEST(SceneText, NamesItselfAndStartsPathsAtItsFolder) {
-    test::expect_error([] { parse_scene(R"({"version": 1, "volmue": "a"})", "mine"); },
-                       {"mine", "volume"});
-    test::expect_error([] { parse_scene("{", "mine"); }, {"JSON"});
+    expect_error([] { parse_scene(R"({"version": 1, "volmue": "a"})", "mine"); },
+                 {"mine", "volume"});
+    expect_error([] { parse_scene("{", "mine"); }, {"mine: parse error"});
     const Scene scene = parse_scene(R"({"version": 1, "volume": "a.nrrd"})", "/there/scene.json");
     EXPECT_EQ(scene.volume_file, "/there/a.nrrd");
 }
@@ -50,7 +50,7 @@ TEST(SceneText, NeedsNoNamesForDataInMemory) {
     const std::string text =
         R"({"version": 1, "transfer_function": {"colormap": "greys",
             "points": [{"value": 0, "extinction": 1}]}})";
-    test::expect_error([&] { parse_scene(text, "scene"); }, {"volume"});
+    expect_error([&] { parse_scene(text, "scene"); }, {"volume"});
     const Scene scene = parse_scene(text, "scene", volume);
     EXPECT_EQ(scene.method, Method::slice);
     EXPECT_EQ(scene.transfer_function.knots().back().value, 7);
@@ -63,7 +63,7 @@ TEST(SceneText, NeedsNoNamesForDataInMemory) {
     const Scene of_mesh = parse_scene(text, "scene", mesh);
     EXPECT_EQ(of_mesh.method, Method::project);
     EXPECT_EQ(of_mesh.trace_of, TraceOf::mesh);
-    test::expect_error(
+    expect_error(
         [&] { parse_scene(R"({"version": 1, "render": {"method": "slice"}})", "scene", mesh); },
         {"render.method"});
 }
@@ -90,8 +90,8 @@ TEST(DataFiles, ComeBackBitForBit) {
     save_mesh(made.mesh, folder.path() / "a.vtu");
     EXPECT_EQ(kind_of_file(folder.path() / "a.vtu"), FileKind::mesh);
     EXPECT_EQ(load_mesh_data(folder.path() / "a.vtu").points, made.mesh.points);
-    test::expect_error([&] { save_volume(volume, folder.path() / "a.vti"); }, {"a.vti", ".nrrd"});
-    test::expect_error([&] { save_mesh(made.mesh, folder.path() / "a.stl"); }, {"a.stl", ".vtu"});
+    expect_error([&] { save_volume(volume, folder.path() / "a.vti"); }, {"a.vti", ".nrrd"});
+    expect_error([&] { save_mesh(made.mesh, folder.path() / "a.stl"); }, {"a.stl", ".vtu"});
 }
 
 TEST(MeshMaking, StopsWhenAsked) {

@@ -26,13 +26,17 @@ def display():
         return
     if not shutil.which("Xvfb"):
         pytest.skip("no display, and xvfb is not installed")
-    with subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "640x480x24"], stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, text=True) as server:
-        os.environ["DISPLAY"] = ":" + server.stdout.readline().strip()
-        os.environ["LP_NUM_THREADS"] = str(len(os.sched_getaffinity(0)))
-        yield
-        del os.environ["DISPLAY"]
-        server.terminate()
+    # It ends itself when its last client does: VTK's windows live as long as this process, and must not outlive it.
+    server = subprocess.Popen(["Xvfb", "-terminate", "-displayfd", "1", "-screen", "0", "640x480x24"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    os.environ["DISPLAY"] = ":" + server.stdout.readline().strip()
+    os.environ["LP_NUM_THREADS"] = str(len(os.sched_getaffinity(0)))
+    first = vtk.vtkRenderWindow()  # stays connected from the first test to the last
+    first.SetOffScreenRendering(1)
+    first.Render()
+    yield
+    if server.poll() is not None:
+        pytest.fail(f"Xvfb ended with {server.returncode}")
 
 
 def functions(colors, opacities):
