@@ -317,12 +317,9 @@ class SlicePlanner {
             check_leaves(scene_, TreeShape(slice.tree->factors, slice.slabs),
                          most_marched_slabs(scene_, facts_, capabilities_, slice.slabs),
                          capabilities_);
-        if (slice.tree && is_fixed_point(slice.target)) {
+        if (slice.tree && is_fixed_point(slice.target))
             slice.tree->largest_color = std::max(max_color(), 1.0);
-        }
-        if (slice.emulation) {
-            slice.blending = programmable_blending(capabilities_);
-        }
+        if (slice.emulation) slice.blending = programmable_blending(capabilities_);
         if (scene_.slice.dither) choose_dither(*scene_.slice.dither);
     }
 

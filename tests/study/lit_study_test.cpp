@@ -15,7 +15,7 @@ namespace {
 Scene lit_scene() {
     Scene scene;
     scene.volume_request =
-        VolumeRequest{"gaussians", std::array<std::int64_t, 3>{12, 12, 12}, SampleType::float32};
+        GeneratorRequest{"gaussians", std::array<std::int64_t, 3>{12, 12, 12}, SampleType::float32};
     scene.transfer_function = test::smooth();
     scene.camera.eye = {1.7, -.9, 1.3};
     scene.camera.center = {.5, .5, .5};
@@ -34,7 +34,7 @@ TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     // .01 of the range of values, which is up to 1, over the distance of samples.
     EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);
     EXPECT_LE(*frames.scene().lighting->smallest_gradient, .01 * 12);
-    ReferenceStore references({}, [](const std::string&) {});
+    ReferenceStore references;
     const Reference& reference = references.get(frames.scene(), TraceOf::volume, data);
     EXPECT_LE(image_error(frames.picture(), reference.image).all.linf, frames.scene().max_error);
     Scene unlit = frames.scene();

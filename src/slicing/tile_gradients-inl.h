@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gradients at the corners of cells and at points between them (slicing/gradient_map.h).
+#if defined(LAMINA_SLICING_TILE_GRADIENTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_SLICING_TILE_GRADIENTS_INL_H_
+#undef LAMINA_SLICING_TILE_GRADIENTS_INL_H_
+#else
+#define LAMINA_SLICING_TILE_GRADIENTS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstring>
+
+#include "executors/tile_light.h"
+#include "executors/tile_number-inl.h"
+#include "slicing/tile_scalars-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+
+// Two words of 32 bits for each lane, of the lower and the upper of two neighbours along x, and for
+// each of a cell's four rows along x, in the order of Corners.
+using GradientRows = std::uint32_t[4][4 * most_lanes];
+
+// Loads pairs one by one, which is faster than gathers. Where samples have no neighbour along x,
+// they are their own.
+inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
+                                         GradientRows& rows) {
+    const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
+                                  static_cast<std::size_t>(brick.slice),
+                                  static_cast<std::size_t>(brick.row + brick.slice)};
+    constexpr std::size_t size = sizeof(StoredGradient);
+    const bool pairs = brick.last_sample[0] > 0;
+    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
+        const StoredGradient* const from = brick.gradients + static_cast<std::size_t>(index[lane]);
+        for (std::size_t row = 0; row < 4; ++row) {
+            std::uint32_t* const to = rows[row] + 4 * lane;
+            if (pairs) {
+                std::memcpy(to, from + steps[row], 2 * size);
+            } else {
+                std::memcpy(to, from + steps[row], size);
+                std::memcpy(to + 2, from + steps[row], size);
+            }
+        }
+    }
+}
+
+// Stored gradients (slicing/gradient_map.h): x below y, and z below the exponent.
+struct GradientWords {
+    Ints xy, z;
+    HWY_INLINE Ints exponent() const { return hn::ShiftRight<16>(z); }
+};
+
+HWY_INLINE Floats low_component(Ints words) {
+    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(words)));
+}
+HWY_INLINE Floats high_component(Ints words) {
+    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(words));
+}
+
+// The gradients of a cell's corners, `lower` and `upper` on x, have the unit 2^(largest -
+// unit_octaves) together, where `largest` is their largest exponent. So the largest component is
+// 2^46 up to 2^47, and squares of gradients 1e31 times as small are numbers, too.
+constexpr int unit_octaves = 32;
+
+// 2^exponent, 0 where that is too small.
+HWY_INLINE Floats power_of_two(Ints exponent) {
+    const IntTag di;
+    const Ints biased = hn::Max(hn::Add(exponent, hn::Set(di, 127)), hn::Zero(di));
+    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(biased));
+}
+
+// The square of the smallest gradient, in the unit of gradients with this largest exponent. It is
+// kept to what float32 can square: outside, all or nothing is lit.
+HWY_INLINE Number smallest_square_of(const TileLight& light, Ints largest) {
+    constexpr int most = 62;
+    const IntTag di;
+    const Ints exponent = hn::Sub(hn::Set(di, light.smallest.exponent + unit_octaves), largest);
+    const Ints kept = hn::Min(hn::Max(exponent, hn::Set(di, -most)), hn::Set(di, most));
+    const Number smallest = Number(light.smallest.mantissa) * Number(power_of_two(kept));
+    return smallest * smallest;
+}
+
+HWY_INLINE void set_corner(const GradientWords& words, Ints largest, std::size_t row, bool upper,
+                           Corners (&corners)[3]) {
+    const Ints octaves = hn::Sub(words.exponent(), largest);
+    const Floats scale = power_of_two(hn::Add(octaves, hn::Set(IntTag(), unit_octaves)));
+    const Floats components[3] = {low_component(words.xy), high_component(words.xy),
+                                  low_component(words.z)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Floats& to = upper ? corners[axis].upper[row] : corners[axis].lower[row];
+        to = hn::Mul(components[axis], scale);
+    }
+}
+
+// Returns the largest exponent.
+HWY_INLINE Ints unpack_gradients(const GradientRows& rows, Corners (&corners)[3]) {
+    GradientWords lower[4], upper[4];
+    Ints largest = hn::Set(IntTag(), StoredGradient::no_exponent);
+    for (std::size_t row = 0; row < 4; ++row) {
+        Words words[4];
+        hn::LoadInterleaved4(WordTag(), rows[row], words[0], words[1], words[2], words[3]);
+        lower[row] = {hn::BitCast(IntTag(), words[0]), hn::BitCast(IntTag(), words[1])};
+        upper[row] = {hn::BitCast(IntTag(), words[2]), hn::BitCast(IntTag(), words[3])};
+        largest = hn::Max(largest, hn::Max(lower[row].exponent(), upper[row].exponent()));
+    }
+    for (std::size_t row = 0; row < 4; ++row) {
+        set_corner(lower[row], largest, row, false, corners);
+        set_corner(upper[row], largest, row, true, corners);
+    }
+    return largest;
+}
+
+// Replaces the lower corners on an axis by the upper ones.
+HWY_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corners) {
+    const auto take = [&](Floats& lower, Floats upper)
+                          HWY_ATTR { lower = hn::IfThenElse(lanes, upper, lower); };
+    const std::size_t rows[2][4] = {{0, 2, 1, 3},
+                                    {0, 1, 2, 3}};  // of y and z: two lower, two upper
+    for (std::size_t i = 0; axis == 0 && i < 4; ++i) take(corners.lower[i], corners.upper[i]);
+    for (std::size_t i = 0; axis > 0 && i < 2; ++i) {
+        const std::size_t lower = rows[axis - 1][i], upper = rows[axis - 1][i + 2];
+        take(corners.lower[lower], corners.lower[upper]);
+        take(corners.upper[lower], corners.upper[upper]);
+    }
+}
+
+// Where rays run beyond the last samples (`cell` axes), or along a face, only the upper corners
+// count: the lower ones may be too long to be subtracted again.
+HWY_INLINE void leave_out_lower(const Number (&place)[3], const Number (&change)[3],
+                                Corners (&corners)[3]) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const FloatMask beyond = hn::And(place[axis] >= Number(1), change[axis] == Number(0));
+        if (hn::AllFalse(FloatTag(), beyond)) continue;
+        for (Corners& component : corners) take_upper(axis, beyond, component);
+    }
+}
+
+// Of the cells with the lowest corners `index`. Returns the largest exponent.
+HWY_INLINE Ints gradient_corners(const TileBrick& brick, const std::int32_t* index,
+                                 Corners (&corners)[3]) {
+    alignas(64) GradientRows rows;
+    fetch_gradients(brick, index, rows);
+    return unpack_gradients(rows, corners);
+}
+
+// The gradient at a point of a cell, and the square of the smallest gradient in the same unit.
+struct PointGradient {
+    Number along[3];
+    Number smallest_square;
+};
+HWY_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& light,
+                                     const std::int32_t* index, const Floats (&share)[3]) {
+    Corners corners[3];
+    const Ints largest = gradient_corners(brick, index, corners);
+    leave_out_lower({share[0], share[1], share[2]}, {Number(0), Number(0), Number(0)}, corners);
+    PointGradient gradient;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        gradient.along[axis] = interpolate(corners[axis], share[0], share[1], share[2]);
+    gradient.smallest_square = smallest_square_of(light, largest);
+    return gradient;
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
