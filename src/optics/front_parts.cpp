@@ -14,7 +14,7 @@ constexpr double largest_depth = 1e300;  // so that sums of two stay finite
 }  // namespace
 
 // On the piece the factor is to_left + width * (1 - x), x from 0 to 1.
-FrontParts front_parts_of(const LitPiece& piece) {
+FrontParts front_parts_of(const SegmentStretch& piece) {
     const double p = std::min(piece.length * piece.front.extinction, largest_depth);
     const double q = std::min(piece.length * piece.back.extinction, largest_depth);
     if (p == 0 && q == 0) return {};
@@ -33,7 +33,7 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
     if (!(length > 0)) return result;
     double depth = 0;
     for_each_linear_piece(transfer_function.knots(), front, back, [&](const LinearPiece& piece) {
-        LitPiece lit{piece.at_from, piece.at_to, length, 0, 1};
+        SegmentStretch lit{piece.at_from, piece.at_to, length, 0, 1};
         if (front != back) {
             lit.from = (piece.from - front) / (back - front);
             lit.to = (piece.to - front) / (back - front);

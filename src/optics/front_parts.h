@@ -29,11 +29,11 @@ LitIntegral integrate_lit_segment(const TransferFunction& transfer_function, dou
 
 // A stretch of a segment on which colour and extinction are linear. `from` and `to`: where it
 // begins and ends, as shares of the segment's length.
-struct LitPiece {
+struct SegmentStretch {
     OpticalProperties front, back;
     double length = 0, from = 0, to = 1;
 };
 // What it adds, seen from its own front.
-FrontParts front_parts_of(const LitPiece& piece);
+FrontParts front_parts_of(const SegmentStretch& piece);
 
 }  // namespace lamina

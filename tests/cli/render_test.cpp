@@ -177,20 +177,17 @@ TEST_F(Render, BadScenesAreOneLineAndLeaveNothing) {
 
 TEST_F(Render, WhatCannotBeDrawnLitIsRefused) {
     const json light{{"smallest_gradient", 1}};
-    for (const char* const classification : {"post", "preintegrated"}) {
-        json slice = with("/lighting", light);
-        slice["render"]["slice"]["classification"] = classification;
-        expect_failure(slice, {"render.slice.classification", classification, "\"exact\""}, 1,
-                       {"--context", "cpu"});
-    }
     json mesh = with("/lighting", light);
     mesh["mesh"] = {{"kuhn", true}};
     mesh["render"] = {{"method", "project"}};
-    expect_failure(mesh, {"lighting", "\"project\"", "\"trace\""});
     for (const char* const coloring : {"vertex", "attenuation"}) {
         mesh["render"]["project"] = {{"coloring", coloring}};
         expect_failure(mesh, {"render.project.coloring", coloring, "\"analytic\""});
     }
+    mesh["render"]["project"] = {{"geometry", "triangles"}};
+    expect_failure(mesh, {"render.project", "\"triangles\"", "silhouettes"});
+    mesh["render"]["project"] = {{"table", {{"scalar", 16}}}};
+    expect_failure(mesh, {"render.project.table", "lighting"});
     expect_failure(with("/lighting", {{"power", 0}}), {"lighting.power: found 0", "1 to 1000"});
 }
 

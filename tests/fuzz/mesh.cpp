@@ -4,13 +4,13 @@
 #include <set>
 
 #include "input_parts.h"
-#include "mesh_files/mesh_file.h"
 #include "mesh/scalar_range.h"
-#include "visibility/visibility_order.h"
+#include "mesh_files/mesh_file.h"
 #include "plan_check.h"
 #include "runs.h"
 #include "scratch_folder.h"
 #include "violation.h"
+#include "visibility/visibility_order.h"
 
 namespace lamina::fuzz {
 namespace {

@@ -10,12 +10,12 @@
 #include <numbers>
 #include <random>
 
-#include "mesh_files/mesh_file.h"
 #include "mesh/mesh_shape.h"
-#include "visibility/order_check.h"
+#include "mesh_files/mesh_file.h"
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"
+#include "visibility/order_check.h"
 
 namespace lamina {
 namespace {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "executors/gl_lights.h"
+#include "executors/smallest_gradient.h"
 #include "gl/framebuffer.h"
 #include "gl/full_screen.h"
 #include "optics/ray_lights.h"
@@ -12,7 +13,6 @@
 #include "reference/lit_fixtures.h"
 #include "slicing/gl_volume_textures.h"
 #include "slicing/gradient_map.h"
-#include "executors/smallest_gradient.h"
 #include "slicing/texture_bricks.h"
 #include "slicing_fixture.h"
 #include "support/volume_of.h"
