@@ -45,5 +45,7 @@ using Image = RgbaImage<float>;          // what renderers write
 using PreciseImage = RgbaImage<double>;  // what the reference tracer writes
 
 LAMINA_API Image to_float(const PreciseImage& image);
+// The same numbers in double precision.
+LAMINA_API PreciseImage to_double(const Image& image);
 
 }  // namespace lamina

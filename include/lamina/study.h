@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-// What became of a study. The results are in its folder (docs/study.md, "What it writes").
+// A finished study. Its results are in its folder (docs/study.md, "What it writes").
 struct StudyOutcome {
     std::size_t runs = 0;  // that are finished, failed ones among them
     std::vector<std::string> findings, failures;

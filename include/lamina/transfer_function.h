@@ -20,7 +20,7 @@ struct TransferKnot {
     double value = 0;  // scalar, in the volume's own units
     OpticalProperties optics;
     // The straight pieces on both sides stand for a curve of extinction without a corner here.
-    // What is drawn may follow such a curve within 1.3e-3 of the pieces.
+    // Pictures may follow such a curve, within 1.3e-3 of the pieces' extinction.
     bool smooth = false;
     bool operator==(const TransferKnot&) const = default;
 };

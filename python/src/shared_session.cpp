@@ -8,7 +8,7 @@ namespace lamina::python {
 
 std::shared_ptr<Image> SharedSession::free_picture() {
     if (!picture_ || picture_.use_count() > 1) return std::make_shared<Image>();
-    // What its last holder read is read.
+    // Whoever held it last has finished reading before it is written again.
     std::atomic_thread_fence(std::memory_order_acquire);
     return picture_;
 }

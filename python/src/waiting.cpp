@@ -12,7 +12,7 @@
 namespace lamina::python {
 namespace {
 
-// What the working thread tells the waiting one.
+// The working thread tells the waiting one by this.
 struct News {
     struct Progress {
         std::string activity;

@@ -19,8 +19,30 @@ struct LightEffect {
     LIGHT_COLOR change, highlight;
 };
 
+// Writes DO(number) for each light. Lights are no loop, because software rasterisers have a limit for the rounds of all
+// loops together (plan/march_limit.h).
+#if LIGHTS == 1
+#define FOR_EACH_LIGHT(DO) DO(0)
+#elif LIGHTS == 2
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1)
+#elif LIGHTS == 3
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2)
+#elif LIGHTS == 4
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2) DO(3)
+#elif LIGHTS == 5
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2) DO(3) DO(4)
+#elif LIGHTS == 6
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
+#elif LIGHTS == 7
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6)
+#else
+#define FOR_EACH_LIGHT(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
+#endif
+
+vec3 direction_to_light(int i, vec3 to_eye) { return light_directions[i].w > 0.0 ? to_eye : light_directions[i].xyz; }
+
 void add_effect_of(int i, vec3 normal, vec3 to_eye, float along_eye, inout LightEffect effect) {
-    vec3 to_light = light_directions[i].w > 0.0 ? to_eye : light_directions[i].xyz;
+    vec3 to_light = direction_to_light(i, to_eye);
     float along_light = dot(normal, to_light);
     effect.change += light_terms.y * abs(along_light) * COLOR_OF_LIGHT(i);
 #ifdef HIGHLIGHTS
@@ -33,35 +55,24 @@ void add_effect_of(int i, vec3 normal, vec3 to_eye, float along_eye, inout Light
 }
 
 // Returns what light does where the gradient is so, of a length whose square float32 holds. `smallest_square`: of the
-// smallest gradient, in the same unit. `to_eye`: a unit vector. Lights are no loop, because software rasterisers have a
-// limit for the rounds of all loops together (plan/march_limit.h).
+// smallest gradient, in the same unit. `to_eye`: a unit vector.
 LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     float square = dot(gradient, gradient);
     float weight = square / (square + smallest_square);
     vec3 normal = gradient / sqrt(max(square, 1e-37));
     float along_eye = dot(normal, to_eye);
     LightEffect effect = LightEffect(LIGHT_COLOR(light_terms.x), LIGHT_COLOR(0.0));
-    add_effect_of(0, normal, to_eye, along_eye, effect);
-#if LIGHTS > 1
-    add_effect_of(1, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 2
-    add_effect_of(2, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 3
-    add_effect_of(3, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 4
-    add_effect_of(4, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 5
-    add_effect_of(5, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 6
-    add_effect_of(6, normal, to_eye, along_eye, effect);
-#endif
-#if LIGHTS > 7
-    add_effect_of(7, normal, to_eye, along_eye, effect);
-#endif
+#define ADD_EFFECT(i) add_effect_of(i, normal, to_eye, along_eye, effect);
+    FOR_EACH_LIGHT(ADD_EFFECT)
+#undef ADD_EFFECT
     return LightEffect(weight * effect.change, weight * effect.highlight);
+}
+
+// Returns what light may do between the nodes of a piece, whose gradient has this square in the middle and goes as far
+// from that as the root of `reach`: nothing where it stays near, else as much as light can do at all.
+// `most_turn_square`: how near, of `square`.
+float hidden_effect(float square, float reach, float smallest_square, float most_turn_square, float largest_effect) {
+    float steepest = 2.0 * (square + reach);  // |a + b|^2 <= 2 |a|^2 + 2 |b|^2
+    float weight = steepest / (steepest + smallest_square);
+    return reach > most_turn_square * square ? largest_effect * weight : 0.0;
 }

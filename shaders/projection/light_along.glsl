@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light adds to a run on which extinction and gradient are linear: twin of projection/light_along-inl.h.
+// Light along a run on which extinction and gradient are linear: twin of projection/light_along-inl.h.
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 
@@ -26,47 +26,26 @@ vec3 light_added(LightSums sums, vec3 front, vec3 back) {
 float largest_of(float v) { return abs(v); }
 float largest_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// What may lie between the nodes of a piece.
+// Returns what the nodes of a piece may not see.
 float hidden_bend(LitRun run, float at, float extent) {
     vec3 center = run.gradient + (at + 0.5 * extent) * run.turn;
     vec3 reach = 0.5 * extent * run.turn;
-    float center_square = dot(center, center), reach_square = dot(reach, reach);
-    float steepest = 2.0 * (center_square + reach_square);
-    float weight = steepest / (steepest + light_limits.x);
-    return reach_square > light_limits.z * center_square ? light_limits.w * weight : 0.0;
+    return hidden_effect(dot(center, center), dot(reach, reach), light_limits.x, light_limits.z, light_limits.w);
 }
 
 // The place behind `at` where the gradient is perpendicular to the light, 2 where there is none.
 float kink_behind(LitRun run, float at, int light) {
-    vec3 to_light = light_directions[light].w > 0.0 ? run.to_eye : light_directions[light].xyz;
+    vec3 to_light = direction_to_light(light, run.to_eye);
     float from = dot(run.gradient, to_light), change = dot(run.turn, to_light);
     float kink = from * (from + change) < 0.0 ? -from / change : 2.0;
     return kink - at > 1e-6 ? kink : 2.0;
 }
 
 float next_kink(LitRun run, float at) {
-    float kink = kink_behind(run, at, 0);
-#if LIGHTS > 1
-    kink = min(kink, kink_behind(run, at, 1));
-#endif
-#if LIGHTS > 2
-    kink = min(kink, kink_behind(run, at, 2));
-#endif
-#if LIGHTS > 3
-    kink = min(kink, kink_behind(run, at, 3));
-#endif
-#if LIGHTS > 4
-    kink = min(kink, kink_behind(run, at, 4));
-#endif
-#if LIGHTS > 5
-    kink = min(kink, kink_behind(run, at, 5));
-#endif
-#if LIGHTS > 6
-    kink = min(kink, kink_behind(run, at, 6));
-#endif
-#if LIGHTS > 7
-    kink = min(kink, kink_behind(run, at, 7));
-#endif
+    float kink = 2.0;
+#define TAKE_NEARER(i) kink = min(kink, kink_behind(run, at, i));
+    FOR_EACH_LIGHT(TAKE_NEARER)
+#undef TAKE_NEARER
     return kink;
 }
 

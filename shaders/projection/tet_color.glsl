@@ -68,14 +68,14 @@ vec4 tet_color() {
 #ifdef LIT
 vec3 segment_gradient, segment_turn, segment_to_eye;
 
-// Of the segment that is integrated next.
+// Takes the gradients of the segment that is integrated next.
 void set_lit_segment(vec3 front_gradient, vec3 back_gradient, vec3 to_eye) {
     segment_gradient = front_gradient;
     segment_turn = back_gradient - front_gradient;
     segment_to_eye = to_eye;
 }
 
-// What light adds to the part of the segment from one share to the other.
+// Returns what light adds to the part of the segment from one share to the other.
 vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, float in_front) {
     LitRun run = LitRun(depths, segment_gradient + from * segment_turn, (to - from) * segment_turn, segment_to_eye);
     return light_added(light_along(run, in_front), near, far);

@@ -17,23 +17,19 @@ const float faint_light = 1.0 / 8.0;
 
 float length_square(vec3 v) { return dot(v, v); }
 
-// Returns what may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays near what it
-// is in the middle, else as much as light can do at all.
+// Returns what the nodes of a piece of `extent` from `at` on may not see.
 float hidden_bend(CellGradient gradient, float at, float extent) {
     float reach = 0.5 * extent, middle = at + reach;
     vec3 c2 = vec3(gradient.x.z, gradient.y.z, gradient.z.z), c3 = vec3(gradient.x.w, gradient.y.w, gradient.z.w);
     vec3 slope = vec3(cubic_slope(gradient.x, middle), cubic_slope(gradient.y, middle), cubic_slope(gradient.z, middle));
     vec3 most = reach * (abs(slope) + reach * (abs(c2 + 3.0 * c3 * middle) + reach * abs(c3)));
     float square = length_square(gradient_along(gradient, middle)), way = length_square(most);
-    // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
-    float steepest = 2.0 * (square + way);
-    float weight = steepest / (steepest + gradient.smallest_square);
-    return way > most_turn * most_turn * square ? largest_effect * weight : 0.0;
+    return hidden_effect(square, way, gradient.smallest_square, most_turn * most_turn, largest_effect);
 }
 
 // Returns what a light adds to the two numbers of hidden_kinks().
 vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
-    vec3 to_light = light_directions[i].w > 0.0 ? to_eye : light_directions[i].xyz;
+    vec3 to_light = direction_to_light(i, to_eye);
     vec3 color = light_colors[i].rgb;
     vec2 ends = vec2(dot(front, to_light), dot(back, to_light));
     float largest = max(color.r, max(color.g, color.b));
@@ -42,32 +38,14 @@ vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
 
 // Returns what the rule of three nodes misses of kinks, where the gradient is perpendicular to a light, as a bend. A
 // kink at k of the piece's length from an end, up to .5, costs up to .113 of what the cosine is at that end: k of it
-// where k < .113, which no node sees, and less beyond. Lights are no loop, as in optics/lighting.glsl.
+// where k < .113, which no node sees, and less beyond.
 float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     vec3 front = gradient_along(gradient, at), back = gradient_along(gradient, at + extent);
     vec3 middle = gradient_along(gradient, at + 0.5 * extent);
-    vec2 beyond = beyond_kink(0, front, middle, back, to_eye);
-#if LIGHTS > 1
-    beyond += beyond_kink(1, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 2
-    beyond += beyond_kink(2, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 3
-    beyond += beyond_kink(3, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 4
-    beyond += beyond_kink(4, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 5
-    beyond += beyond_kink(5, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 6
-    beyond += beyond_kink(6, front, middle, back, to_eye);
-#endif
-#if LIGHTS > 7
-    beyond += beyond_kink(7, front, middle, back, to_eye);
-#endif
+    vec2 beyond = vec2(0.0);
+#define ADD_BEYOND(i) beyond += beyond_kink(i, front, middle, back, to_eye);
+    FOR_EACH_LIGHT(ADD_BEYOND)
+#undef ADD_BEYOND
     vec2 squares = vec2(length_square(front), length_square(back));
     vec2 seen = beyond * squares / (squares + gradient.smallest_square) / sqrt(max(squares, 1e-37));
     return 0.113 / 0.045 * light_terms.y * max(seen.x, seen.y);

@@ -11,6 +11,7 @@
 
 #include "executors/tile_light.h"
 #include "executors/tile_number-inl.h"
+#include "executors/tile_shallow-inl.h"
 #include "tiles/arithmetic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -83,6 +84,64 @@ HWY_INLINE EffectLanes<channels> effect_of(const TileLight& light, const Number 
         effect.highlight[c] = weight * effect.highlight[c];
     }
     return effect;
+}
+
+// What light may do between the nodes of a piece, whose gradient has this square in the middle and
+// goes as far from that as the root of `reach`: nothing where it stays near, else as much as light
+// can do at all.
+HWY_INLINE Number hidden_effect(const TileLight& light, Number square, Number reach,
+                                Number smallest_square) {
+    const FloatMask turns = reach > Number(light.most_turn * light.most_turn) * square;
+    // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
+    const Number steepest = Number(2) * (square + reach);
+    const Number weight = steepest / (steepest + smallest_square);
+    return zero_unless(turns, Number(light.largest_effect) * weight);
+}
+
+// Light at the nodes of Gauss' rule with three nodes, whose amounts add up to a piece's opacity.
+// `share`: where a node lies for colours that change along the piece.
+template <std::size_t channels>
+struct LitNodes {
+    Number total, change[channels], shared[channels], highlight[channels], bend[channels];
+
+    HWY_INLINE LitNodes() : total(1e-37f) {
+        for (std::size_t c = 0; c < channels; ++c)
+            change[c] = shared[c] = highlight[c] = bend[c] = Number(0);
+    }
+
+    // `extinction` and the optical depth `before` the node are those of the piece, whose length is
+    // in the extinction. A `deep` piece shows its front alone.
+    HWY_INLINE void add(std::size_t node, const EffectLanes<channels>& effect, Number extinction,
+                        Number before, FloatMask deep, Number share) {
+        const Number seen = Number(GaussRule<3>::weights[node]) * extinction *
+                            (Number(1) - shallow_opacity(before));
+        const Number amount = select(deep, Number(node == 0 ? 1.0f : 0.0f), seen);
+        total = total + amount;
+        for (std::size_t c = 0; c < channels; ++c) {
+            const Number changed = amount * effect.change[c];
+            change[c] = change[c] + changed;
+            shared[c] = shared[c] + share * changed;
+            highlight[c] = highlight[c] + amount * effect.highlight[c];
+            const Number both = effect.change[c] + effect.highlight[c];
+            bend[c] = bend[c] + (node == 1 ? Number(-2) * both : both);
+        }
+    }
+
+    // By how much light bends from node to node to node: what the rule misses of a kink is .045
+    // times that.
+    HWY_INLINE Number largest_bend() const {
+        Number most(0);
+        for (const Number& each : bend) most = max(most, Number(hn::Abs(each.v)));
+        return most;
+    }
+};
+
+// How long the first piece of a part may be: what is missed of a kink falls with the square of
+// that.
+HWY_INLINE Number longest_piece(const TileLight& light, Number bend) {
+    const Number least(1.0f / 8);
+    const Number share = Number(light.most_bend) / max(bend, Number(1e-30f));
+    return max(min(hn::Sqrt(share.v), Number(1)), least);
 }
 
 // Light is not looked at more closely than that.

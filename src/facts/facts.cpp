@@ -5,14 +5,15 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
+#include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
-#include "optics/linear_pieces.h"
 
 namespace lamina {
 namespace {
@@ -239,9 +240,11 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
         return knot.value > facts.range.lo && knot.value < facts.range.hi;
     });
     const ValueRange drawn = drawn_range(transfer_function, facts.range);
-    facts.pieces = 0;
-    for_each_linear_piece(transfer_function.knots(), drawn.lo, drawn.hi,
-                          [&](const LinearPiece&) { ++facts.pieces; });
+    const auto count = [&](bool curved) {
+        return std::ssize(pieces_between(transfer_function, drawn.lo, drawn.hi, curved));
+    };
+    facts.pieces = count(false);
+    facts.curves = count(true);
     measure_occupied(transfer_function, bricks, facts);
     measure_extinctions(transfer_function, bricks, facts);
     // A brick's range knows nothing of its samples that are no numbers.

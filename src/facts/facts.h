@@ -54,6 +54,7 @@ struct Facts {
     double max_color = 0;       // largest component of a colour
     std::int64_t knots = 0;     // number strictly inside the range
     std::int64_t pieces = 1;    // number of linear pieces over drawn_range()
+    std::int64_t curves = 1;    // of these where curves follow smooth points (curved_pieces.h)
 
     // The smallest box, made of whole min/max bricks, outside which nothing shows. Bricks that the
     // clip cuts away as a whole show nothing.

@@ -12,4 +12,10 @@ Image to_float(const PreciseImage& image) {
     return rounded;
 }
 
+PreciseImage to_double(const Image& image) {
+    PreciseImage precise(image.width, image.height);
+    precise.rgba.assign(image.rgba.begin(), image.rgba.end());
+    return precise;
+}
+
 }  // namespace lamina

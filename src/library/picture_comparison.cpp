@@ -16,12 +16,6 @@ PictureComparison compared(const Difference& difference) {
             error.worst.row,           error.worst.channel};
 }
 
-PreciseImage to_double(const Image& image) {
-    PreciseImage precise(image.width, image.height);
-    precise.rgba.assign(image.rgba.begin(), image.rgba.end());
-    return precise;
-}
-
 }  // namespace
 
 PictureComparison compare(const PreciseImage& a, const PreciseImage& b) {

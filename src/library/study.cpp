@@ -39,8 +39,7 @@ StudyOutcome run(const std::filesystem::path& path, const study::StudyFolder& fo
     study::RunList list = study::list_runs(file);
     const std::vector<study::StudyData> data = study::check_runs(list, file);
     study::DataStore store;
-    const std::vector<std::string> contents = study::contents_of(data, store);
-    for (std::size_t i = 0; i < data.size(); ++i) list.data.push_back({data[i].name, contents[i]});
+    study::list_data(data, store, list);
     check_folder(folder, list, resume);
     folder.make();
     study::write_run_list(folder, list);

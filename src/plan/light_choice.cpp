@@ -31,8 +31,11 @@ void set_light(const Scene& scene, double max_color, MethodPlan& plan) {
 }  // namespace
 
 void plan_light(const Scene& scene, double max_color, SlicePlan& slice) {
-    slice.lighting = scene.lighting;
-    if (slice.classification == Classification::exact) set_light(scene, max_color, slice);
+    if (slice.classification == Classification::exact) {
+        set_light(scene, max_color, slice);
+    } else {
+        slice.lighting = scene.lighting;
+    }
 }
 
 void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {

@@ -11,7 +11,6 @@
 #include <hwy/highway.h>
 
 #include "executors/tile_light-inl.h"
-#include "executors/tile_shallow-inl.h"
 #include "tiles/opacity-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -125,53 +124,33 @@ class LightAlong {
 
     // Adds the next piece of each run, or shortens it where its light bends too much for one rule.
     HWY_INLINE void add_piece(FloatMask left) {
-        using Rule = GaussRule<3>;
         const Piece piece = next_piece();
         const FloatMask deep = piece.depth > Number(largest_part_depth);
-        Number total(1e-37f), bend[channels];
-        LightSums<channels> sums;
-        for (std::size_t c = 0; c < channels; ++c)
-            sums.change[c] = sums.farther[c] = sums.highlight[c] = bend[c] = Number(0);
+        LitNodes<channels> nodes;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Number along = Number(Rule::nodes[i]) * piece.extent, place = at_ + along;
+            const Number along = Number(GaussRule<3>::nodes[i]) * piece.extent, place = at_ + along;
             const Number before = along * (piece.front + Number(0.5f) * change_ * along);
             const Number extinction = max(piece.front + change_ * along, Number(0));
-            const Number seen =
-                Number(Rule::weights[i]) * extinction * (Number(1) - shallow_opacity(before));
-            const Number amount = select(deep, Number(i == 0 ? 1.0f : 0.0f), seen);
-            const EffectLanes<channels> effect = effect_at(place);
-            total = total + amount;
-            for (std::size_t c = 0; c < channels; ++c) {
-                const Number changed = amount * effect.change[c];
-                sums.change[c] = sums.change[c] + changed;
-                sums.farther[c] = sums.farther[c] + place * changed;
-                sums.highlight[c] = sums.highlight[c] + amount * effect.highlight[c];
-                const Number both = effect.change[c] + effect.highlight[c];
-                bend[c] = bend[c] + (i == 1 ? Number(-2) * both : both);
-            }
+            nodes.add(i, effect_at(place), extinction, before, deep, place);
         }
-        Number most = hidden_bend(piece.extent);
-        for (std::size_t c = 0; c < channels; ++c) most = max(most, Number(hn::Abs(bend[c].v)));
-        advance(piece, most, total, sums, left);
+        advance(piece, nodes, left);
     }
 
-    HWY_INLINE void advance(const Piece& piece, Number bend, Number total,
-                            const LightSums<channels>& sums, FloatMask left) {
+    HWY_INLINE void advance(const Piece& piece, const LitNodes<channels>& nodes, FloatMask left) {
+        const Number bend = max(hidden_bend(piece.extent), nodes.largest_bend());
         const Number weight = in_front_ * piece.opacity;
         const FloatMask again =
             hn::And(piece.extent > Number(shortest_lit_piece), bends(light_, bend, weight));
         const FloatMask done = hn::AndNot(again, left);
-        const Number scale = zero_unless(done, weight / total);
+        const Number scale = zero_unless(done, weight / nodes.total);
         for (std::size_t c = 0; c < channels; ++c) {
-            sums_.change[c] = sums_.change[c] + scale * sums.change[c];
-            sums_.farther[c] = sums_.farther[c] + scale * sums.farther[c];
-            sums_.highlight[c] = sums_.highlight[c] + scale * sums.highlight[c];
+            sums_.change[c] = sums_.change[c] + scale * nodes.change[c];
+            sums_.farther[c] = sums_.farther[c] + scale * nodes.shared[c];
+            sums_.highlight[c] = sums_.highlight[c] + scale * nodes.highlight[c];
         }
         in_front_ = in_front_ - zero_unless(done, weight);
         at_ = select(done, select(piece.last, Number(1), at_ + piece.extent), at_);
-        // What is missed of a kink falls with the square of the extent.
-        const Number share = hn::Sqrt((Number(light_.most_bend) / max(bend, Number(1e-30f))).v);
-        const Number shorter = piece.extent * min(max(share, Number(1.0f / 8)), Number(0.5f));
+        const Number shorter = piece.extent * min(longest_piece(light_, bend), Number(0.5f));
         longest_ = select(again, shorter, max(longest_, Number(2) * piece.extent));
     }
 
@@ -182,8 +161,7 @@ class LightAlong {
         return effect_of<channels>(light_, there, smallest_square_, run_.to_eye);
     }
 
-    // What may lie between nodes: nothing where the gradient stays near what it is in the middle,
-    // else as much as light can do at all.
+    // Returns what the nodes of the next piece may not see.
     HWY_INLINE Number hidden_bend(Number extent) const {
         const Number half = Number(0.5f) * extent, middle = at_ + half;
         Number square(0), reach(0);
@@ -193,11 +171,7 @@ class LightAlong {
             square = square + center * center;
             reach = reach + most * most;
         }
-        const FloatMask turns = reach > Number(light_.most_turn * light_.most_turn) * square;
-        // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
-        const Number steepest = Number(2) * (square + reach);
-        const Number weight = steepest / (steepest + smallest_square_);
-        return zero_unless(turns, Number(light_.largest_effect) * weight);
+        return hidden_effect(light_, square, reach, smallest_square_);
     }
 
     const TileLight& light_;

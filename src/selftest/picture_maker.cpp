@@ -9,20 +9,10 @@
 #include "render/scene_renderer.h"
 
 namespace lamina::selftest {
-namespace {
-
-PreciseImage to_precise(const Image& image) {
-    PreciseImage precise(image.width, image.height);
-    std::copy(image.rgba.begin(), image.rgba.end(), precise.rgba.begin());
-    return precise;
-}
-
-}  // namespace
-
 PreciseImage PictureMaker::draw(const Scene& scene, const Volume& volume) const {
     if (scene.method == Method::trace) return trace(scene, volume).image;
     SceneRenderer frames(scene, std::make_shared<const VolumeData>(volume), capabilities_);
-    return to_precise(frames.draw_picture());
+    return to_double(frames.draw_picture());
 }
 
 PreciseImage PictureMaker::draw(const Scene& scene, const SceneMesh& mesh,
@@ -33,7 +23,7 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneMesh& mesh,
                          capabilities_);
     frames.draw();
     if (order) *order = dynamic_cast<const ProjectRenderer&>(frames.renderer()).order_report();
-    return to_precise(frames.picture());
+    return to_double(frames.picture());
 }
 
 }  // namespace lamina::selftest

@@ -56,10 +56,7 @@ class CellWalk {
             cell_[i] = first_cell(axis);
         }
         lit_ = light != nullptr;
-        for (std::size_t axis = 0; lit_ && axis < 3; ++axis) {
-            const Number step = Number(rays.direction_float[axis]) * Number(light->spacing[axis]);
-            to_eye_[axis] = Number(0) - step / Number(rays.length_float);
-        }
+        if (lit_) eye_ = eye_of(*light, rays);
     }
 
     // Where the walk ends; not in front of where it is.
@@ -238,7 +235,7 @@ class CellWalk {
                           parts.change[axis] + at);
         }
         for (std::size_t axis = 0; lit_ && axis < 3; ++axis)
-            store_members(to_eye_[axis].v, shown, parts.to_eye[axis] + at);
+            store_members(eye_.to_eye[axis].v, shown, parts.to_eye[axis] + at);
         store_members(index, shown, parts.index + at);
         store_members((thickness * Number(rays_->length_float)).v, shown, parts.length + at);
         parts.count += static_cast<std::size_t>(std::popcount(lanes.set));
@@ -301,7 +298,7 @@ class CellWalk {
     Number slope_[3], inverse_[3];  // the directions in float
     FloatMask forward_[3];          // towards larger indices
     bool lit_ = false;
-    Number to_eye_[3];  // a unit vector along the grid's axes
+    EyeLanes eye_;  // of lit walks
     // At the beginning of a run: the cell, and where the ray is in it.
     Ints cell_[3];
     TwoDoubles start_[3];

@@ -58,8 +58,7 @@ HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const Gradien
     return effect_of<channels>(light, there, gradient.smallest_square, gradient.to_eye);
 }
 
-// What may lie between nodes, of a piece of `extent` from `at` on: nothing where the gradient stays
-// near what it is in the middle, else as much as light can do at all.
+// Returns what the nodes of a piece of `extent` from `at` on may not see.
 HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradient, Number at,
                               Number extent) {
     const Number half = Number(0.5f) * extent, middle = at + half;
@@ -73,11 +72,7 @@ HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradi
         square = square + center * center;
         reach = reach + most * most;
     }
-    const FloatMask turns = reach > Number(light.most_turn * light.most_turn) * square;
-    // |a + b|^2 <= 2 |a|^2 + 2 |b|^2.
-    const Number steepest = Number(2) * (square + reach);
-    const Number weight = steepest / (steepest + gradient.smallest_square);
-    return zero_unless(turns, Number(light.largest_effect) * weight);
+    return hidden_effect(light, square, reach, gradient.smallest_square);
 }
 
 // What the rule of three nodes misses of kinks, where the gradient is perpendicular to a light, as
@@ -126,49 +121,29 @@ struct LitPart {
     Number at, extent, depth, opacity;
 };
 
-// Adds light to the part's colour by Gauss' rule with three nodes, whose weights add up to the
-// part's opacity. Returns by how much light bends from node to node to node: what the rule misses
-// of a kink is .045 times that.
+// Adds light to the part's colour by Gauss' rule with three nodes. Returns by how much it bends.
 template <std::size_t channels, bool curved>
 HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& gradient,
                                const LitPart<curved>& lit, Number (&color)[3]) {
-    using Rule = GaussRule<3>;
     const RayPart<curved>& part = lit.part;
-    const CubicLanes& share = part.share;
     const CubicLanes mean_depth = part.mean_depth();
     const FloatMask deep = lit.depth > Number(largest_part_depth);
-    Number total(1e-37f), change[channels], shared[channels], highlight[channels], bend[channels];
-    for (std::size_t c = 0; c < channels; ++c)
-        change[c] = shared[c] = highlight[c] = bend[c] = Number(0);
+    LitNodes<channels> nodes;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Number t(Rule::nodes[i]);
-        const Number there = share.at(t);
-        const Number seen = Number(Rule::weights[i]) * part.extinction_at(t, there) *
-                            (Number(1) - shallow_opacity(t * mean_depth.at(t)));
-        const Number amount = select(deep, Number(i == 0 ? 1.0f : 0.0f), seen);
-        const EffectLanes<channels> effect =
-            effect_at<channels>(light, gradient, lit.at + t * lit.extent);
-        total = total + amount;
-        for (std::size_t c = 0; c < channels; ++c) {
-            const Number changed = amount * effect.change[c];
-            change[c] = change[c] + changed;
-            shared[c] = shared[c] + there * changed;
-            highlight[c] = highlight[c] + amount * effect.highlight[c];
-            const Number both = effect.change[c] + effect.highlight[c];
-            bend[c] = bend[c] + (i == 1 ? Number(-2) * both : both);
-        }
+        const Number t(GaussRule<3>::nodes[i]);
+        const Number there = part.share.at(t);
+        nodes.add(i, effect_at<channels>(light, gradient, lit.at + t * lit.extent),
+                  part.extinction_at(t, there), t * mean_depth.at(t), deep, there);
     }
-    const Number scale = lit.opacity / total;
-    Number most = max(hidden_bend(light, gradient, lit.at, lit.extent),
-                      hidden_kinks(light, gradient, lit.at, lit.extent));
+    const Number scale = lit.opacity / nodes.total;
     for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t k = channels == 1 ? 0 : c;
-        const Number light_there =
-            lit.interval.left[c] * change[k] + lit.interval.change[c] * shared[k] + highlight[k];
+        const Number light_there = lit.interval.left[c] * nodes.change[k] +
+                                   lit.interval.change[c] * nodes.shared[k] + nodes.highlight[k];
         color[c] = max(color[c] + scale * light_there, Number(0));
-        most = max(most, Number(hn::Abs(bend[k].v)));
     }
-    return most;
+    return max(nodes.largest_bend(), max(hidden_bend(light, gradient, lit.at, lit.extent),
+                                         hidden_kinks(light, gradient, lit.at, lit.extent)));
 }
 
 template <bool curved>
@@ -178,13 +153,6 @@ HWY_INLINE Number add_light(const TileLight& light, const GradientLanes& gradien
                       : add_light_of<3>(light, gradient, lit, color);
 }
 
-// How long the first piece of a part may be: what is missed of a kink falls with the square of
-// that. The next ones are as long as their light allows.
-HWY_INLINE Number longest_piece(const TileLight& light, Number bend) {
-    const Number least(1.0f / 8);
-    const Number share = Number(light.most_bend) / max(bend, Number(1e-30f));
-    return max(min(hn::Sqrt(share.v), Number(1)), least);
-}
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

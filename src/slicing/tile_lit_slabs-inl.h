@@ -17,20 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// The unit vector to the eye along each ray, along the grid's axes.
-struct EyeLanes {
-    Number to_eye[3];
-};
-
-HWY_INLINE EyeLanes eye_of(const TileLight& light, const PacketRays& rays) {
-    EyeLanes eye;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Number step = Number(rays.direction_float[axis]) * Number(light.spacing[axis]);
-        eye.to_eye[axis] = Number(0) - step / Number(rays.length_float);
-    }
-    return eye;
-}
-
 // Fetches the gradients ahead, of one pixel in each row and column.
 HWY_INLINE void prefetch_gradients(const TileBrick& brick, const std::int32_t* index) {
     for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); lane += TileGrid::block + 1) {

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "executors/tile_light.h"
+#include "executors/tile_number-inl.h"
 #include "executors/tile_vectors-inl.h"
 #include "slicing/slab_mask.h"
 #include "slicing/tile_bounds.h"
@@ -38,6 +40,20 @@ struct PacketRays {
     Floats direction_float[3], length_float;
     int first_slab, end_slab;  // slabs that may show something; first >= end where there are none
 };
+
+// The unit vector to the eye along each ray, along the grid's axes.
+struct EyeLanes {
+    Number to_eye[3];
+};
+
+HWY_INLINE EyeLanes eye_of(const TileLight& light, const PacketRays& rays) {
+    EyeLanes eye;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Number step = Number(rays.direction_float[axis]) * Number(light.spacing[axis]);
+        eye.to_eye[axis] = Number(0) - step / Number(rays.length_float);
+    }
+    return eye;
+}
 
 // A direction to divide by: a ray that runs along a plane never crosses it.
 HWY_INLINE HalfDoubles crossing_direction(HalfDoubles direction) {

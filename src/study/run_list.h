@@ -75,6 +75,9 @@ TraceOf reference_of(const Scene& scene, const StudyFile& file);
 // these are run. Returns the data that the runs draw, each once.
 std::vector<StudyData> check_runs(const RunList& list, const StudyFile& file);
 
+// Adds the data to the list, with the hashes of their contents (contents_of()).
+void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list);
+
 // Compares the data of two lists of one study. Throws Error where both lists know the contents of
 // data and they differ. Contents that only one list knows are added to `list`. `list_of`,
 // `other_of`: where the lists come from, for the message.

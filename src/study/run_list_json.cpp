@@ -31,6 +31,11 @@ nlohmann::ordered_json settings_json(const Settings& settings) {
     return json;
 }
 
+void list_data(const std::vector<StudyData>& data, DataStore& store, RunList& list) {
+    const std::vector<std::string> contents = contents_of(data, store);
+    for (std::size_t i = 0; i < data.size(); ++i) list.data.push_back({data[i].name, contents[i]});
+}
+
 void match_data(RunList& list, const std::string& list_of, const RunList& other,
                 const std::string& other_of) {
     if (list.data.size() != other.data.size()) {

@@ -15,6 +15,7 @@ namespace lamina {
 namespace {
 
 using reference_test::directional;
+using reference_test::lightings;
 using reference_test::lit_by_one_gradient;
 
 double waves(const glm::dvec3& p) {
@@ -37,17 +38,6 @@ Scene lit_scene(double extinction, const Lighting& lighting, int width = 60, int
     scene.lighting = lighting;
     if (!scene.lighting->smallest_gradient) scene.lighting->smallest_gradient = .05;
     return scene;
-}
-
-std::vector<Lighting> lightings() {
-    Lighting shiny = directional();
-    shiny.power = 64;
-    Lighting odd;
-    odd.power = 7.5;
-    odd.lights.push_back({glm::dvec3(1, .2, .3), {.2, .4, .6}});
-    Lighting matt;
-    matt.specular = 0;
-    return {Lighting{}, shiny, odd, matt};
 }
 
 double linf(const Image& a, const Image& b) {

@@ -2,6 +2,8 @@
 // Lightings for the tests of the reference tracers.
 #pragma once
 
+#include <vector>
+
 #include "fixtures.h"
 #include "lamina/lighting.h"
 
@@ -44,6 +46,18 @@ inline Lighting directional() {
     lighting.smallest_gradient = .5;
     lighting.lights = {{glm::dvec3(1, 2, -.5), {1, .5, .25}}, {glm::dvec3(-3, .1, 1), {0, .5, 1}}};
     return lighting;
+}
+
+// With highlights wide and narrow, of whole and of odd powers, with headlights and without.
+inline std::vector<Lighting> lightings() {
+    Lighting shiny = directional();
+    shiny.power = 64;
+    Lighting odd;
+    odd.power = 7.5;
+    odd.lights.push_back({glm::dvec3(1, .2, .3), {.2, .4, .6}});
+    Lighting matt;
+    matt.specular = 0;
+    return {Lighting{}, shiny, odd, matt};
 }
 
 // What one gradient makes of an unlit pixel's colour and opacity, seen in direction `forward`: the

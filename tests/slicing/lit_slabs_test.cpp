@@ -15,6 +15,7 @@ namespace lamina {
 namespace {
 
 using reference_test::directional;
+using reference_test::lightings;
 using reference_test::lit_by_one_gradient;
 
 constexpr Classification both[] = {Classification::post, Classification::preintegrated};
@@ -67,17 +68,6 @@ Scene lit_scene(Classification classification, const Lighting& lighting) {
     scene.lighting = lighting;
     if (!scene.lighting->smallest_gradient) scene.lighting->smallest_gradient = .2;
     return scene;
-}
-
-std::vector<Lighting> lightings() {
-    Lighting shiny = directional();
-    shiny.power = 64;
-    Lighting odd;
-    odd.power = 7.5;
-    odd.lights.push_back({glm::dvec3(1, .2, .3), {.2, .4, .6}});
-    Lighting matt;
-    matt.specular = 0;
-    return {Lighting{}, shiny, odd, matt};
 }
 
 // The slabs are so thin that what they miss, of second order, is .01 of what a few voxels miss.

@@ -16,6 +16,7 @@ namespace lamina {
 namespace {
 
 using reference_test::directional;
+using reference_test::lightings;
 using reference_test::lit_by_one_gradient;
 
 // Sums of a few hundred roundings of float32 at full scale, and those of gradients, 2^-15 of each
@@ -80,17 +81,6 @@ Image traced(const Volume& volume, const Scene& scene) {
                                  View(scene.camera, scene.width, scene.height),
                                  {1e-6, scene.lighting})
                         .image);
-}
-
-std::vector<Lighting> lightings() {
-    Lighting shiny = directional();
-    shiny.power = 64;
-    Lighting odd;
-    odd.power = 7.5;
-    odd.lights.push_back({glm::dvec3(1, .2, .3), {.2, .4, .6}});
-    Lighting matt;
-    matt.specular = 0;
-    return {Lighting{}, shiny, odd, matt};
 }
 
 class LitTest : public EngineTest {

@@ -118,12 +118,6 @@ nlohmann::ordered_json begin_record() {
     return {{"begin", begin}};
 }
 
-void read_data(const std::vector<study::StudyData>& data, study::DataStore& store,
-               study::RunList& list) {
-    const std::vector<std::string> contents = study::contents_of(data, store);
-    for (std::size_t i = 0; i < data.size(); ++i) list.data.push_back({data[i].name, contents[i]});
-}
-
 void run_study(const StudyOptions& options) {
     const study::Shard shard = options.shard ? read_shard(*options.shard) : study::Shard{};
     const study::StudyFile file = study::load_study(options.study);
@@ -138,7 +132,7 @@ void run_study(const StudyOptions& options) {
     const auto there = check_folder(list, folder, std::filesystem::exists(journal), options.resume);
     expect_own_folder(folder.path, "study", study::StudyFolder::names(), read, options.force);
     study::DataStore store;
-    read_data(data, store, list);
+    study::list_data(data, store, list);
     if (there) study::match_data(list, "now", *there, folder.run_list().string());
     folder.make();
     study::write_run_list(folder, list);
