@@ -156,7 +156,8 @@ void add_crosscheck(CLI::App& app, int&) {
         ->delimiter(',')
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
-                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu")
+        ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options, tolerances] {

@@ -143,7 +143,8 @@ void add_render(CLI::App& app, int&) {
         ->required();
     add_output_options(*verb, options->output);
     verb->add_option("--method", options->scene.method,
-                     "slice, project or trace; as --set render.method=...");
+                     "slice, project or trace; as --set render.method=...")
+        ->option_text("slice|project|trace");
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene, as in render.slice.samples=512")
         ->option_text("KEY=VALUE")
@@ -161,10 +162,11 @@ void add_render(CLI::App& app, int&) {
     verb->add_flag("--no-omit{all}", options->kept,
                    "Leave out nothing, or with =NAME keep one thing in");
     verb->add_option(
-        "--context", options->context,
-        "What draws: auto (a GPU, else cpu), osmesa or egl (OpenGL), cpu (the native engine; "
-        "LAMINA_INSTRUCTIONS=SSE4, AVX2, AVX3 or NEON keeps it to these instructions, and it "
-        "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)");
+            "--context", options->context,
+            "What draws: auto (a GPU, else cpu), osmesa or egl (OpenGL), cpu (the native engine; "
+            "LAMINA_INSTRUCTIONS=SSE4, AVX2, AVX3 or NEON keeps it to these instructions, and it "
+            "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)")
+        ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         if (options->output.output.empty() && !options->explain) {

@@ -78,14 +78,17 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
     verb.add_option("-o,--output", options.output,
                     "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe")
         ->option_text("FILE");
-    verb.add_option("--format", options.format, "With -o -: png, exr or npy")->option_text("NAME");
+    verb.add_option("--format", options.format, "With -o -: png, exr or npy")
+        ->option_text("png|exr|npy");
     verb.add_option("--frames", options.frames,
                     "Time this many frames, the camera turning a little")
-        ->check(CLI::Range(1, most_frames));
+        ->check(CLI::Range(1, most_frames))
+        ->option_text("N");
     verb.add_option("--turntable", options.views,
                     "Write this many views around the camera's centre, from -o out_%04d.png; views "
                     "that are there from an earlier run of the same scene are kept")
-        ->check(CLI::Range(1, most_views));
+        ->check(CLI::Range(1, most_views))
+        ->option_text("N");
     verb.add_flag("--force", options.force,
                   "With --turntable: draw views that are there, too, and replace files that it did "
                   "not write, but never one that it reads");

@@ -181,7 +181,8 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
         ->required();
     verb->add_option("--context", options->context,
-                     "auto, osmesa, egl, or, of kraus, cpu (the native engine)");
+                     "auto, osmesa, egl, or, of kraus, cpu (the native engine)")
+        ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "no progress");
     verb->callback([options] { run(*options); });

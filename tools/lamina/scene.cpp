@@ -56,7 +56,8 @@ void add_scene(CLI::App& app, int&) {
         ->option_text("FILE")
         ->required();
     verb->add_option("--method", options->scene.method,
-                     "slice, project or trace; as --set render.method=...");
+                     "slice, project or trace; as --set render.method=...")
+        ->option_text("slice|project|trace");
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene, as in render.slice.samples=512")
         ->option_text("KEY=VALUE")

@@ -81,7 +81,8 @@ void add_selftest(CLI::App& app, int& exit_code) {
             "metamorphic")
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
-                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu");
+                     "What draws: auto (a GPU, else cpu), osmesa, egl, cpu")
+        ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "The summary alone, and no progress on stderr");
     verb->callback([options, &exit_code] {

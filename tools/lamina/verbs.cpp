@@ -16,6 +16,8 @@ void add_verbs(CLI::App& app, int& exit_code) {
     add_study(app, exit_code);
     add_crosscheck(app, exit_code);
     add_selftest(app, exit_code);
+    add_completion(app, exit_code);
+    add_man(app, exit_code);
 }
 
 }  // namespace lamina

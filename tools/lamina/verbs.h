@@ -22,5 +22,7 @@ void add_reproduce(CLI::App& app, int& exit_code);
 void add_study(CLI::App& app, int& exit_code);
 void add_crosscheck(CLI::App& app, int& exit_code);
 void add_selftest(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
+void add_man(CLI::App& app, int& exit_code);
 
 }  // namespace lamina

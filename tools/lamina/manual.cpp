@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+
+#include "base/error.h"
+#include "base/shortened.h"
+#include "base/standard_streams.h"
+#include "manual_page.h"
+#include "verbs.h"
+
+namespace lamina {
+namespace {
+
+const CommandDescription& find(const CommandDescription& program, const std::string& verb) {
+    if (verb.empty()) return program;
+    const auto found = std::find_if(
+        program.verbs.begin(), program.verbs.end(),
+        [&](const CommandDescription& v) { return v.name == program.name + " " + verb; });
+    if (found == program.verbs.end())
+        throw UsageError(
+            fmt::format("man {}: unknown verb (lamina --help lists them)", shortened(verb)));
+    return *found;
+}
+
+}  // namespace
+
+void add_man(CLI::App& app, int&) {
+    const auto name = std::make_shared<std::string>();
+    CLI::App* const verb =
+        app.add_subcommand("man", "Print the manual page of the program, or of a verb");
+    verb->add_option("VERB", *name, "The verb; without one the page of lamina itself");
+    verb->footer("To read it: lamina man render | man -l -");
+    verb->callback([&app, name] {
+        write_result(manual_page(find(describe(app), *name), "lamina " LAMINA_VERSION));
+    });
+}
+
+}  // namespace lamina
