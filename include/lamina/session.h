@@ -15,6 +15,7 @@
 #include "lamina/mesh_data.h"
 #include "lamina/plan_summary.h"
 #include "lamina/scene.h"
+#include "lamina/value_histogram.h"
 #include "lamina/volume.h"
 
 namespace lamina {
@@ -95,6 +96,11 @@ class LAMINA_API Session {
     // The truth: the same view by the reference tracer, in double precision, to
     // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
     const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
+
+    // Of the values of the data that the scene draws, over their finite range in at most `bins`
+    // (>= 1) intervals; of whole numbers each interval has equally many, in its middle. Large data
+    // are counted in part: 2^21 samples of float32, evenly chosen. They are counted once.
+    ValueHistogram histogram(int bins);
 
     const FrameStatistics& statistics() const;        // of the last picture that was drawn
     const FrameStatistics& trace_statistics() const;  // of the last one that was traced

@@ -167,6 +167,12 @@ const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback&
     return parts_->truth;
 }
 
+ValueHistogram Session::histogram(int bins) {
+    ValueHistogram found;
+    parts_->run([&] { found = parts_->histogram(bins); });
+    return found;
+}
+
 const FrameStatistics& Session::statistics() const {
     return parts_->statistics;
 }
