@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels/panel.h"
+#include "panels/picture_panel.h"
+
+namespace lamina::view {
+
+std::vector<std::unique_ptr<Panel>> make_panels() {
+    std::vector<std::unique_ptr<Panel>> panels;
+    panels.push_back(std::make_unique<PicturePanel>());
+    return panels;
+}
+
+}  // namespace lamina::view
