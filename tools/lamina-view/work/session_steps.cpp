@@ -62,6 +62,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     session_ = std::move(session);
     applied_ = request_.revisions;
     shown_.loaded = applied_.data;
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(512));
     publish_chosen();
     next_ = Next::full;
 }

@@ -8,9 +8,11 @@
 
 #include "lamina/error_norms.h"
 #include "lamina/frame_statistics.h"
+#include "lamina/grid.h"
 #include "lamina/image.h"
 #include "lamina/plan_summary.h"
 #include "lamina/scene.h"
+#include "lamina/value_histogram.h"
 #include "model/revisions.h"
 
 namespace lamina::view {
@@ -49,6 +51,9 @@ struct Shown {
     // where it leaves them open.
     std::shared_ptr<const Scene> chosen;
     Revisions chosen_of;
+
+    std::shared_ptr<const ValueHistogram> histogram;  // null: not counted yet
+    Grid::Bounds bounds;                              // of the data, world
 
     std::string activity;  // what is being done; empty: nothing
     double share_done = 0;
