@@ -6,6 +6,7 @@
 #include "lamina/camera_choice.h"
 #include "lamina/clip.h"
 #include "lamina/color.h"
+#include "lamina/colormap.h"
 #include "lamina/context_choice.h"
 #include "lamina/data_files.h"
 #include "lamina/error.h"
@@ -25,4 +26,5 @@
 #include "lamina/session.h"
 #include "lamina/study.h"
 #include "lamina/transfer_function.h"
+#include "lamina/value_histogram.h"
 #include "lamina/volume.h"

@@ -17,6 +17,7 @@
 #include "lamina/plan_summary.h"
 #include "lamina/point_probe.h"
 #include "lamina/scene.h"
+#include "lamina/value_histogram.h"
 #include "lamina/volume.h"
 
 namespace lamina {
@@ -107,6 +108,11 @@ class LAMINA_API Session {
     Grid::Bounds bounds();  // of the data that are drawn, world
     // Finds what is seen in the picture of the scene as it is now.
     PointProbe probe();
+
+    // Of the values of the data that the scene draws, over their finite range in at most `bins`
+    // (>= 1) intervals; of whole numbers each interval has equally many, in its middle. Large data
+    // are counted in part: 2^21 samples of float32, evenly chosen. They are counted once.
+    ValueHistogram histogram(int bins);
 
     const FrameStatistics& statistics() const;        // of the last picture that was drawn
     const FrameStatistics& trace_statistics() const;  // of the last one that was traced

@@ -197,6 +197,12 @@ PointProbe Session::probe() {
     return PointProbe(std::move(probe));
 }
 
+ValueHistogram Session::histogram(int bins) {
+    ValueHistogram found;
+    parts_->run([&] { found = parts_->histogram(bins); });
+    return found;
+}
+
 const FrameStatistics& Session::statistics() const {
     return parts_->statistics;
 }

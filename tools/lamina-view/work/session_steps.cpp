@@ -116,6 +116,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     coarse_size_ = CoarseSize(moving_target_ms);
     shown_.loaded = applied_.data;
     shown_.bounds = session_->bounds();
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(512));
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
     shown_.chosen_of = applied_;
     shown_.resolved.reset();

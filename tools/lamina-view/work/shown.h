@@ -15,6 +15,7 @@
 #include "lamina/plan_summary.h"
 #include "lamina/point_probe.h"
 #include "lamina/scene.h"
+#include "lamina/value_histogram.h"
 #include "model/revisions.h"
 
 namespace lamina::view {
@@ -54,7 +55,8 @@ struct Shown {
 
     // The data: of Revisions::data `loaded` (0: none yet).
     std::uint64_t loaded = 0;
-    Grid::Bounds bounds;
+    Grid::Bounds bounds;  // of the data, world
+    std::shared_ptr<const ValueHistogram> histogram;  // null: not counted yet
     // The scene of the request `chosen_of`, with transfer function and camera as they were chosen
     // where it leaves them open.
     std::shared_ptr<const Scene> chosen;
