@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 #include "lamina/scene.h"
 #include "model/revisions.h"
@@ -15,7 +16,9 @@ struct DrawRequest {
     bool moving = false;  // something is being dragged: a coarse picture serves
     bool coarse = true;   // whether it may get one
     bool trace = true;    // whether the tracer replaces the picture at rest
-    std::chrono::steady_clock::time_point asked_at = {};  // for measurements
+    std::uint64_t number = 0;
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point asked_at = {};  // of the input, for measurements
 };
 
 }  // namespace lamina::view

@@ -90,7 +90,7 @@ void SessionSteps::fail(const std::string& message) {
     next_ = Next::nothing;
     shown_.activity.clear();
     shown_.failure = message;
-    shown_.failed = request_.revisions;
+    shown_.failed_request = request_.number;
     publish_(shown_);
 }
 
@@ -186,6 +186,7 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     session_->draw(*picture, stop, progress());
     shown_.full = picture;
     shown_.full_revisions = request_.revisions;
+    shown_.bounds = session_->bounds();
     tell_plan();
     show(PictureKind::full, *picture);
     full_screen_ = shown_.screen;

@@ -55,7 +55,7 @@ struct Shown {
 
     // The data: of Revisions::data `loaded` (0: none yet).
     std::uint64_t loaded = 0;
-    Grid::Bounds bounds;  // of the data, world
+    Grid::Bounds bounds;                              // of the data, world
     std::shared_ptr<const ValueHistogram> histogram;  // null: not counted yet
     // The scene of the request `chosen_of`, with transfer function and camera as they were chosen
     // where it leaves them open.
@@ -65,9 +65,9 @@ struct Shown {
     std::string activity;  // what is being done; empty: nothing
     double share_done = 0;
     std::vector<std::string> warnings;
-    // Why the last request has no picture; empty where it has. `failed`: of the request.
+    // Why a request has no picture; empty where the last one has.
     std::string failure;
-    Revisions failed;
+    std::uint64_t failed_request = 0;  // DrawRequest::number
 };
 
 }  // namespace lamina::view
