@@ -114,7 +114,7 @@ void Viewer::take_keys() {
 void Viewer::draw_picture(float width, float height, float pixels) {
     if (!uploaded_) return;
     // One pixel of the picture is one of the screen, unless it is coarse or does not fit.
-    const bool coarse = shown_->kind == PictureKind::coarse;
+    const bool coarse = shown_->kind == PictureKind::moving;
     const float across = static_cast<float>(coarse ? document_.scene().width : texture_.width());
     const float down = static_cast<float>(coarse ? document_.scene().height : texture_.height());
     const float scale = std::min({1 / pixels, width / across, height / down});

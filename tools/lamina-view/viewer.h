@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "input_event.h"
 #include "model/document.h"
+#include "model/input_event.h"
 #include "panels/panel.h"
 #include "picture_texture.h"
 #include "work/draw_worker.h"

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "input_event.h"
+#include "model/input_event.h"
 #include "lamina/error.h"
 #include "panels/theme.h"
 #include "viewer.h"
