@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 // Of the 50 ms from input to picture, the window needs the rest.
 constexpr double moving_target_ms = 35;
 constexpr double tile_publish_ms = 100;
+constexpr int histogram_bins = 512;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -116,7 +117,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     coarse_size_ = CoarseSize(moving_target_ms);
     shown_.loaded = applied_.data;
     shown_.bounds = session_->bounds();
-    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(512));
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(histogram_bins));
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
     shown_.chosen_of = applied_;
     shown_.resolved.reset();
@@ -184,6 +185,8 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     }
     auto picture = std::make_shared<Image>();
     session_->draw(*picture, stop, progress());
+    // Another method may draw other data.
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(histogram_bins));
     shown_.full = picture;
     shown_.full_revisions = request_.revisions;
     shown_.bounds = session_->bounds();
