@@ -23,6 +23,8 @@ namespace lamina::view {
 // not about keep their numbers, bit for bit.
 class TransferEditor {
   public:
+    TransferEditor();
+
     using Curve = TransferHandle::Curve;
 
     const TransferCurves& curves() const { return curves_; }
@@ -92,7 +94,7 @@ class TransferEditor {
     std::set<TransferHandle> moving_points() const;
 
     TransferCurves curves_;
-    TransferFunction function_ = TransferCurves{}.function();
+    TransferFunction function_;
     double unit_length_ = 1;
     std::set<TransferHandle> selection_;
     std::optional<TransferCurves> start_;
