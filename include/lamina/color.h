@@ -18,5 +18,9 @@ LAMINA_API glm::dvec3 color_of(const std::string& text,
 // The same for three display values 0..1.
 LAMINA_API glm::dvec3 color_of_display(const glm::dvec3& display,
                                        ImageColorSpace space = ImageColorSpace::linear);
+// The display values of a colour of `space`: color_of_display() gives it back, up to rounding.
+// Components beyond 1 are shown as 1.
+LAMINA_API glm::dvec3 display_of_color(const glm::dvec3& color,
+                                       ImageColorSpace space = ImageColorSpace::linear);
 
 }  // namespace lamina

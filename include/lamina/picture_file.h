@@ -3,9 +3,11 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "lamina/export.h"
 #include "lamina/image.h"
@@ -32,5 +34,9 @@ LAMINA_API void save_picture(const PreciseImage& picture, const std::filesystem:
 LAMINA_API std::string picture_png(const Image& picture,
                                    const glm::dvec3& background = glm::dvec3(0),
                                    ImageColorSpace space = ImageColorSpace::linear);
+// The codes of its pixels, red, green and blue, row 0 on top: for a screen.
+LAMINA_API std::vector<std::uint8_t> screen_codes(const Image& picture,
+                                                  const glm::dvec3& background = glm::dvec3(0),
+                                                  ImageColorSpace space = ImageColorSpace::linear);
 
 }  // namespace lamina

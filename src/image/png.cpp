@@ -145,6 +145,12 @@ std::string encode_png(const Image& image, const glm::dvec3& background, ImageCo
     return encode_png(display_picture("picture", image, background, space).codes);
 }
 
+std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
+                                    ImageColorSpace space) {
+    const DisplayPicture shown = display_picture("picture", image, background, space);
+    return {shown.codes.codes.begin(), shown.codes.codes.end()};
+}
+
 void write_png(OutputFile& file, const CodedImage& image) {
     const std::string name = file.path().string();
     check_image_size(name, image.width, image.height);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "base/output_file.h"
 #include "image/coded_image.h"
@@ -28,6 +30,10 @@ void write_png(OutputFile& file, const CodedImage& image);
 // writes of a picture.
 std::string encode_png(const CodedImage& image);
 std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
+
+// The codes alone: red, green and blue, row 0 on top.
+std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
+                                    ImageColorSpace space);
 
 // Reads a PNG file. Palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
 // transparent colour becomes an alpha channel. Other codes are as stored. Throws Error for damaged

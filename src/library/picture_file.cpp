@@ -34,4 +34,9 @@ std::string picture_png(const Image& picture, const glm::dvec3& background, Imag
     return encode_png(picture, background, space);
 }
 
+std::vector<std::uint8_t> screen_codes(const Image& picture, const glm::dvec3& background,
+                                       ImageColorSpace space) {
+    return png_codes(picture, background, space);
+}
+
 }  // namespace lamina

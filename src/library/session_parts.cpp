@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/unreachable.h"
+#include "choice/binned_values.h"
 #include "choice/choose.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
@@ -80,11 +81,29 @@ Scene Session::Parts::chosen() {
     return choose(asked, MeshField(mesh_data()));
 }
 
-void Session::Parts::warn_of(const Image& drawn_picture) {
+template <typename Work>
+void Session::Parts::with_field(const Work& work) {
     if (scene.draws_mesh())
-        warn_of_picture(scene, MeshField(mesh_data()), drawn_picture);
+        work(MeshField(mesh_data()));
     else
-        warn_of_picture(scene, VolumeField(volume_data().volume, volume->bricks), drawn_picture);
+        work(VolumeField(volume_data().volume, volume->bricks));
+}
+
+ValueHistogram Session::Parts::histogram(int bins) {
+    if (bins < 1) fail("histogram: found {} intervals, expected 1 or more", bins);
+    ValueHistogram found;
+    with_field([&](const Field& field) {
+        const std::shared_ptr<const void> drawn_data =
+            scene.draws_mesh() ? std::shared_ptr<const void>(mesh) : volume;
+        if (counted.lock() != drawn_data) counts = field.distribution();
+        counted = drawn_data;
+        found = binned(counts, field.range(), field.whole_numbers(), bins);
+    });
+    return found;
+}
+
+void Session::Parts::warn_of(const Image& drawn_picture) {
+    with_field([&](const Field& field) { warn_of_picture(scene, field, drawn_picture); });
 }
 
 SceneRenderer& Session::Parts::renderer() {
@@ -118,7 +137,7 @@ void Session::Parts::draw(Image& into) {
     warn_of(into);
 }
 
-void Session::Parts::trace() {
+void Session::Parts::trace(const TileCallback& tile_done) {
     trace_statistics = {};
     trace_statistics.drawn_by = "reference tracer";
     const auto keep = [&](auto traced) {
@@ -126,9 +145,9 @@ void Session::Parts::trace() {
         trace_statistics.trace_error = 255 * traced.error_estimate;
     };
     if (scene.draws_mesh())
-        keep(lamina::trace(scene, mesh_data()));
+        keep(lamina::trace(scene, mesh_data(), tile_done));
     else
-        keep(lamina::trace(scene, volume_data().volume));
+        keep(lamina::trace(scene, volume_data().volume, tile_done));
     warn_of(to_float(truth));
 }
 

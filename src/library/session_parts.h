@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/client.h"
+#include "choice/field.h"
 #include "lamina/session.h"
 #include "render/draw_context.h"
 #include "render/scene_renderer.h"
@@ -52,10 +53,14 @@ struct Session::Parts {
     const SceneMesh& mesh_data();
     SceneRenderer& renderer();  // of Method::slice or project
     void draw(Image& into);
-    void trace();
+    void trace(const TileCallback& tile_done);
 
     // The scene that was asked for, with what it leaves open chosen from the data that it draws.
     Scene chosen();
+    // Calls work(const Field&) with the data that the scene draws.
+    template <typename Work>
+    void with_field(const Work& work);
+    ValueHistogram histogram(int bins);
     // Warns of what `picture` lacks.
     void warn_of(const Image& picture);
 
@@ -74,6 +79,9 @@ struct Session::Parts {
     std::shared_ptr<const SceneMesh> mesh;
     bool mesh_given = false;
     std::unique_ptr<SceneRenderer> drawn;
+    // Of the data that the histogram was last asked of.
+    std::weak_ptr<const void> counted;
+    ValueDistribution counts;
     Image picture;
     PreciseImage truth;
     FrameStatistics statistics, trace_statistics;

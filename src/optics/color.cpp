@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/color.h"
 
+#include <glm/common.hpp>
+
 #include <cctype>
 #include <cstddef>
 #include <optional>
@@ -9,6 +11,7 @@
 #include "base/error.h"
 #include "base/shortened.h"
 #include "base/suggestion.h"
+#include "image/srgb.h"
 #include "optics/color_space.h"
 #include "optics/css_colors.h"
 
@@ -34,6 +37,14 @@ std::optional<std::uint32_t> code_of_hex(const std::string& text) {
 
 glm::dvec3 color_of_display(const glm::dvec3& display, ImageColorSpace space) {
     return space == ImageColorSpace::display ? display : linear_from_srgb(display);
+}
+
+glm::dvec3 display_of_color(const glm::dvec3& color, ImageColorSpace space) {
+    glm::dvec3 display = glm::clamp(color, 0.0, 1.0);
+    if (space == ImageColorSpace::linear) {
+        for (int c = 0; c < 3; ++c) display[c] = srgb_from_linear(display[c]);
+    }
+    return display;
 }
 
 glm::dvec3 color_of(const std::string& text, ImageColorSpace space) {

@@ -8,35 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "lamina/colormap.h"
 #include "lamina/image_color_space.h"
 #include "lamina/transfer_function.h"
 #include "optics/given_points.h"
 
 namespace lamina {
 
-struct ColorPoint {
-    double value = 0;
-    glm::dvec3 color{0};
-};
-
-struct OpacityPoint {
-    double value = 0;
-    double opacity = 0;  // 0..1, over a unit length
-};
-
 struct ExtinctionPoint {
     double value = 0;
     double extinction = 0;  // per world unit
     bool smooth = false;    // as in TransferKnot
-};
-
-// Piecewise linear functions of the scalar, constant outside their points; two points at one value
-// make a step.
-struct Colormap {
-    std::vector<ColorPoint> colors;       // at least one
-    std::vector<OpacityPoint> opacities;  // empty where the file has no opacity function
-    // Whether its values are data values (a preset in HU), not to be stretched over other data.
-    bool own_range = true;
 };
 
 // Reads a ParaView preset, which is a JSON object or an array whose first element is used. Known

@@ -11,6 +11,7 @@
 #include "base/json_text.h"
 #include "base/shortened.h"
 #include "base/suggestion.h"
+#include "optics/colormap.h"
 #include "optics/embedded_colormaps.h"
 
 namespace lamina {

@@ -30,6 +30,22 @@ TEST(Color, IsDecodedForLinearLight) {
     EXPECT_EQ(color_of_display({1, 0, 5 / 255.0}).b, orange.b);
 }
 
+// pow() to the 2.4 multiplies what 1 / 2.4 rounded by 2.4; the numbers are up to 1.
+TEST(Color, DisplayValuesComeBack) {
+    for (int code = 0; code <= 255; ++code) {
+        const glm::dvec3 display(code / 255.0, 1 - code / 255.0, .5);
+        for (const ImageColorSpace space : {ImageColorSpace::linear, ImageColorSpace::display}) {
+            const glm::dvec3 back = display_of_color(color_of_display(display, space), space);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(back[c], display[c], 2e-15) << code;
+        }
+    }
+    const glm::dvec3 bright = display_of_color({0, 1, 7});
+    EXPECT_EQ(bright.r, 0);
+    EXPECT_NEAR(bright.g, 1, 2.3e-16);  // 1.055 - .055
+    EXPECT_EQ(bright.b, bright.g);
+    EXPECT_EQ(display_of_color({.25, 2, 0}, ImageColorSpace::display), glm::dvec3(.25, 1, 0));
+}
+
 TEST(Color, NamesAreThoseOfCss) {
     const auto colors = css_colors();
     EXPECT_EQ(colors.size(), 148u);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <string>
+#include <vector>
+
+#include "lamina/export.h"
+#include "lamina/image_color_space.h"
+
+namespace lamina {
+
+struct ColorPoint {
+    double value = 0;
+    glm::dvec3 color{0};
+};
+
+struct OpacityPoint {
+    double value = 0;
+    double opacity = 0;  // 0..1, over a unit length
+};
+
+// Piecewise linear functions of the scalar, constant outside their points; two points at one value
+// make a step.
+struct Colormap {
+    std::vector<ColorPoint> colors;       // at least one
+    std::vector<OpacityPoint> opacities;  // empty where the file has no opacity function
+    // Whether its values are data values (a preset in HU), not to be stretched over other data.
+    bool own_range = true;
+};
+
+// The names of the colour maps that lamina has with it (docs/scene.md), in order of name.
+LAMINA_API std::vector<std::string> colormap_names();
+
+// The shipped map of this name, or else the ParaView preset (JSON) of this path, whose colours are
+// converted to the numbers of `space`; lines between its points follow the map within 5e-4. Throws
+// Error: with the nearest name where there is neither.
+LAMINA_API Colormap load_colormap(const std::string& name_or_path,
+                                  ImageColorSpace space = ImageColorSpace::linear);
+
+}  // namespace lamina

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lamina/scene.h"
+
+namespace lamina::view {
+
+// Why a key changes nothing in this scene ("counts with the target emulated"); empty where it may.
+// `path` is that of a SettingNode.
+std::string why_without_effect(const Scene& scene, std::string_view path);
+
+}  // namespace lamina::view

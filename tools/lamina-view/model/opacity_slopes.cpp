@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/opacity_slopes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace lamina::view {
+namespace {
+
+constexpr double opaque_depth = 1e7, steepest_depth = 17;  // over a length
+// Pieces are this far from the curve at most, of its own value; twice that, for the curve is
+// fitted.
+constexpr double pieces_tolerance = 2 * 7.8e-4;
+
+// The extinction on a slope, at a share of the way from a to b.
+double on_slope(const ExtinctionKnot& a, const ExtinctionKnot& b, double share, double length) {
+    const double opacity =
+        (1 - share) * opacity_of(a.extinction, length) + share * opacity_of(b.extinction, length);
+    return extinction_of(opacity, length);
+}
+
+// The largest distance of the points inside from a slope, of its own value.
+double misfit(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
+              const ExtinctionKnot& b, double length) {
+    double worst = 0;
+    for (const ExtinctionKnot& point : inside) {
+        const double share = (point.value - a.value) / (b.value - a.value);
+        const double wanted = on_slope(a, b, share, length);
+        worst = std::max(worst, std::abs(point.extinction - wanted) / wanted);
+    }
+    return worst;
+}
+
+// The length that fits best, by golden section over its logarithm: the longer, the more a slope
+// sags between its ends.
+double best_length(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
+                   const ExtinctionKnot& b) {
+    constexpr double golden = .6180339887498949;
+    const double densest = std::max(a.extinction, b.extinction);
+    double from = std::log(1e-2 / densest), to = std::log(steepest_depth / densest);
+    const auto at = [&](double log) { return misfit(a, inside, b, std::exp(log)); };
+    double lower = to - golden * (to - from), upper = from + golden * (to - from);
+    double at_lower = at(lower), at_upper = at(upper);
+    while (to - from > 1e-6) {
+        if (at_lower < at_upper) {
+            to = upper;
+            upper = lower;
+            at_upper = at_lower;
+            lower = to - golden * (to - from);
+            at_lower = at(lower);
+        } else {
+            from = lower;
+            lower = upper;
+            at_lower = at_upper;
+            upper = from + golden * (to - from);
+            at_upper = at(upper);
+        }
+    }
+    return std::exp((from + to) / 2);
+}
+
+// 0: they follow no opacity.
+double length_of(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
+                 const ExtinctionKnot& b, double unit_length) {
+    if (a.extinction == b.extinction || !(a.value < b.value)) return 0;
+    if (misfit(a, inside, b, unit_length) <= pieces_tolerance) return unit_length;
+    const double length = best_length(a, inside, b);
+    return misfit(a, inside, b, length) <= pieces_tolerance ? length : 0;
+}
+
+}  // namespace
+
+double opacity_of(double extinction, double length) {
+    return -std::expm1(-extinction * length);
+}
+
+double extinction_of(double opacity, double length) {
+    return (opacity < 1 ? -std::log1p(-opacity) : opaque_depth) / length;
+}
+
+std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoint& b) {
+    std::vector<ExtinctionKnot> inside;
+    if (!(a.value < b.value)) return inside;
+    const double length = a.opacity_length;
+    const auto slope = TransferFunction::linear_opacity(
+        {{a.value, glm::dvec3(1), opacity_of(a.extinction, length)},
+         {b.value, glm::dvec3(1), opacity_of(b.extinction, length)}},
+        length);
+    // Beside a slope opacity ends at the steepest depth: a denser end stands behind a step.
+    constexpr double rounding = 1 + 1e-12;
+    const auto denser = [&](double extinction) {
+        return extinction * length > steepest_depth * rounding;
+    };
+    for (const TransferKnot& knot : slope.knots()) {
+        const double extinction = knot.optics.extinction;
+        const bool at_a = knot.value == a.value, at_b = knot.value == b.value;
+        const bool is_end = (at_a && !denser(a.extinction)) || (at_b && !denser(b.extinction)) ||
+                            ((at_a || at_b) && denser(extinction));
+        if (!is_end) inside.push_back({knot.value, extinction, knot.smooth});
+    }
+    return inside;
+}
+
+std::vector<DensityPoint> with_slopes(const std::vector<ExtinctionKnot>& knots,
+                                      double unit_length) {
+    std::vector<DensityPoint> points;
+    for (std::size_t first = 0; first < knots.size(); ++first) {
+        const ExtinctionKnot& knot = knots[first];
+        points.push_back({knot.value, knot.extinction, knot.smooth, 0, {}});
+        std::size_t last = first + 1;
+        while (last + 1 < knots.size() && knots[last].smooth) ++last;
+        if (last >= knots.size() || last == first + 1) continue;
+        const std::span inside(knots.data() + first + 1, last - first - 1);
+        const double length = length_of(knot, inside, knots[last], unit_length);
+        if (length == 0) continue;
+        points.back().opacity_length = length;
+        points.back().inside.assign(inside.begin(), inside.end());
+        first = last - 1;
+    }
+    return points;
+}
+
+}  // namespace lamina::view

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lamina/image_color_space.h"
+#include "lamina/scene.h"
+
+namespace lamina::view {
+
+// What the scene's file has, every key written out. The transfer function, which is edited by
+// itself, stands there as "auto".
+nlohmann::ordered_json settings_of(const Scene& scene);
+
+// The scene with a key at another value, of those that settings_of() has. `path` has the numbers of
+// elements: "clip.planes.0.normal". null takes the key away. It is checked as scene files are:
+// throws Error.
+Scene with_setting(const Scene& scene, const std::string& path,
+                   const nlohmann::ordered_json& value);
+
+// The value at a path of settings_of(); null where nothing stands there.
+nlohmann::ordered_json setting_at(const nlohmann::ordered_json& settings, const std::string& path);
+
+// The same colour in the numbers of another space. Components above 1 stay what they are.
+glm::dvec3 converted_color(const glm::dvec3& color, ImageColorSpace from, ImageColorSpace to);
+
+}  // namespace lamina::view

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/transfer_curves.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "lamina/error.h"
+#include "model/opacity_slopes.h"
+
+namespace lamina::view {
+namespace {
+
+// The formulas of lamina's own colour maps, so that what it combined comes apart again.
+double mix_numbers(double a, double b, double share) {
+    return a * (1 - share) + b * share;
+}
+glm::dvec3 mix_numbers(const glm::dvec3& a, const glm::dvec3& b, double share) {
+    return glm::mix(a, b, share);
+}
+
+template <typename Number>
+Number between(double from, const Number& a, double to, const Number& b, double value) {
+    return mix_numbers(a, b, (value - from) / (to - from));
+}
+
+// The limits of a piecewise linear curve from below and from above.
+template <typename Point, typename Number>
+std::pair<Number, Number> sides(const std::vector<Point>& points, double value,
+                                Number Point::*number) {
+    const auto not_below = std::ranges::lower_bound(points, value, {}, &Point::value);
+    const auto above = std::ranges::upper_bound(points, value, {}, &Point::value);
+    if (not_below != above) return {(*not_below).*number, (*(above - 1)).*number};
+    if (above == points.begin()) return {points.front().*number, points.front().*number};
+    if (above == points.end()) return {points.back().*number, points.back().*number};
+    const Point &a = *(above - 1), &b = *above;
+    const Number there = between(a.value, a.*number, b.value, b.*number, value);
+    return {there, there};
+}
+
+// One or two knots at one value.
+struct Site {
+    TransferKnot below, above;
+};
+
+std::vector<Site> sites_of(const TransferFunction& function) {
+    std::vector<Site> sites;
+    for (const TransferKnot& knot : function.knots()) {
+        if (!sites.empty() && sites.back().below.value == knot.value)
+            sites.back().above = knot;
+        else
+            sites.push_back({knot, knot});
+    }
+    return sites;
+}
+
+bool near(double found, double wanted) {
+    return std::abs(found - wanted) <=
+           32 * std::numeric_limits<double>::epsilon() * std::abs(wanted);
+}
+bool near(const glm::dvec3& found, const glm::dvec3& wanted) {
+    return near(found.x, wanted.x) && near(found.y, wanted.y) && near(found.z, wanted.z);
+}
+
+// Which sites a curve needs: the others lie, bit for bit, on the lines between those. `get` reads
+// the curve's number from a knot, `may_go` says whether a site is of no other use.
+template <typename Get, typename MayGo>
+std::vector<char> needed_sites(const std::vector<Site>& sites, const Get& get,
+                               const MayGo& may_go) {
+    std::vector<char> needed(sites.size(), 1);
+    const auto line_goes = [&](std::size_t a, std::size_t b, std::size_t at, bool exactly) {
+        const auto there = between(sites[a].above.value, get(sites[a].above), sites[b].below.value,
+                                   get(sites[b].below), sites[at].below.value);
+        const auto wanted = get(sites[at].below);
+        return exactly ? there == wanted : near(there, wanted);
+    };
+    for (std::size_t a = 0; a + 2 < sites.size();) {
+        std::size_t best = a + 1;
+        for (std::size_t b = a + 2; b < sites.size() && may_go(sites[b - 1]); ++b) {
+            bool on_line = true, exactly = true;
+            for (std::size_t at = a + 1; at < b && on_line; ++at) {
+                on_line = line_goes(a, b, at, false);
+                exactly = exactly && line_goes(a, b, at, true);
+            }
+            if (!on_line) break;
+            if (exactly) best = b;
+        }
+        for (std::size_t at = a + 1; at < best; ++at) needed[at] = 0;
+        a = best;
+    }
+    return needed;
+}
+
+// Outside of its points a curve is constant, so sites at its ends that repeat the next are not
+// needed either.
+template <typename Get, typename MayGo>
+void drop_constant_ends(const std::vector<Site>& sites, std::vector<char>& needed, const Get& get,
+                        const MayGo& may_go) {
+    std::size_t first = 0, last = sites.size() - 1;
+    while (first < last && may_go(sites[first]) &&
+           get(sites[first].above) == get(sites[first + 1].below))
+        needed[first++] = 0;
+    needed[first] = 1;
+    while (last > first && may_go(sites[last]) &&
+           get(sites[last].below) == get(sites[last - 1].above))
+        needed[last--] = 0;
+    needed[last] = 1;
+}
+
+template <typename Get, typename MayGo>
+std::vector<char> needed_of(const std::vector<Site>& sites, const Get& get, const MayGo& may_go) {
+    std::vector<char> needed = needed_sites(sites, get, may_go);
+    drop_constant_ends(sites, needed, get, may_go);
+    return needed;
+}
+
+glm::dvec3 color_in(const TransferKnot& knot) {
+    return knot.optics.color;
+}
+double extinction_in(const TransferKnot& knot) {
+    return knot.optics.extinction;
+}
+
+// Throws Error unless points are in order, two at most at a value.
+template <typename Point>
+void check_order(const std::vector<Point>& points, const char* curve) {
+    if (points.empty()) throw Error(std::string(curve) + ": found no point, expected one or more");
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const bool falls = points[i].value < points[i - 1].value;
+        if (falls || (i > 1 && points[i].value == points[i - 2].value))
+            throw Error(std::string(curve) + ": point " + std::to_string(i) +
+                        (falls ? " is below the one before it" : " is the third at its value"));
+    }
+}
+
+std::vector<double> values_of(const std::vector<ExtinctionKnot>& knots,
+                              const std::vector<ColorPoint>& colors) {
+    std::vector<double> values;
+    for (const ExtinctionKnot& knot : knots) values.push_back(knot.value);
+    for (const ColorPoint& point : colors) values.push_back(point.value);
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+}
+
+}  // namespace
+
+bool TransferCurves::operator==(const TransferCurves& other) const {
+    return density == other.density && palette == other.palette &&
+           std::ranges::equal(colors, other.colors, [](const ColorPoint& a, const ColorPoint& b) {
+               return a.value == b.value && a.color == b.color;
+           });
+}
+
+std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
+    std::vector<ExtinctionKnot> knots;
+    bool ends_inside = false;
+    for (const DensityPoint& point : points) {
+        // A point denser than the slopes on both of its sides has no width.
+        const bool before = !knots.empty() && knots.back().value == point.value && ends_inside;
+        const bool after = !point.inside.empty() && point.inside.front().value == point.value;
+        if (!(before && after)) knots.push_back({point.value, point.extinction, point.smooth});
+        knots.insert(knots.end(), point.inside.begin(), point.inside.end());
+        ends_inside = !point.inside.empty();
+    }
+    return knots;
+}
+
+DensitySides density_at(const std::vector<ExtinctionKnot>& knots, double value) {
+    const auto [below, above] = sides(knots, value, &ExtinctionKnot::extinction);
+    DensitySides found{below, above};
+    const auto [first, end] = std::ranges::equal_range(knots, value, {}, &ExtinctionKnot::value);
+    if (first != end) {
+        found.smooth_below = first->smooth;
+        found.smooth_above = (end - 1)->smooth;
+    }
+    return found;
+}
+
+ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
+    const auto [below, above] = sides(points, value, &ColorPoint::color);
+    return {below, above};
+}
+
+TransferFunction TransferCurves::function() const {
+    const std::vector<ExtinctionKnot> extinctions = knots_of(density);
+    check_order(extinctions, "extinction");
+    check_order(colors, "colour");
+    std::vector<TransferKnot> knots;
+    for (const double value : values_of(extinctions, colors)) {
+        const DensitySides density_here = density_at(extinctions, value);
+        const ColorSides color_here = color_at(colors, value);
+        const TransferKnot below{
+            value, {color_here.below, density_here.below}, density_here.smooth_below};
+        const TransferKnot above{
+            value, {color_here.above, density_here.above}, density_here.smooth_above};
+        knots.push_back(below);
+        if (!(above == below)) knots.push_back(above);
+    }
+    const TransferFunction made =
+        palette ? TransferFunction::nearest(knots) : TransferFunction::linear(knots);
+    if (made.knots().size() > most_points) {
+        throw Error("transfer function: found " + std::to_string(made.knots().size()) +
+                    " points, expected at most " + std::to_string(most_points));
+    }
+    return made;
+}
+
+TransferCurves curves_of(const TransferFunction& function, double unit_length) {
+    const std::vector<Site> sites = sites_of(function);
+    const std::vector<char> for_color = needed_of(sites, color_in, [](const Site& site) {
+        return site.below.optics.color == site.above.optics.color;
+    });
+    const std::vector<char> for_density = needed_of(sites, extinction_in, [](const Site& site) {
+        return site.below.optics.extinction == site.above.optics.extinction && !site.below.smooth &&
+               !site.above.smooth;
+    });
+    TransferCurves curves;
+    std::vector<ExtinctionKnot> knots;
+    curves.colors.clear();
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const auto& [below, above] = sites[i];
+        const double value = below.value;
+        if (for_color[i]) {
+            curves.colors.push_back({value, below.optics.color});
+            if (below.optics.color != above.optics.color)
+                curves.colors.push_back({value, above.optics.color});
+        }
+        // Every site is a point of a curve, or function() would have no knot there.
+        if (for_density[i] || !for_color[i]) {
+            knots.push_back({value, below.optics.extinction, below.smooth});
+            if (below.optics.extinction != above.optics.extinction || below.smooth != above.smooth)
+                knots.push_back({value, above.optics.extinction, above.smooth});
+        }
+    }
+    curves.density = with_slopes(knots, unit_length);
+    return curves;
+}
+
+}  // namespace lamina::view

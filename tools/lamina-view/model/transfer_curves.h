@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lamina/colormap.h"
+#include "lamina/transfer_function.h"
+
+namespace lamina::view {
+
+// Where straight pieces of the curve of extinction meet.
+struct ExtinctionKnot {
+    double value = 0;
+    double extinction = 0;  // per world unit, >= 0
+    bool smooth = false;    // as in TransferKnot
+
+    bool operator==(const ExtinctionKnot&) const = default;
+};
+
+// A point of the curve of extinction, and the way from it to the next one.
+struct DensityPoint {
+    double value = 0;
+    double extinction = 0;
+    bool smooth = false;
+    // 0: extinction is linear up to the next point. Above 0: opacity over so many world units is,
+    // and `inside` has the knots of the pieces that follow it.
+    double opacity_length = 0;
+    std::vector<ExtinctionKnot> inside;
+
+    bool operator==(const DensityPoint&) const = default;
+};
+
+// A transfer function as it is edited: extinction and colour are curves of their own, so that a map
+// of many colours leaves few points of extinction to hold. Both are linear between points and
+// constant outside; two points at one value make a step.
+struct TransferCurves {
+    std::vector<DensityPoint> density =
+        std::vector<DensityPoint>(1);  // one or more, in order of value
+    std::vector<ColorPoint> colors = std::vector<ColorPoint>(1, {0, glm::dvec3(1)});  // the same
+    // The function steps halfway between neighbouring values of both curves (a palette).
+    bool palette = false;
+
+    // Has the points' own numbers, and those between where only one curve has a point. Throws Error
+    // where the curves are no transfer function, or one with too many points for a scene file.
+    TransferFunction function() const;
+
+    bool operator==(const TransferCurves& other) const;
+};
+
+// Splits a function into curves: function() gives back the same, bit for bit. Points that only one
+// of the two needs are only there. Runs of smooth points that follow an opacity become slopes, over
+// `unit_length` world units where that fits.
+TransferCurves curves_of(const TransferFunction& function, double unit_length);
+
+// All knots of the curve of extinction, in order.
+std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points);
+
+// What a curve is below and above a value: they differ at steps.
+struct DensitySides {
+    double below = 0, above = 0;
+    bool smooth_below = false, smooth_above = false;  // of knots at the value
+};
+DensitySides density_at(const std::vector<ExtinctionKnot>& knots, double value);
+struct ColorSides {
+    glm::dvec3 below{0}, above{0};
+};
+ColorSides color_at(const std::vector<ColorPoint>& points, double value);
+
+inline constexpr std::size_t most_points = 4096;  // of a scene file
+
+}  // namespace lamina::view

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "lamina/colormap.h"
+#include "lamina/image_color_space.h"
+#include "lamina/transfer_function.h"
+#include "model/symlog_axis.h"
+#include "model/transfer_curves.h"
+#include "model/transfer_handle.h"
+#include "model/transfer_move.h"
+
+namespace lamina::view {
+
+// Edits a transfer function. It is one at any time: a change that would leave none, or one with
+// more points than scene files may have, returns false and changes nothing. Points that an edit is
+// not about keep their numbers, bit for bit.
+class TransferEditor {
+  public:
+    TransferEditor();
+
+    using Curve = TransferHandle::Curve;
+
+    const TransferCurves& curves() const { return curves_; }
+    const TransferFunction& function() const { return function_; }
+    // World length that opacities refer to, > 0. It changes no extinction.
+    double unit_length() const { return unit_length_; }
+    void set_unit_length(double length);
+
+    // Another function, or an earlier state of this one; the selection is lost where its points
+    // are.
+    void take(const TransferFunction& function);
+    void restore(const TransferCurves& curves);
+
+    const std::set<TransferHandle>& selection() const { return selection_; }
+    bool is_selected(const TransferHandle& point) const { return selection_.contains(point); }
+    void select_only(const TransferHandle& point);
+    void toggle(const TransferHandle& point);
+    void clear_selection() { selection_.clear(); }
+    void select_all(Curve curve);
+    // The points of extinction in a rectangle, on top of what was selected before.
+    void select_within(double value_lo, double value_hi, double extinction_lo,
+                       double extinction_hi);
+
+    // Whether colours move along with a selected point of extinction that has their value.
+    bool colors_move_along = true;
+    // A move starts from where begin_move() found everything; its steps do not add up.
+    void begin_move();
+    bool is_moving() const { return start_.has_value(); }
+    bool move(const TransferShift& shift, const SymlogAxis& axis);
+    bool window(double factor, double pivot, double shift);
+    bool attenuate(double factor);  // > 0: of all extinctions
+    void end_move() { start_.reset(); }
+    void cancel_move();
+
+    // New points are selected. A colour is taken from the curve where it is put.
+    bool add_density(double value, double extinction);
+    bool add_color(double value);
+    // A second point at the same value.
+    bool make_step(const TransferHandle& point);
+    bool remove_selected();  // but never the last one of a curve
+
+    bool set_value(const TransferHandle& point, double value);  // held between its neighbours
+    bool set_extinction(std::size_t index, double extinction);
+    bool set_opacity(std::size_t index, double opacity);  // over unit_length()
+    bool set_smooth(std::size_t index, bool smooth);
+    bool set_color(std::size_t index, const glm::dvec3& color);
+    // The colour at a value: that of the point there, or of a new one.
+    bool paint(double value, const glm::dvec3& color);
+
+    // Between the selected points and their next ones, or everywhere where none is selected:
+    // opacity over unit_length() is linear, or extinction.
+    bool set_opacity_linear(bool opacity);
+    bool set_palette(bool palette);
+    bool set_density(const std::vector<DensityPoint>& points);  // another curve of extinction
+    // The map's colours, stretched over [lo, hi] unless it has a range of its own; with its
+    // opacities where `opacities` and it has any.
+    bool recolor(Colormap map, double lo, double hi, bool opacities);
+
+    // All colours in the numbers of another space (scene_edit.h).
+    bool convert_colors(ImageColorSpace from, ImageColorSpace to);
+
+  private:
+    template <typename Change>
+    bool change(const Change& apply);
+    bool put(const TransferCurves& curves);
+    void follow_around(TransferCurves& curves, std::size_t index) const;
+    std::set<TransferHandle> moving_points() const;
+
+    TransferCurves curves_;
+    TransferFunction function_;
+    double unit_length_ = 1;
+    std::set<TransferHandle> selection_;
+    std::optional<TransferCurves> start_;
+    std::set<TransferHandle> moving_;
+};
+
+}  // namespace lamina::view

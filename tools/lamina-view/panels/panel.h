@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "model/document.h"
+#include "work/shown.h"
+
+namespace lamina::view {
+
+// Where a panel is: in the column on the right, or in the strip below the picture.
+enum class PanelPlace { side, bottom };
+
+// What panels read and change.
+struct PanelContext {
+    Document& document;
+    const Shown& shown;
+    std::optional<double> value_under_pointer;  // of the data, at the point that is seen there
+};
+
+// A part of the window beside the picture.
+class Panel {
+  public:
+    virtual ~Panel() = default;
+    virtual const char* title() const = 0;
+    virtual PanelPlace place() const { return PanelPlace::side; }
+    virtual void draw(PanelContext& context) = 0;  // with ImGui, its window is begun
+};
+
+// All panels, from top to bottom.
+std::vector<std::unique_ptr<Panel>> make_panels();
+
+}  // namespace lamina::view

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "lamina/scene.h"
+#include "model/revisions.h"
+
+namespace lamina::view {
+
+// A picture that is wanted.
+struct DrawRequest {
+    Scene scene;
+    Revisions revisions;  // which parts of the scene differ from the request before
+    bool moving = false;  // something is being dragged: a coarse picture serves
+    bool coarse = true;   // whether it may get one
+    bool trace = true;    // whether the tracer replaces the picture at rest
+    std::uint64_t number = 0;
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point asked_at = {};  // of the input, for measurements
+};
+
+}  // namespace lamina::view
