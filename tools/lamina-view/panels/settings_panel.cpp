@@ -305,7 +305,8 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
 void SettingsPanel::draw_transfer_function(const SettingNode& node) {
     draw_label(node, {});
     ImGui::TextColored(theme::dim, "in its own panel");
-    for (const std::string& path : paths_below(node)) drawn_.insert(path);
+    for (const std::string& path : paths_below(node))
+        if (!path.ends_with("[]")) drawn_.insert(path);
 }
 
 }  // namespace lamina::view
