@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
