@@ -207,6 +207,7 @@ void SettingsPanel::draw_group(const SettingNode& node, const std::string& path,
     if (all_open || filter_.IsActive()) ImGui::SetNextItemOpen(true);
     if (!reason.empty())
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    if (switched) ImGui::AlignTextToFramePadding();
     const bool open = ImGui::TreeNodeEx(
         node.key.c_str(),
         (switched ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth) |

@@ -65,7 +65,7 @@ void TransferPanel::draw(PanelContext& context) {
         counted_ = counted;
     }
     const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float controls = std::min(em(21), all.x / 2);
+    const float controls = std::min(em(19), all.x / 2);
     ImGui::BeginChild("curves", {all.x - controls - em(.5f), all.y}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     const std::string edited = plot_.draw(
