@@ -108,6 +108,7 @@ void TransferPanel::draw_controls(PanelContext& context) {
 // Shapes begin at the selected point, else in the middle of the data.
 void TransferPanel::draw_presets(PanelContext& context) {
     if (!ImGui::BeginPopup("presets")) return;
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     Document& document = context.document;
     TransferEditor& editor = document.transfer();
     if (ImGui::MenuItem("From the data (auto)")) document.choose_transfer_function();
