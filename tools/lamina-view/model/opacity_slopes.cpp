@@ -66,8 +66,14 @@ double length_of(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside
                  const ExtinctionKnot& b, double unit_length) {
     if (a.extinction == b.extinction || !(a.value < b.value)) return 0;
     if (misfit(a, inside, b, unit_length) <= pieces_tolerance) return unit_length;
-    const double length = best_length(a, inside, b);
-    return misfit(a, inside, b, length) <= pieces_tolerance ? length : 0;
+    // A length that a person would have written is likelier than its neighbours.
+    const double best = best_length(a, inside, b);
+    for (const int digits : {1, 2, 3}) {
+        const double step = std::pow(10., std::floor(std::log10(best)) - digits + 1);
+        const double round = std::round(best / step) * step;
+        if (misfit(a, inside, b, round) <= pieces_tolerance) return round;
+    }
+    return misfit(a, inside, b, best) <= pieces_tolerance ? best : 0;
 }
 
 }  // namespace

@@ -23,9 +23,9 @@ namespace lamina::view {
 // not about keep their numbers, bit for bit.
 class TransferEditor {
   public:
-    TransferEditor();
-
     using Curve = TransferHandle::Curve;
+
+    TransferEditor();  // of TransferCurves()
 
     const TransferCurves& curves() const { return curves_; }
     const TransferFunction& function() const { return function_; }
