@@ -13,7 +13,9 @@
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"
 #include "lamina/mesh_data.h"
+#include "lamina/picture_tile.h"
 #include "lamina/plan_summary.h"
+#include "lamina/point_probe.h"
 #include "lamina/scene.h"
 #include "lamina/value_histogram.h"
 #include "lamina/volume.h"
@@ -33,6 +35,10 @@ struct SessionOptions {
 // Hears how far a picture is: what is done ("slicing") and its share from 0 to 1. It is called in
 // one thread at a time, not always the caller's, and must not call the session.
 using ProgressCallback = std::function<void(const std::string& activity, double share)>;
+
+// Hears which tile of a picture that is being traced is complete: of the picture, only the pixels
+// of such tiles have a meaning yet. It is called as ProgressCallback is.
+using TileCallback = std::function<void(const PictureTile&, const PreciseImage&)>;
 
 // Draws a scene from the first picture to the last, while camera, transfer function and settings
 // change. It does again what a change makes necessary, when a picture is next asked for:
@@ -95,7 +101,13 @@ class LAMINA_API Session {
     void draw(Image& picture, std::stop_token stop = {}, const ProgressCallback& progress = {});
     // The truth: the same view by the reference tracer, in double precision, to
     // `scene().trace_tolerance` of full scale. It takes seconds to minutes.
-    const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {});
+    // Tiles come from the middle outwards, all pixels once.
+    const PreciseImage& trace(std::stop_token stop = {}, const ProgressCallback& progress = {},
+                              const TileCallback& tile_done = {});
+
+    Grid::Bounds bounds();  // of the data that are drawn, world
+    // Finds what is seen in the picture of the scene as it is now.
+    PointProbe probe();
 
     // Of the values of the data that the scene draws, over their finite range in at most `bins`
     // (>= 1) intervals; of whole numbers each interval has equally many, in its middle. Large data

@@ -10,8 +10,8 @@ ValueHistogram binned(const ValueDistribution& values, const ValueRange& range, 
                       int bins) {
     ValueHistogram histogram;
     if (values.empty()) return histogram;
-    histogram.lo = range.lo;
-    histogram.hi = range.hi;
+    histogram.lo = histogram.least = range.lo;
+    histogram.hi = histogram.most = range.hi;
     double count = range.lo < range.hi ? bins : 1;
     if (whole_numbers) {
         const double numbers = range.hi - range.lo + 1;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "choice/choose.h"
+#include "library/point_probe_parts.h"
 #include "library/session_parts.h"
 #include "scene/half_space.h"
 #include "scene/lighting_check.h"
@@ -162,11 +163,40 @@ void Session::draw(Image& picture, std::stop_token stop, const ProgressCallback&
     parts_->statistics.draw_ms = 1e3 * watch.seconds();
 }
 
-const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress) {
+const PreciseImage& Session::trace(std::stop_token stop, const ProgressCallback& progress,
+                                   const TileCallback& tile_done) {
     Stopwatch watch;
-    parts_->run([&] { parts_->trace(); }, std::move(stop), progress);
+    parts_->run([&] { parts_->trace(tile_done); }, std::move(stop), progress);
     parts_->trace_statistics.draw_ms = 1e3 * watch.seconds();
     return parts_->truth;
+}
+
+Grid::Bounds Session::bounds() {
+    Grid::Bounds bounds;
+    parts_->run([&] {
+        if (parts_->scene.draws_mesh()) {
+            const auto& [min, max] = parts_->mesh_data().mesh.bounds();
+            bounds = {min, max};
+        } else {
+            bounds = parts_->volume_data().volume.grid().bounds();
+        }
+    });
+    return bounds;
+}
+
+PointProbe Session::probe() {
+    auto probe = std::make_shared<PointProbe::Parts>();
+    parts_->run([&] {
+        probe->scene = parts_->scene;
+        if (parts_->scene.draws_mesh()) {
+            parts_->mesh_data();
+            probe->mesh = parts_->mesh;
+        } else {
+            parts_->volume_data();
+            probe->volume = parts_->volume;
+        }
+    });
+    return PointProbe(std::move(probe));
 }
 
 ValueHistogram Session::histogram(int bins) {

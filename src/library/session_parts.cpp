@@ -137,7 +137,7 @@ void Session::Parts::draw(Image& into) {
     warn_of(into);
 }
 
-void Session::Parts::trace() {
+void Session::Parts::trace(const TileCallback& tile_done) {
     trace_statistics = {};
     trace_statistics.drawn_by = "reference tracer";
     const auto keep = [&](auto traced) {
@@ -145,9 +145,9 @@ void Session::Parts::trace() {
         trace_statistics.trace_error = 255 * traced.error_estimate;
     };
     if (scene.draws_mesh())
-        keep(lamina::trace(scene, mesh_data()));
+        keep(lamina::trace(scene, mesh_data(), tile_done));
     else
-        keep(lamina::trace(scene, volume_data().volume));
+        keep(lamina::trace(scene, volume_data().volume, tile_done));
     warn_of(to_float(truth));
 }
 

@@ -53,7 +53,7 @@ struct Session::Parts {
     const SceneMesh& mesh_data();
     SceneRenderer& renderer();  // of Method::slice or project
     void draw(Image& into);
-    void trace();
+    void trace(const TileCallback& tile_done);
 
     // The scene that was asked for, with what it leaves open chosen from the data that it draws.
     Scene chosen();

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "base/progress.h"
+#include "base/interrupt.h"
 #include "mesh/point_gradients.h"
 #include "mesh/ray_walk.h"
 #include "optics/ray_lights.h"
-#include "reference/clip_span.h"
+#include "reference/seen_segment.h"
 #include "reference/segment_sum.h"
 #include "reference/transfer_intervals.h"
 
@@ -27,16 +26,17 @@ constexpr double place_epsilons = 16;
 // Interpolated scalars are accurate to this many epsilons of the values at the corners.
 constexpr double value_epsilons = 64;
 
-struct RowTotals {
+struct MeshTileTotals {
     double error_estimate = 0;
     std::int64_t segments = 0, overlapping = 0;
 };
 
-class RowTracer {
+class MeshTileTracer {
   public:
-    RowTracer(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> scalar,
-              const std::vector<char>& no_value, const TransferFunction& transfer_function,
-              const TransferIntervals& intervals, const View& view, const TraceOptions& options)
+    MeshTileTracer(const TetMesh& mesh, const FaceTree& open_faces, std::span<const double> scalar,
+                   const std::vector<char>& no_value, const TransferFunction& transfer_function,
+                   const TransferIntervals& intervals, const View& view,
+                   const TraceOptions& options)
         : mesh_(mesh),
           open_faces_(open_faces),
           scalar_(scalar),
@@ -50,11 +50,21 @@ class RowTracer {
         reach_ = glm::length(glm::max(glm::abs(lo), glm::abs(hi)));
     }
 
-    RowTotals trace(int row, PreciseImage& image) const {
-        RowTotals totals;
+    MeshTileTotals trace(const PictureTile& tile, PreciseImage& image) const {
+        MeshTileTotals totals;
         RayWalk walk(mesh_, open_faces_);
+        for (int row = tile.row; row < tile.row + tile.height; ++row) {
+            check_interrupt();
+            trace_row(tile, row, walk, image, totals);
+        }
+        return totals;
+    }
+
+  private:
+    void trace_row(const PictureTile& tile, int row, RayWalk& walk, PreciseImage& image,
+                   MeshTileTotals& totals) const {
         std::vector<TetSegment> listed;
-        for (int column = 0; column < view_.width; ++column) {
+        for (int column = tile.column; column < tile.column + tile.width; ++column) {
             const View::Ray ray = view_.ray(column, row);
             const double world_per_z = glm::length(ray.direction);
             std::optional<RayLights> lights;
@@ -63,7 +73,7 @@ class RowTracer {
                            place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
                            lights ? &*lights : nullptr, options_.tolerance);
             walk.aim(ray.origin, ray.direction);
-            const Seen seen = seen_of(ray);
+            const SeenRange seen = seen_range(options_.clip, ray);
             const auto add = [&](const TetSegment& segment) {
                 add_segment(segment, seen, world_per_z, sum);
                 return !sum.opaque();
@@ -83,36 +93,14 @@ class RowTracer {
             totals.error_estimate = std::max(totals.error_estimate, sum.error_estimate());
             totals.segments += sum.segments();
         }
-        return totals;
-    }
-
-  private:
-    // The part of a ray in front of the eye, or of the eye's plane, that the clip keeps.
-    struct Seen {
-        double from, to;
-    };
-    Seen seen_of(const View::Ray& ray) const {
-        RaySpan span{{0, 0}, {INFINITY, 0}};
-        clip_span(options_.clip, ray, span);
-        return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
     }
 
     // Adds the part of the segment that is seen.
-    void add_segment(const TetSegment& segment, const Seen& seen, double world_per_z,
+    void add_segment(const TetSegment& segment, const SeenRange& seen, double world_per_z,
                      SegmentSum& sum) const {
-        if (segment.out.at <= seen.from || segment.in.at >= seen.to || seen.from >= seen.to) return;
         if (!no_value_.empty() && no_value_[static_cast<std::size_t>(segment.tet)] != 0) return;
-        double from = segment.in.at, to = segment.out.at;
-        double front = segment.in.interpolate(scalar_), back = segment.out.interpolate(scalar_);
-        const double slope = (back - front) / (to - from);
-        if (to > seen.to) {
-            back -= slope * (to - seen.to);
-            to = seen.to;
-        }
-        if (from < seen.from) {
-            front += slope * (seen.from - from);
-            from = seen.from;
-        }
+        const auto [from, to, front, back] = seen_segment(segment, seen, scalar_);
+        if (from == to) return;
         const double length = (to - from) * world_per_z;
         if (gradients_.empty()) return sum.add(front, back, length, slack_of(segment.tet));
         sum.add_lit(front, back, gradient_along(segment, from, to), length, slack_of(segment.tet));
@@ -188,23 +176,23 @@ std::vector<char> tets_without_value(const TetMesh& mesh, std::span<const double
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
                            const TransferFunction& transfer_function, const View& view,
-                           const TraceOptions& options) {
+                           const TraceOptions& options, const TileDone& tile_done) {
     check(options);
     MeshTraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals intervals(transfer_function);
     const std::vector<char> no_value = tets_without_value(mesh, scalar);
-    const RowTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals, view,
-                           options);
-    std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
-    Progress progress("tracing", view.height);
-    parallel_for(view.height, 1, [&](std::int64_t row) {
-        rows[static_cast<std::size_t>(row)] = tracer.trace(static_cast<int>(row), result.image);
-        progress.advance();
-    });
-    for (const RowTotals& row : rows) {
-        result.error_estimate = std::max(result.error_estimate, row.error_estimate);
-        result.segments += row.segments;
-        result.overlapping_rays += row.overlapping;
+    const MeshTileTracer tracer(mesh, open_faces, scalar, no_value, transfer_function, intervals,
+                                view, options);
+    const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
+    std::vector<MeshTileTotals> totals(tiles.size());
+    const auto trace = [&](const PictureTile& tile, std::size_t number) {
+        totals[number] = tracer.trace(tile, result.image);
+    };
+    trace_tiles(tiles, trace, result.image, tile_done);
+    for (const MeshTileTotals& tile : totals) {
+        result.error_estimate = std::max(result.error_estimate, tile.error_estimate);
+        result.segments += tile.segments;
+        result.overlapping_rays += tile.overlapping;
     }
     return result;
 }

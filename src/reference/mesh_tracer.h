@@ -12,6 +12,7 @@
 #include "mesh/face_tree.h"
 #include "mesh/tet_mesh.h"
 #include "reference/trace_options.h"
+#include "reference/trace_tiles.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -34,6 +35,6 @@ struct MeshTraceResult {
 MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                            std::span<const double> scalar,
                            const TransferFunction& transfer_function, const View& view,
-                           const TraceOptions& options = {});
+                           const TraceOptions& options = {}, const TileDone& tile_done = {});
 
 }  // namespace lamina

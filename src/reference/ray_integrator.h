@@ -41,6 +41,7 @@ class RayIntegrator {
 
     glm::dvec3 color() const;  // associated
     double alpha() const;
+    double optical_depth() const { return depth_.value(); }
     // Error of the worst channel, from quadrature and early termination.
     double error_estimate() const;
     std::int64_t pieces() const { return pieces_; }

@@ -14,17 +14,19 @@ TraceOptions options_of(const Scene& scene) {
 
 }  // namespace
 
-TraceResult trace(const Scene& scene, const Volume& volume) {
-    return trace_volume(volume, scene.transfer_function, view_of(scene), options_of(scene));
+TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done) {
+    return trace_volume(volume, scene.transfer_function, view_of(scene), options_of(scene),
+                        tile_done);
 }
 
-MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh) {
-    return trace(scene, mesh, FaceTree(mesh.mesh, mesh.mesh.open_faces()));
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone& tile_done) {
+    return trace(scene, mesh, FaceTree(mesh.mesh, mesh.mesh.open_faces()), tile_done);
 }
 
-MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces) {
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
+                      const TileDone& tile_done) {
     return trace_mesh(mesh.mesh, open_faces, mesh.scalar.values, scene.transfer_function,
-                      view_of(scene), options_of(scene));
+                      view_of(scene), options_of(scene), tile_done);
 }
 
 }  // namespace lamina

@@ -11,11 +11,12 @@
 namespace lamina {
 
 // Traces to the scene's trace_tolerance; as trace_volume() otherwise.
-TraceResult trace(const Scene& scene, const Volume& volume);
+TraceResult trace(const Scene& scene, const Volume& volume, const TileDone& tile_done = {});
 
 // As trace_mesh(). `open_faces`: the tree of the mesh's open faces, for callers who trace several
 // pictures; it is built where it is not given.
-MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh);
-MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces);
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const TileDone& tile_done = {});
+MeshTraceResult trace(const Scene& scene, const SceneMesh& mesh, const FaceTree& open_faces,
+                      const TileDone& tile_done = {});
 
 }  // namespace lamina

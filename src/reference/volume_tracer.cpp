@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "reference/cell_walk.h"
@@ -76,37 +77,47 @@ TracedRay trace_ray(const Traced<Sample>& traced, const View::Ray& ray) {
             integrator.pieces()};
 }
 
+struct TileTotals {
+    double error_estimate = 0;
+    std::int64_t segments = 0;
+};
+
+template <typename Sample>
+TileTotals trace_tile(const Traced<Sample>& traced, const View& view, const PictureTile& tile,
+                      PreciseImage& image) {
+    TileTotals totals;
+    for (int row = tile.row; row < tile.row + tile.height; ++row) {
+        check_interrupt();
+        for (int column = tile.column; column < tile.column + tile.width; ++column) {
+            const TracedRay ray = trace_ray(traced, view.ray(column, row));
+            double* const pixel = image.pixel(column, row);
+            for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
+            totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
+            totals.segments += ray.segments;
+        }
+    }
+    return totals;
+}
+
 }  // namespace
 
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
-                         const View& view, const TraceOptions& options) {
+                         const View& view, const TraceOptions& options, const TileDone& tile_done) {
     check(options);
     TraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals transfer(transfer_function);
-    struct RowTotals {
-        double error_estimate = 0;
-        std::int64_t segments = 0;
-    };
-    std::vector<RowTotals> rows(static_cast<std::size_t>(view.height));
-    Progress progress("tracing", view.height);
+    const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
+    std::vector<TileTotals> totals(tiles.size());
     volume.visit([&](const auto* first_sample) {
         const Traced traced(volume, first_sample, transfer, options);
-        parallel_for(view.height, 1, [&](std::int64_t number) {
-            const int row = static_cast<int>(number);
-            RowTotals& totals = rows[static_cast<std::size_t>(number)];
-            for (int column = 0; column < view.width; ++column) {
-                const TracedRay ray = trace_ray(traced, view.ray(column, row));
-                double* const pixel = result.image.pixel(column, row);
-                for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
-                totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
-                totals.segments += ray.segments;
-            }
-            progress.advance();
-        });
+        const auto trace = [&](const PictureTile& tile, std::size_t number) {
+            totals[number] = trace_tile(traced, view, tile, result.image);
+        };
+        trace_tiles(tiles, trace, result.image, tile_done);
     });
-    for (const RowTotals& row : rows) {
-        result.error_estimate = std::max(result.error_estimate, row.error_estimate);
-        result.segments += row.segments;
+    for (const TileTotals& tile : totals) {
+        result.error_estimate = std::max(result.error_estimate, tile.error_estimate);
+        result.segments += tile.segments;
     }
     return result;
 }

@@ -13,6 +13,7 @@
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
 #include "reference/trace_options.h"
+#include "reference/trace_tiles.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -30,7 +31,8 @@ struct TraceResult {
 // Traces a volume. Cells with a NaN or infinite corner are transparent. Runs on all cores; the
 // result does not depend on their number. Throws Error for options out of range.
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
-                         const View& view, const TraceOptions& options);
+                         const View& view, const TraceOptions& options,
+                         const TileDone& tile_done = {});
 
 // The same for some pixels of the view, given as (column, row).
 struct TracedPixels {

@@ -15,6 +15,8 @@ TEST(BinnedValues, WholeNumbersHaveEquallyManyInEachInterval) {
     const ValueHistogram histogram = binned(values, {0, 11}, true, 5);
     EXPECT_EQ(histogram.lo, -.5);
     EXPECT_EQ(histogram.hi, 11.5);
+    EXPECT_EQ(histogram.least, 0);
+    EXPECT_EQ(histogram.most, 11);
     EXPECT_EQ(histogram.shares, (std::vector<double>{2. / 8, 4. / 8, 0, 2. / 8}));
 }
 

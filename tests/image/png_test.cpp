@@ -75,6 +75,17 @@ TEST(Srgb, KnownValues) {
     EXPECT_NEAR(srgb_from_linear(0.18), 0.461356, 5e-7);
     EXPECT_DOUBLE_EQ(srgb_from_linear(0.001), 0.01292);
     EXPECT_DOUBLE_EQ(srgb_from_linear(1), 1);
+    // Codes are those of the formula on both sides of each of their 255 borders.
+    for (int code = 1; code < 256; ++code) {
+        const double border = linear_from_srgb((code - .5) / 255);
+        EXPECT_EQ(display_code(border * (1 + 1e-12), ImageColorSpace::linear), code);
+        EXPECT_EQ(display_code(border * (1 - 1e-12), ImageColorSpace::linear), code - 1);
+    }
+    for (int i = 0; i <= 100000; ++i) {
+        const double linear = i / 100000.;
+        ASSERT_EQ(display_code(linear, ImageColorSpace::linear),
+                  std::lround(255 * srgb_from_linear(linear)));
+    }
     for (int code = 0; code <= 255; ++code) {
         EXPECT_NEAR(srgb_from_linear(linear_from_srgb(code / 255.0)), code / 255.0, 1e-15 * 20);
     }

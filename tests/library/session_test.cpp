@@ -209,6 +209,45 @@ TEST(Session, ReportsHowFarItIs) {
     EXPECT_EQ(shares.back(), 1);
 }
 
+TEST(Session, TracesTileByTile) {
+    const Volume volume = waves(10);
+    Session session(scene_for(volume.grid().bounds()), volume, native);
+    int pixels = 0;
+    const PreciseImage truth =
+        session.trace({}, {}, [&](const PictureTile& tile, const PreciseImage& picture) {
+            EXPECT_EQ(picture.width, 50);
+            pixels += tile.width * tile.height;
+        });
+    EXPECT_EQ(pixels, 50 * 40);
+    EXPECT_EQ(truth.rgba, session.trace().rgba);
+}
+
+// Values are 2 x, extinction is 1: half of the opacity of a depth d is reached at -log((1 +
+// exp(-d)) / 2). Rounding is some epsilons of the distance.
+TEST(Session, FindsThePointThatIsSeen) {
+    const auto ramp = [](const glm::dvec3& p) { return 2 * p.x; };
+    Scene scene;
+    scene.transfer_function = TransferFunction::linear({knot(0, {1, 1, 1}, 1)});
+    scene.camera = {.eye = {-2, 1.2, .7}, .center = {0, 1.2, .7}};
+    scene.method = Method::project;
+    scene.width = scene.height = 5;
+    Session session(scene, test::kuhn_box({3, 2, 2}, ramp), native);
+    EXPECT_EQ(session.bounds().max, glm::dvec3(3, 2, 2));
+    const PointProbe probe = session.probe();
+    session.set_camera(orbit(session.bounds(), 0, 0));  // the probe keeps its own
+    const auto point = probe.seen(2, 2);
+    ASSERT_TRUE(point);
+    EXPECT_NEAR(point->position.x, -std::log((1 + std::exp(-3.)) / 2), 1e-13);
+    EXPECT_NEAR(point->value, 2 * point->position.x, 1e-13);
+    EXPECT_NEAR(point->opacity, -std::expm1(-3), 1e-13);
+    EXPECT_FALSE(probe.seen(-1e5, 2));
+
+    const Volume volume = waves(12);
+    Session other(scene_for(volume.grid().bounds()), volume, native);
+    EXPECT_EQ(other.bounds().max, volume.grid().bounds().max);
+    EXPECT_TRUE(other.probe().seen(25, 20));
+}
+
 TEST(Session, RefusesWhatCannotBeDrawn) {
     const Volume volume = waves(4);
     Scene scene = scene_for(volume.grid().bounds());

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "optics/color_space.h"
+#include "optics/colormap.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

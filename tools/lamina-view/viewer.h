@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "input_event.h"
+#include "model/input_event.h"
 #include "model/document.h"
 #include "panels/panel.h"
 #include "picture_texture.h"
@@ -35,6 +35,7 @@ class Viewer {
   private:
     void follow_worker();
     void request_picture();
+    void take_keys();
     void draw_picture(float width, float height, float pixels);
     void draw_panels(PanelPlace place);
     void draw_status(float width, float height);
@@ -47,7 +48,7 @@ class Viewer {
     std::shared_ptr<const ScreenPicture> uploaded_;
     Revisions requested_;
     std::string message_;  // of what went wrong last
-    bool closing_ = false;
+    bool help_ = false, closing_ = false;
 };
 
 }  // namespace lamina::view

@@ -8,10 +8,12 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
+#include <algorithm>
 #include <utility>
 
-#include "input_event.h"
+#include "model/input_event.h"
 #include "lamina/error.h"
+#include "panels/theme.h"
 #include "viewer.h"
 
 namespace lamina::view {
@@ -47,7 +49,9 @@ Window::Window(const WindowOptions& options) : window_(make_window(options.width
     gladLoadGLContext(&gl_, glfwGetProcAddress);
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui::StyleColorsDark();
+    float scale = 1;
+    glfwGetWindowContentScale(window_, &scale, nullptr);
+    set_theme(std::max(scale, 1.f));
     ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 330 core");
     viewer_ = std::make_unique<Viewer>(gl_, options.session, [] { glfwPostEmptyEvent(); });

@@ -18,7 +18,7 @@ class Viewer;
 
 struct WindowOptions {
     std::filesystem::path file;  // to be opened; empty: none
-    int width = 1140, height = 626;
+    int width = 1280, height = 860;
     SessionOptions session;
 };
 

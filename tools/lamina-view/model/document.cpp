@@ -3,12 +3,40 @@
 
 #include <utility>
 
+#include "model/scene_changes.h"
+#include "model/scene_edit.h"
+
 namespace lamina::view {
 
 void Document::open(Scene scene) {
     scene_ = std::move(scene);
+    transfer_ = TransferEditor();
+    transfer_.take(scene_.transfer_function);
+    // Opacities are shown for the length that the scene has them for.
+    for (const DensityPoint& point : transfer_.curves().density)
+        if (point.opacity_length > 0) transfer_.set_unit_length(point.opacity_length);
+    curves_ = transfer_.curves();
+    undo_.clear();
+    redo_.clear();
+    end_step();
     ++revisions_.data;
     dirty_ = false;
+}
+
+void Document::record(const std::string& name, bool camera) {
+    redo_.clear();
+    dirty_ = true;
+    if (name == open_step_ && !undo_.empty()) return;
+    undo_.push_back({name, scene_, curves_, camera});
+    if (undo_.size() > most_steps) undo_.erase(undo_.begin());
+    open_step_ = name;
+}
+
+void Document::apply(Scene next) {
+    if (is_open()) count_changes(scene_, next, revisions_);
+    scene_ = std::move(next);
+    transfer_.take(scene_.transfer_function);
+    curves_ = transfer_.curves();
 }
 
 void Document::set_camera(const Camera& camera) {
@@ -19,16 +47,25 @@ void Document::set_camera(const Camera& camera) {
 }
 
 void Document::set_transfer_function(const TransferFunction& transfer_function) {
-    scene_.transfer_function = transfer_function;
+    transfer_.take(transfer_function);
+    transfer_edited("transfer function");
+}
+
+void Document::transfer_edited(const std::string& name) {
+    if (transfer_.curves() == curves_ && !scene_.automatic_transfer_function) return;
+    record(name);
+    curves_ = transfer_.curves();
     scene_.automatic_transfer_function = false;
+    // The same function may have other points.
+    if (scene_.transfer_function == transfer_.function()) return;
+    scene_.transfer_function = transfer_.function();
     ++revisions_.transfer_function;
-    dirty_ = true;
 }
 
 void Document::set_clip(const Clip& clip) {
+    record("clip");
     scene_.clip = clip;
     ++revisions_.clip;
-    dirty_ = true;
 }
 
 void Document::set_size(int width, int height) {
@@ -38,15 +75,76 @@ void Document::set_size(int width, int height) {
     ++revisions_.size;
 }
 
-void Document::edit(const std::function<void(Scene&)>& change) {
-    change(scene_);
+void Document::edit(const std::function<void(Scene&)>& change, const std::string& name) {
+    Scene next = scene_;
+    change(next);
+    replace(std::move(next), name);
+}
+
+void Document::replace(Scene scene, const std::string& name) {
+    record(name, true);
+    apply(std::move(scene));
+}
+
+void Document::set_setting(const std::string& path, const nlohmann::ordered_json& value) {
+    Scene next = with_setting(scene_, path, value);
+    record(path, path.starts_with("camera"));
+    if (next.color_space != scene_.color_space) {
+        transfer_.convert_colors(scene_.color_space, next.color_space);
+        next.transfer_function = transfer_.function();
+    }
+    if (path == "image.width" || path == "image.height") size_follows_window = false;
+    apply(std::move(next));
+}
+
+void Document::choose_transfer_function() {
+    record("automatic transfer function");
+    scene_.automatic_transfer_function = true;
     ++revisions_.settings;
+}
+
+void Document::choose_camera() {
+    record("automatic camera", true);
+    scene_.automatic_camera = true;
+    ++revisions_.settings;
+}
+
+void Document::go(std::vector<Step>& from, std::vector<Step>& to) {
+    if (from.empty()) return;
+    Step step = std::move(from.back());
+    from.pop_back();
+    to.push_back({step.name, scene_, curves_, step.camera});
+    if (!step.camera) {
+        step.scene.camera = scene_.camera;
+        step.scene.automatic_camera = scene_.automatic_camera;
+    }
+    if (size_follows_window) {
+        step.scene.width = scene_.width;
+        step.scene.height = scene_.height;
+    }
+    count_changes(scene_, step.scene, revisions_);
+    scene_ = std::move(step.scene);
+    transfer_.restore(step.curves);
+    curves_ = transfer_.curves();
     dirty_ = true;
+    end_step();
+}
+
+void Document::undo() {
+    go(undo_, redo_);
+}
+
+void Document::redo() {
+    go(redo_, undo_);
 }
 
 void Document::take_chosen(const Scene& chosen) {
     if (scene_.automatic_camera) scene_.camera = chosen.camera;
-    if (scene_.automatic_transfer_function) scene_.transfer_function = chosen.transfer_function;
+    if (scene_.automatic_transfer_function) {
+        scene_.transfer_function = chosen.transfer_function;
+        transfer_.take(scene_.transfer_function);
+        curves_ = transfer_.curves();
+    }
     scene_.automatic_camera = scene_.automatic_transfer_function = false;
 }
 

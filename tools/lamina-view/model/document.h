@@ -2,13 +2,19 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "lamina/scene.h"
 #include "model/revisions.h"
+#include "model/transfer_editor.h"
 
 namespace lamina::view {
 
-// The scene as it is edited.
+// The scene as it is edited, its transfer function as curves, and how to get back. Each change is a
+// step that can be undone; changes of one name that follow each other without end_step() are one,
+// as those of a drag are. Where the camera goes by navigation is no step.
 class Document {
   public:
     const Scene& scene() const { return scene_; }
@@ -23,16 +29,57 @@ class Document {
     void set_clip(const Clip& clip);
     void set_size(int width, int height);
     // Any other change of the scene of the same data.
-    void edit(const std::function<void(Scene&)>& change);
+    void edit(const std::function<void(Scene&)>& change, const std::string& name = "settings");
     void mark_saved() { dirty_ = false; }
+
+    // A key of the scene file (scene_edit.h). Throws Error, and changes nothing, where the file
+    // would be refused.
+    void set_setting(const std::string& path, const nlohmann::ordered_json& value);
+    // Another scene of the same or other data, as a step.
+    void replace(Scene scene, const std::string& name);
+
+    // Edits of it count once transfer_edited() says so.
+    TransferEditor& transfer() { return transfer_; }
+    const TransferEditor& transfer() const { return transfer_; }
+    void transfer_edited(const std::string& name);
+    // Chooses the transfer function, or the camera, from the data.
+    void choose_transfer_function();
+    void choose_camera();
+
+    void end_step() { open_step_.clear(); }
+    bool can_undo() const { return !undo_.empty(); }
+    bool can_redo() const { return !redo_.empty(); }
+    std::string undo_name() const { return can_undo() ? undo_.back().name : ""; }
+    std::string redo_name() const { return can_redo() ? redo_.back().name : ""; }
+    void undo();
+    void redo();
 
     // What was chosen from the data where the scene has something automatic: what is seen is edited
     // from there on. No change.
     void take_chosen(const Scene& chosen);
 
+    // Whether pictures have the size of their place in the window, or that of the scene.
+    bool size_follows_window = true;
+
   private:
+    struct Step {
+        std::string name;
+        Scene scene;  // before or, to be done again, after
+        TransferCurves curves;
+        bool camera = false;  // the camera's numbers are a part of it
+    };
+    static constexpr std::size_t most_steps = 200;
+
+    void record(const std::string& name, bool camera = false);
+    void apply(Scene next);
+    void go(std::vector<Step>& from, std::vector<Step>& to);
+
     Scene scene_;
+    TransferEditor transfer_;
+    TransferCurves curves_;  // of scene_: what edits begin from
     Revisions revisions_;
+    std::vector<Step> undo_, redo_;
+    std::string open_step_;
     bool dirty_ = false;
 };
 

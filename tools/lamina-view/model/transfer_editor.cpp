@@ -138,6 +138,10 @@ bool TransferEditor::window(double factor, double pivot, double shift) {
     return start_ && factor > 0 && put(windowed(*start_, factor, pivot, shift));
 }
 
+bool TransferEditor::attenuate(double factor) {
+    return start_ && factor > 0 && std::isfinite(factor) && put(attenuated(*start_, factor));
+}
+
 void TransferEditor::cancel_move() {
     if (start_) put(*start_);
     start_.reset();
@@ -254,20 +258,6 @@ bool TransferEditor::paint(double value, const glm::dvec3& color) {
         const auto room = room_at(curves.colors, value);
         curves.colors.insert(curves.colors.begin() + static_cast<std::ptrdiff_t>(*room),
                              {value, color});
-        return true;
-    });
-}
-
-bool TransferEditor::attenuate(double factor) {
-    if (!(factor > 0) || !std::isfinite(factor)) return false;
-    constexpr double most = std::numeric_limits<double>::max();
-    return change([&](TransferCurves& curves) {
-        for (DensityPoint& point : curves.density) {
-            point.extinction = std::min(point.extinction * factor, most);
-            point.opacity_length /= factor;
-            for (ExtinctionKnot& knot : point.inside)
-                knot.extinction = std::min(knot.extinction * factor, most);
-        }
         return true;
     });
 }

@@ -52,6 +52,7 @@ class TransferEditor {
     bool is_moving() const { return start_.has_value(); }
     bool move(const TransferShift& shift, const SymlogAxis& axis);
     bool window(double factor, double pivot, double shift);
+    bool attenuate(double factor);  // > 0: of all extinctions
     void end_move() { start_.reset(); }
     void cancel_move();
 
@@ -70,7 +71,6 @@ class TransferEditor {
     // The colour at a value: that of the point there, or of a new one.
     bool paint(double value, const glm::dvec3& color);
 
-    bool attenuate(double factor);  // > 0
     // Between the selected points and their next ones, or everywhere where none is selected:
     // opacity over unit_length() is linear, or extinction.
     bool set_opacity_linear(bool opacity);

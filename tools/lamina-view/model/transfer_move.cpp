@@ -135,4 +135,17 @@ TransferCurves windowed(const TransferCurves& curves, double factor, double pivo
     return result;
 }
 
+// Opacity that was linear over a length is so over the length in which the ray is as dense again.
+TransferCurves attenuated(const TransferCurves& curves, double factor) {
+    constexpr double most = std::numeric_limits<double>::max();
+    TransferCurves result = curves;
+    for (DensityPoint& point : result.density) {
+        point.extinction = std::min(point.extinction * factor, most);
+        point.opacity_length /= factor;
+        for (ExtinctionKnot& knot : point.inside)
+            knot.extinction = std::min(knot.extinction * factor, most);
+    }
+    return result;
+}
+
 }  // namespace lamina::view

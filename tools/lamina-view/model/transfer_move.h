@@ -23,6 +23,9 @@ TransferCurves moved(const TransferCurves& curves, const std::set<TransferHandle
 // The curves with all values drawn apart by `factor` > 0 around `pivot`, and moved by `shift`.
 TransferCurves windowed(const TransferCurves& curves, double factor, double pivot, double shift);
 
+// The curves with all extinctions times `factor` > 0, which are held to the largest finite number.
+TransferCurves attenuated(const TransferCurves& curves, double factor);
+
 // Follows the opacity of the way from a point to the next one again.
 void follow_slope(std::vector<DensityPoint>& points, std::size_t index);
 

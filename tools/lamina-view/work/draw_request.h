@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+
 #include "lamina/scene.h"
 #include "model/revisions.h"
 
@@ -10,9 +12,10 @@ namespace lamina::view {
 struct DrawRequest {
     Scene scene;
     Revisions revisions;  // which parts of the scene differ from the request before
-    bool moving = false;  // the camera has not come to rest: a coarse picture serves
-    bool coarse = true;   // whether a moving camera may get one
+    bool moving = false;  // something is being dragged: a coarse picture serves
+    bool coarse = true;   // whether it may get one
     bool trace = true;    // whether the tracer replaces the picture at rest
+    std::chrono::steady_clock::time_point asked_at = {};  // for measurements
 };
 
 }  // namespace lamina::view

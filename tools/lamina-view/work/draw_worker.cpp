@@ -6,6 +6,11 @@
 #include "work/session_steps.h"
 
 namespace lamina::view {
+namespace {
+
+constexpr auto longest_moving = std::chrono::milliseconds(200);
+
+}  // namespace
 
 DrawWorker::DrawWorker(const SessionOptions& options, std::function<void()> wake)
     : wake_(std::move(wake)),
@@ -27,8 +32,11 @@ DrawWorker::~DrawWorker() {
 void DrawWorker::request(DrawRequest request) {
     {
         const std::lock_guard lock(mutex_);
+        const bool moves_on =
+            running_moves_ && request.moving && Clock::now() - running_since_ < longest_moving;
+        const bool finish = moves_on || running_loads_ == request.revisions.data;
         newest_ = std::move(request);
-        running_.request_stop();
+        if (!finish) running_.request_stop();
     }
     changed_.notify_one();
 }
@@ -48,6 +56,7 @@ void DrawWorker::publish(const Shown& shown) {
 }
 
 void DrawWorker::run() {
+    std::uint64_t loading = 0;  // of the last request
     for (;;) {
         std::optional<DrawRequest> request;
         std::stop_token stop;
@@ -56,10 +65,16 @@ void DrawWorker::run() {
             changed_.wait(lock, [&] { return ending_ || newest_ || steps_->unfinished(); });
             if (ending_) break;
             request = std::exchange(newest_, std::nullopt);
+            if (request) {
+                loading = request->revisions.data;
+                steps_->begin(std::move(*request));
+            }
             running_ = std::stop_source();
+            running_moves_ = steps_->moves();
+            running_loads_ = steps_->loads() ? loading : 0;
+            running_since_ = Clock::now();
             stop = running_.get_token();
         }
-        if (request) steps_->begin(std::move(*request));
         steps_->step(stop);
     }
     steps_.reset();  // a session ends in the thread that it drew in

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -17,10 +19,14 @@ namespace lamina::view {
 
 class SessionSteps;
 
-// Draws in a thread of its own, which owns the session. Only the newest request counts.
+// Draws in a thread of its own, which owns the session. Only the newest request counts: it ends
+// what is being done for another one at once. Pictures of something that moves are the exception
+// while the next one moves, too: they are finished unless they take long, or there would be none
+// as long as it moves. And data are loaded to the end while nobody wants others.
 class DrawWorker {
   public:
-    // `wake` is called, in the worker's thread, whenever shown() has changed.
+    // `wake` is called, in the worker's thread or those of its session, whenever shown() has
+    // changed.
     DrawWorker(const SessionOptions& options, std::function<void()> wake);
     ~DrawWorker();  // stops what is being done
 
@@ -28,6 +34,7 @@ class DrawWorker {
     std::shared_ptr<const Shown> shown() const;  // never null
 
   private:
+    using Clock = std::chrono::steady_clock;
     void run();
     void publish(const Shown& shown);
 
@@ -40,6 +47,9 @@ class DrawWorker {
     std::optional<DrawRequest> newest_;
     bool ending_ = false;
     std::stop_source running_;
+    bool running_moves_ = false;
+    std::uint64_t running_loads_ = 0;  // Revisions::data of what is being loaded
+    Clock::time_point running_since_ = {};
     std::unique_ptr<SessionSteps> steps_;  // the worker thread's own
     std::thread thread_;
 };

@@ -1,22 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "work/session_steps.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 
 #include "lamina/error.h"
 #include "lamina/picture_file.h"
+#include "work/scene_difference.h"
+#include "work/traced_picture.h"
 
 namespace lamina::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of the 50 ms from input to picture, the window needs the rest.
+constexpr double moving_target_ms = 35;
+constexpr double tile_publish_ms = 100;
+
+double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::shared_ptr<const ScreenPicture> screen_of(const Image& picture, const Scene& scene) {
+    auto screen = std::make_shared<ScreenPicture>();
+    screen->width = picture.width;
+    screen->height = picture.height;
+    screen->rgb = screen_codes(picture, scene.background, scene.color_space);
+    return screen;
+}
+
+}  // namespace
 
 SessionSteps::SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish)
-    : options_(options), publish_(std::move(publish)) {}
+    : options_(options), publish_(std::move(publish)), coarse_size_(moving_target_ms) {}
 
 SessionSteps::~SessionSteps() = default;
 
 void SessionSteps::begin(DrawRequest request) {
     request_ = std::move(request);
-    next_ = !session_ || applied_.data != request_.revisions.data ? Next::load : Next::full;
+    const bool loaded = session_ && applied_.data == request_.revisions.data;
+    next_ = loaded ? step_after_data() : Next::load;
+    forget_tiles();
+}
+
+// A picture whose tracing was stopped is the full one again.
+void SessionSteps::forget_tiles() {
+    if (shown_.activity == "tracing") shown_.activity.clear();
+    if (shown_.kind != PictureKind::traced || shown_.truth) return;
+    shown_.kind = shown_.full ? PictureKind::full : PictureKind::none;
+    shown_.screen = full_screen_;
+    shown_.share_traced = 0;
+    shown_.error = {};
+    if (next_ == Next::nothing) publish_(shown_);
+}
+
+SessionSteps::Next SessionSteps::step_after_data() const {
+    if (request_.moving) return Next::moving;
+    const bool drawn = shown_.full && shown_.full_revisions == request_.revisions &&
+                       shown_.revisions == request_.revisions && shown_.failure.empty();
+    if (!drawn) return Next::full;
+    return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
 }
 
 void SessionSteps::step(const std::stop_token& stop) {
@@ -26,8 +73,12 @@ void SessionSteps::step(const std::stop_token& stop) {
                 return;
             case Next::load:
                 return load(stop);
+            case Next::moving:
+                return draw_moving(stop);
             case Next::full:
                 return draw_full(stop);
+            case Next::trace:
+                return trace(stop);
         }
     } catch (const Interrupted&) {
     } catch (const std::exception& error) {
@@ -51,29 +102,30 @@ ProgressCallback SessionSteps::progress() {
     };
 }
 
+// The session before is kept until the next one is there: its picture stays where that fails.
 void SessionSteps::load(const std::stop_token& stop) {
     shown_.activity = "loading";
     shown_.share_done = 0;
-    shown_.failure.clear();
     publish_(shown_);
     SessionOptions options = options_;
     options.stop = stop;
     auto session = std::make_unique<Session>(request_.scene, options);
     session_ = std::move(session);
-    applied_ = request_.revisions;
+    applied_ = chosen_ = request_.revisions;
+    full_size_ = true;
+    coarse_size_ = CoarseSize(moving_target_ms);
     shown_.loaded = applied_.data;
-    publish_chosen();
-    next_ = Next::full;
-}
-
-void SessionSteps::publish_chosen() {
+    shown_.bounds = session_->bounds();
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(512));
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
     shown_.chosen_of = applied_;
+    shown_.resolved.reset();
+    next_ = step_after_data();
     publish_(shown_);
 }
 
-// Hands the session what has changed, by the call that costs least.
-void SessionSteps::apply() {
+// Hands the session what has changed, by the call that costs least: nothing is chosen again.
+void SessionSteps::apply_change() {
     const Scene& scene = request_.scene;
     const Revisions& asked = request_.revisions;
     if (asked == applied_) return;
@@ -81,39 +133,137 @@ void SessionSteps::apply() {
     if (asked.settings != before.settings) {
         session_->set_scene(scene);
     } else {
-        if (asked.size != before.size) session_->set_size(scene.width, scene.height);
         if (asked.camera != before.camera) session_->set_camera(scene.camera);
         if (asked.clip != before.clip) session_->set_clip(scene.clip);
         if (asked.transfer_function != before.transfer_function)
             session_->set_transfer_function(scene.transfer_function);
     }
     applied_ = asked;
-    publish_chosen();
+}
+
+void SessionSteps::set_size_for_moving() {
+    const Scene& scene = request_.scene;
+    const double divisor = request_.coarse ? coarse_size_.divisor(scene.width, scene.height) : 1;
+    const int width = std::max(1, static_cast<int>(std::lround(scene.width / divisor)));
+    const int height = std::max(1, static_cast<int>(std::lround(scene.height / divisor)));
+    if (width == session_->scene().width && height == session_->scene().height) return;
+    session_->set_size(width, height);
+    full_size_ = false;
+}
+
+void SessionSteps::draw_moving(const std::stop_token& stop) {
+    const auto start = Clock::now();
+    apply_change();
+    set_size_for_moving();
+    const Image& picture = session_->draw(stop);
+    show(PictureKind::moving, picture);
+    shown_.moving_ms = ms_since(start);
+    coarse_size_.add(static_cast<double>(picture.width) * picture.height, shown_.moving_ms);
+    next_ = Next::nothing;
+    publish_(shown_);
+}
+
+// What is automatic is chosen again once anything has changed.
+void SessionSteps::choose() {
+    if (chosen_ == request_.revisions && full_size_) return;
+    applied_ = {.data = request_.revisions.data};
+    session_->set_scene(request_.scene);
+    applied_ = chosen_ = request_.revisions;
+    full_size_ = true;
+    shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
+    shown_.chosen_of = applied_;
 }
 
 void SessionSteps::draw_full(const std::stop_token& stop) {
-    apply();
+    choose();
+    if (session_->scene().method == Method::trace) {
+        shown_.full.reset();
+        shown_.truth.reset();
+        full_screen_.reset();
+        return trace(stop);
+    }
     auto picture = std::make_shared<Image>();
     session_->draw(*picture, stop, progress());
-    const Scene& resolved = session_->resolved_scene();
-    auto screen = std::make_shared<ScreenPicture>();
-    screen->width = picture->width;
-    screen->height = picture->height;
-    screen->rgb = screen_codes(*picture, resolved.background, resolved.color_space);
-    shown_.kind = PictureKind::full;
-    shown_.revisions = shown_.full_revisions = request_.revisions;
-    shown_.screen = std::move(screen);
-    shown_.full = std::move(picture);
-    shown_.resolved = std::make_shared<const Scene>(resolved);
-    shown_.statistics = session_->statistics();
-    const bool planned = resolved.method != Method::trace;
+    shown_.full = picture;
+    shown_.full_revisions = request_.revisions;
+    tell_plan();
+    show(PictureKind::full, *picture);
+    full_screen_ = shown_.screen;
+    coarse_size_.add(static_cast<double>(picture->width) * picture->height,
+                     shown_.statistics.stages_ms["draw"]);
+    shown_.activity.clear();
+    shown_.share_traced = 0;
+    shown_.error = {};
+    shown_.truth.reset();
+    next_ = request_.trace ? Next::trace : Next::nothing;
+    publish_(shown_);
+}
+
+void SessionSteps::tell_plan() {
+    const bool planned = session_->scene().method != Method::trace;
+    auto resolved = std::make_shared<const Scene>(session_->resolved_scene());
+    shown_.chosen_again.clear();
+    if (shown_.resolved)
+        shown_.chosen_again = automatic_differences(*shown_.resolved, *resolved, session_->scene());
+    shown_.resolved = std::move(resolved);
+    shown_.statistics = planned ? session_->statistics() : session_->trace_statistics();
     shown_.plan = planned ? session_->plan() : PlanSummary();
     shown_.explanation = planned ? session_->explanation() : std::string();
+}
+
+void SessionSteps::show(PictureKind kind, const Image& picture) {
+    shown_.kind = kind;
+    shown_.revisions = request_.revisions;
+    shown_.asked_at = request_.asked_at;
+    shown_.screen = screen_of(picture, session_->scene());
+    shown_.probe = session_->probe();
     shown_.warnings = session_->take_warnings();
     shown_.failure.clear();
-    shown_.activity.clear();
+}
+
+void SessionSteps::trace(const std::stop_token& stop) {
+    TracedPicture traced(shown_.full, full_screen_, session_->scene());
+    auto published = Clock::now();
+    shown_.activity = "tracing";
+    const PreciseImage& truth =
+        session_->trace(stop, {}, [&](const PictureTile& tile, const PreciseImage& picture) {
+            traced.add(tile, picture);
+            if (ms_since(published) < tile_publish_ms) return;
+            show_traced(traced);
+            publish_(shown_);
+            published = Clock::now();
+        });
+    show_traced(traced);
+    take_truth(truth);
     next_ = Next::nothing;
     publish_(shown_);
+}
+
+void SessionSteps::show_traced(const TracedPicture& traced) {
+    shown_.kind = PictureKind::traced;
+    shown_.revisions = request_.revisions;
+    shown_.asked_at = request_.asked_at;
+    shown_.screen = std::make_shared<const ScreenPicture>(traced.screen());
+    shown_.share_done = shown_.share_traced = traced.share();
+    shown_.error = traced.error();
+}
+
+void SessionSteps::take_truth(const PreciseImage& truth) {
+    shown_.truth = std::make_shared<const PreciseImage>(truth);
+    shown_.trace_error = session_->trace_statistics().trace_error;
+    const Image as_float = to_float(truth);
+    if (shown_.full) {
+        shown_.error = error_of(*shown_.full, as_float);
+    } else {  // the scene asks for the truth alone
+        shown_.full = std::make_shared<const Image>(as_float);
+        shown_.full_revisions = request_.revisions;
+        tell_plan();
+        shown_.probe = session_->probe();
+        shown_.failure.clear();
+    }
+    for (std::string& warning : session_->take_warnings())
+        shown_.warnings.push_back(std::move(warning));
+    shown_.activity.clear();
 }
 
 }  // namespace lamina::view

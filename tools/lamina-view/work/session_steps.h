@@ -6,12 +6,17 @@
 #include <stop_token>
 
 #include "lamina/session.h"
+#include "work/coarse_size.h"
 #include "work/draw_request.h"
 #include "work/shown.h"
 
 namespace lamina::view {
 
-// The work for a request, step by step: the data, then the picture. Of one thread.
+class TracedPicture;
+
+// The work for a request, step by step: the data, then a picture. Of something that moves it is a
+// quick one; at rest, what is automatic is chosen again, the full picture is drawn, and the tracer
+// replaces it. Of one thread.
 class SessionSteps {
   public:
     SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish);
@@ -19,15 +24,26 @@ class SessionSteps {
 
     void begin(DrawRequest request);  // forgets what is left to do of the one before
     bool unfinished() const { return next_ != Next::nothing; }
+    bool moves() const { return next_ == Next::moving; }
+    bool loads() const { return next_ == Next::load; }
     // Does the next step. What goes wrong is published; a step that was stopped is left to do.
     void step(const std::stop_token& stop);
 
   private:
-    enum class Next { nothing, load, full };
+    enum class Next { nothing, load, moving, full, trace };
+    Next step_after_data() const;
     void load(const std::stop_token& stop);
+    void draw_moving(const std::stop_token& stop);
     void draw_full(const std::stop_token& stop);
-    void apply();
-    void publish_chosen();
+    void trace(const std::stop_token& stop);
+    void apply_change();
+    void choose();
+    void set_size_for_moving();
+    void show(PictureKind kind, const Image& picture);
+    void tell_plan();
+    void show_traced(const TracedPicture& traced);
+    void take_truth(const PreciseImage& truth);
+    void forget_tiles();
     void fail(const std::string& message);
     ProgressCallback progress();
 
@@ -37,6 +53,10 @@ class SessionSteps {
     Next next_ = Next::nothing;
     std::unique_ptr<Session> session_;
     Revisions applied_;  // what the session has
+    Revisions chosen_;   // for what its automatic values were chosen
+    bool full_size_ = true;
+    CoarseSize coarse_size_;
+    std::shared_ptr<const ScreenPicture> full_screen_;  // of shown_.full
     Shown shown_;
 };
 

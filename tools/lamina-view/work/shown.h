@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lamina/error_norms.h"
 #include "lamina/frame_statistics.h"
+#include "lamina/grid.h"
 #include "lamina/image.h"
 #include "lamina/plan_summary.h"
+#include "lamina/point_probe.h"
 #include "lamina/scene.h"
+#include "lamina/value_histogram.h"
 #include "model/revisions.h"
 
 namespace lamina::view {
 
-// coarse: of fewer pixels, while the camera moves; full: as `lamina render` draws it; traced: full,
-// and the tracer has replaced some or all of it.
-enum class PictureKind { none, coarse, full, traced };
+// moving: while something is dragged, with what was automatic kept, and mostly of fewer pixels;
+// full: as `lamina render` draws it; traced: full, and the tracer has replaced some or all of it.
+enum class PictureKind { none, moving, full, traced };
 
 // Pixels as a screen shows them: 8-bit codes of sRGB, three a pixel, row 0 on top.
 struct ScreenPicture {
@@ -28,8 +33,11 @@ struct ScreenPicture {
 // What there is to see. Immutable once it is published, and cheap to copy.
 struct Shown {
     PictureKind kind = PictureKind::none;
-    Revisions revisions;  // of the request that the picture is of
+    Revisions revisions;                                  // of the request that the picture is of
+    std::chrono::steady_clock::time_point asked_at = {};  // of that request
+    double moving_ms = 0;                                 // what the last moving picture took
     std::shared_ptr<const ScreenPicture> screen;
+    std::optional<PointProbe> probe;    // for the picture: places are pixels of its scene
     std::shared_ptr<const Image> full;  // the last full picture, of `full_revisions`
     Revisions full_revisions;
     // Of that picture. `resolved` has everything automatic written out.
@@ -37,14 +45,18 @@ struct Shown {
     FrameStatistics statistics;
     PlanSummary plan;
     std::string explanation;
-    std::vector<std::string> chosen_again;  // automatic keys that got another value at rest
+    // Automatic keys that got another value at rest: "render.slice.samples: 300 -> 320".
+    std::vector<std::string> chosen_again;
 
     double share_traced = 0;                    // of its pixels, 0 to 1
     ErrorNorms error;                           // of the pixels that are traced
     std::shared_ptr<const PreciseImage> truth;  // once all of them are
+    double trace_error = 0;                     // of that, in 1/255, as the tracer estimates it
 
     // The data: of Revisions::data `loaded` (0: none yet).
     std::uint64_t loaded = 0;
+    Grid::Bounds bounds;  // of the data, world
+    std::shared_ptr<const ValueHistogram> histogram;  // null: not counted yet
     // The scene of the request `chosen_of`, with transfer function and camera as they were chosen
     // where it leaves them open.
     std::shared_ptr<const Scene> chosen;

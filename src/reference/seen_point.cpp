@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/seen_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "optics/opacity.h"
+#include "optics/segment_integral.h"
+#include "reference/cell_walk.h"
+#include "reference/chord.h"
+#include "reference/ray_integrator.h"
+#include "reference/seen_segment.h"
+#include "reference/transfer_intervals.h"
+#include "reference/trilinear.h"
+
+namespace lamina {
+namespace {
+
+// A part of the ray, with the optical depth in front of its end.
+template <typename Piece>
+struct RayStep {
+    Piece piece;
+    double from, to;
+    double depth_before, depth_after;
+};
+
+// Where in its step the depth is reached: depth_of(piece, from, to) is that of a part of it.
+template <typename Piece, typename DepthOf>
+double place_of_depth(const RayStep<Piece>& step, double depth, const DepthOf& depth_of) {
+    double before = step.from, after = step.to;
+    for (double middle = std::midpoint(before, after); before < middle && middle < after;
+         middle = std::midpoint(before, after)) {
+        const double reached = step.depth_before + depth_of(step.piece, step.from, middle);
+        (reached < depth ? before : after) = middle;
+    }
+    return after;
+}
+
+// The optical depth at which half of the opacity of `whole` is reached.
+double depth_of_half(double whole) {
+    return -std::log1p(-opacity_from_depth(whole) / 2);
+}
+
+// Finds the point in the steps of a ray. value_of(piece, place) is of the data.
+template <typename Piece, typename DepthOf, typename ValueOf>
+std::optional<SeenPoint> point_in(const std::vector<RayStep<Piece>>& steps, const View::Ray& ray,
+                                  double first_z, const DepthOf& depth_of,
+                                  const ValueOf& value_of) {
+    if (steps.empty() || !(steps.back().depth_after > 0)) return {};
+    const double depth = depth_of_half(steps.back().depth_after);
+    const auto step = std::ranges::lower_bound(
+        steps, depth, {}, [](const RayStep<Piece>& a) { return a.depth_after; });
+    const RayStep<Piece>& there = step == steps.end() ? steps.back() : *step;
+    const double place = place_of_depth(there, depth, depth_of);
+    return SeenPoint{ray.origin + (first_z + place) * ray.direction, value_of(there.piece, place),
+                     opacity_from_depth(steps.back().depth_after)};
+}
+
+// The scalar in a cell, between two parameters of the chord.
+Cubic scalar_in(const CellCorners& corners, const CellIndex& cell, const Chord& chord, double from,
+                double to) {
+    const glm::dvec3 corner(cell[0], cell[1], cell[2]);
+    const glm::dvec3 start =
+        glm::clamp(chord.entry + from * chord.direction - corner, glm::dvec3(0), glm::dvec3(1));
+    return corners.along(start, (to - from) * chord.direction);
+}
+
+template <typename Sample>
+std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sample* first_sample,
+                                 const View::Ray& ray) {
+    const Chord chord = clip_to_box(grid, ray, half_spaces(scene.clip));
+    if (!(chord.length_z > 0)) return {};
+    const CellSamples<Sample> samples(grid, first_sample);
+    const TransferIntervals transfer(scene.transfer_function);
+    const auto integrate = [&](const CellIndex& cell, double from, double to,
+                               RayIntegrator& integrator) {
+        const CellCorners corners = samples.corners(cell);
+        const auto [lo, hi] = corners.range();
+        if (!transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
+        integrator.add(scalar_in(corners, cell, chord, from, to), lo, hi,
+                       (to - from) * chord.world_per_z);
+    };
+    RayIntegrator whole(transfer, scene.trace_tolerance, chord.world_length());
+    std::vector<RayStep<CellIndex>> steps;
+    CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
+        const double before = whole.optical_depth();
+        integrate(cell, from, to, whole);
+        steps.push_back({cell, from, to, before, whole.optical_depth()});
+        return !whole.opaque();
+    });
+    const auto depth_of = [&](const CellIndex& cell, double from, double to) {
+        RayIntegrator part(transfer, scene.trace_tolerance, chord.world_length());
+        integrate(cell, from, to, part);
+        return part.optical_depth();
+    };
+    const auto value_of = [&](const CellIndex& cell, double place) {
+        return scalar_in(samples.corners(cell), cell, chord, place, place)(0);
+    };
+    // The chord counts from its entry into the box.
+    const glm::dvec3 entry = grid.to_world(chord.entry);
+    const double entry_z =
+        glm::dot(entry - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
+    return point_in(steps, ray, entry_z, depth_of, value_of);
+}
+
+}  // namespace
+
+std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, double column,
+                                    double row) {
+    const View view(scene.camera, scene.width, scene.height);
+    return volume.visit([&](const auto* first_sample) {
+        return seen_in(scene, volume.grid(), first_sample, view.ray(column, row));
+    });
+}
+
+std::optional<SeenPoint> seen_point(const Scene& scene, const SceneMesh& mesh,
+                                    const FaceTree& open_faces, double column, double row) {
+    const View::Ray ray = View(scene.camera, scene.width, scene.height).ray(column, row);
+    const double world_per_z = glm::length(ray.direction);
+    const SeenRange seen = seen_range(half_spaces(scene.clip), ray);
+    const std::span<const double> scalar = mesh.scalar.values;
+    RayWalk walk(mesh.mesh, open_faces);
+    walk.aim(ray.origin, ray.direction);
+    std::vector<TetSegment> listed;
+    walk.list(listed);
+    const auto depth_of = [&](const SeenSegment& part, double from, double to) {
+        const double slope = (part.back - part.front) / (part.to - part.from);
+        return integrate_segment(scene.transfer_function, part.front + slope * (from - part.from),
+                                 part.front + slope * (to - part.from), (to - from) * world_per_z)
+            .optical_depth;
+    };
+    std::vector<RayStep<SeenSegment>> steps;
+    double depth = 0;
+    for (const TetSegment& segment : listed) {
+        const SeenSegment part = seen_segment(segment, seen, scalar);
+        // A tet without a value at one of its corners is transparent.
+        const Tet& tet = mesh.mesh.tets()[static_cast<std::size_t>(segment.tet)];
+        const auto finite = [&](std::int32_t corner) {
+            return std::isfinite(scalar[static_cast<std::size_t>(corner)]);
+        };
+        if (!(part.from < part.to) || !std::ranges::all_of(tet, finite)) continue;
+        const double before = depth;
+        depth += depth_of(part, part.from, part.to);
+        steps.push_back({part, part.from, part.to, before, depth});
+    }
+    const auto value_of = [&](const SeenSegment& part, double place) {
+        return part.front + (part.back - part.front) / (part.to - part.from) * (place - part.from);
+    };
+    return point_in(steps, ray, 0, depth_of, value_of);
+}
+
+}  // namespace lamina

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/document.h"
+
+#include <gtest/gtest.h>
+
+#include "lamina/error.h"
+#include "lamina/scene_text.h"
+
+namespace lamina::view {
+namespace {
+
+using Curve = TransferHandle::Curve;
+
+const SymlogAxis axis(0, 10, .01);
+
+Scene small_scene() {
+    return parse_scene(
+        R"({"version": 1, "volume": {"generate": "gaussians"},
+            "transfer_function": {"points": [{"value": 10, "extinction": 0},
+                                             {"value": 200, "color": "tomato", "extinction": 0.7}]},
+            "camera": {"eye": [3, 1, 2], "center": [0.5, 0.5, 0.5]}})",
+        "scene.json");
+}
+
+Document opened() {
+    Document document;
+    document.open(small_scene());
+    return document;
+}
+
+TEST(Document, OneDragIsOneStep) {
+    Document document = opened();
+    const TransferFunction before = document.scene().transfer_function;
+    document.transfer().select_only({Curve::density, 1});
+    document.transfer().begin_move();
+    for (int i = 1; i <= 20; ++i) {
+        document.transfer().move({-5. * i, 0}, axis);
+        document.transfer_edited("drag");
+    }
+    document.transfer().end_move();
+    document.end_step();
+    EXPECT_EQ(document.scene().transfer_function.knots().back().value, 100);
+    EXPECT_TRUE(document.dirty());
+    document.undo();
+    EXPECT_TRUE(document.scene().transfer_function == before);
+    EXPECT_FALSE(document.can_undo());
+    document.redo();
+    EXPECT_EQ(document.scene().transfer_function.knots().back().value, 100);
+    EXPECT_FALSE(document.can_redo());
+}
+
+TEST(Document, UndoBringsPointsBackThatTheFunctionDoesNotNeed) {
+    Document document = opened();
+    document.transfer().add_density(105, .35);  // on the line
+    document.transfer_edited("add");
+    document.end_step();
+    EXPECT_EQ(document.scene().transfer_function.knots().size(), 2u);
+    EXPECT_EQ(document.transfer().curves().density.size(), 3u);
+    document.undo();
+    EXPECT_EQ(document.transfer().curves().density.size(), 2u);
+    document.redo();
+    EXPECT_EQ(document.transfer().curves().density.size(), 3u);
+}
+
+TEST(Document, SettingsAreSteps) {
+    Document document = opened();
+    const Revisions before = document.revisions();
+    document.set_setting("render.target", "fixed8");
+    EXPECT_EQ(document.scene().target, Target::fixed8);
+    EXPECT_EQ(document.revisions().settings, before.settings + 1);
+    EXPECT_EQ(document.revisions().data, before.data);
+    EXPECT_THROW(document.set_setting("render.slice.samples", -1), Error);
+    document.end_step();
+    document.set_setting("render.max_error", .5);
+    document.set_setting("render.max_error", .4);  // a slider that is drawn
+    EXPECT_EQ(document.undo_name(), "render.max_error");
+    document.undo();
+    EXPECT_EQ(document.scene().max_error, 1);
+    EXPECT_EQ(document.scene().target, Target::fixed8);
+    document.undo();
+    EXPECT_EQ(document.scene().target, Target::float32);
+    EXPECT_FALSE(document.can_undo());
+}
+
+TEST(Document, CountsWhatChanges) {
+    Document document = opened();
+    Revisions before = document.revisions();
+    document.set_setting("camera.fov_y", 30);
+    EXPECT_EQ(document.revisions().camera, before.camera + 1);
+    EXPECT_EQ(document.revisions().settings, before.settings);
+    document.set_setting("volume", {{"generate", "sheets"}});
+    EXPECT_EQ(document.revisions().data, before.data + 1);
+    before = document.revisions();
+    document.set_setting("clip.box", {{"min", {0, 0, 0}}, {"max", {1, 1, .5}}});
+    EXPECT_EQ(document.revisions().clip, before.clip + 1);
+    EXPECT_EQ(document.revisions().settings, before.settings);
+    EXPECT_TRUE(document.size_follows_window);
+    document.set_setting("image.width", 99);
+    EXPECT_FALSE(document.size_follows_window);
+}
+
+TEST(Document, UndoLeavesTheViewThatOneHasTurnedTo) {
+    Document document = opened();
+    document.set_setting("render.target", "float16");
+    Camera camera = document.scene().camera;
+    camera.eye = {9, 8, 7};
+    document.set_camera(camera);
+    document.undo();
+    EXPECT_EQ(document.scene().camera.eye, glm::dvec3(9, 8, 7));
+    document.set_setting("camera.eye", {1, 2, 3});
+    document.undo();
+    EXPECT_EQ(document.scene().camera.eye, glm::dvec3(9, 8, 7));
+}
+
+TEST(Document, ColoursKeepTheirLookInAnotherSpace) {
+    Document document = opened();
+    const TransferFunction before = document.scene().transfer_function;
+    document.set_setting("image.color_space", "display");
+    EXPECT_FALSE(document.scene().transfer_function == before);
+    EXPECT_TRUE(document.scene().transfer_function == document.transfer().function());
+    document.undo();
+    EXPECT_TRUE(document.scene().transfer_function == before);
+}
+
+TEST(Document, TakesWhatTheDataSuggest) {
+    Document document = opened();
+    document.choose_transfer_function();
+    EXPECT_TRUE(document.scene().automatic_transfer_function);
+    Scene chosen = document.scene();
+    chosen.transfer_function = TransferFunction::linear({{5, {{1, 1, 1}, 3}, false}});
+    document.take_chosen(chosen);
+    EXPECT_FALSE(document.scene().automatic_transfer_function);
+    EXPECT_EQ(document.transfer().curves().density.front().extinction, 3);
+    document.undo();
+    EXPECT_EQ(document.scene().transfer_function.knots().size(), 2u);
+}
+
+TEST(Document, AnotherSceneHasNoPast) {
+    Document document = opened();
+    document.set_setting("render.target", "float16");
+    document.open(small_scene());
+    EXPECT_FALSE(document.can_undo());
+    EXPECT_FALSE(document.dirty());
+}
+
+}  // namespace
+}  // namespace lamina::view

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/starting_values.h"
+
+#include <gtest/gtest.h>
+
+#include "lamina/scene_text.h"
+#include "model/scene_edit.h"
+#include "model/scene_keys.h"
+
+namespace lamina::view {
+namespace {
+
+Scene scene_with(const std::string& more = "") {
+    return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"}, "mesh": {}, "camera":
+                           {"eye": [3, 1, 2], "center": [0.5, 0.5, 0.5]})" +
+                           more + "}",
+                       "scene");
+}
+
+TEST(StartingValues, MayStandInAScene) {
+    const Grid::Bounds bounds{glm::dvec3(0), glm::dvec3(1)};
+    const Scene scene = scene_with();
+    const auto look = [&](const auto& again, const SettingNode& node) -> void {
+        for (const SettingNode& part : node.parts) {
+            if (may_be_absent(part)) {
+                const Scene with = with_setting(
+                    scene, part.path, starting_value(part, part.path, scene, nullptr, bounds));
+                EXPECT_TRUE(setting_at(settings_of(with), part.path).is_object()) << part.path;
+            }
+            again(again, part);
+        }
+    };
+    look(look, scene_keys());
+    const SettingNode& plane = scene_key("clip.planes[]");
+    EXPECT_EQ(with_setting(scene, "clip.planes",
+                           {starting_value(plane, "clip.planes.0", scene, nullptr, bounds)})
+                  .clip.planes.size(),
+              1u);
+}
+
+TEST(StartingValues, OfWhatWasAutomaticAreWhatWasChosen) {
+    const Scene scene = scene_with();
+    Scene resolved = scene;
+    resolved.slice.samples = 321;
+    const SettingNode& samples = scene_key("render.slice.samples");
+    EXPECT_EQ(starting_value(samples, samples.path, scene, &resolved, {}), 321);
+    EXPECT_EQ(starting_value(samples, samples.path, scene, nullptr, {}), 1);
+    const SettingNode& direction = scene_key("lighting.lights[].direction");
+    EXPECT_EQ(starting_value(direction, "lighting.lights.0.direction", scene, nullptr, {}),
+              (nlohmann::ordered_json{0, 0, 1}));
+}
+
+// Groups that a scene may lack: without them the file has them not.
+TEST(StartingValues, GroupsThatMayBeAbsentAreNotWritten) {
+    const nlohmann::ordered_json plain =
+        settings_of(parse_scene(R"({"version": 1, "volume": {"generate": "ramp"}})", "scene"));
+    const auto look = [&](const auto& again, const SettingNode& node) -> void {
+        for (const SettingNode& part : node.parts) {
+            if (part.kind == SettingKind::group && part.path != "clip" &&
+                part.path != "transfer_function") {
+                const bool there = !setting_at(plain, part.path).is_null();
+                EXPECT_NE(may_be_absent(part), there) << part.path;
+                if (!there) continue;
+            }
+            again(again, part);
+        }
+    };
+    look(look, scene_keys());
+}
+
+}  // namespace
+}  // namespace lamina::view

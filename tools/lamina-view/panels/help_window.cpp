@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels/help_window.h"
+
+#include <imgui.h>
+
+#include <span>
+
+#include "panels/theme.h"
+
+namespace lamina::view {
+namespace {
+
+struct HelpLine {
+    const char *input, *effect;
+};
+
+constexpr HelpLine of_picture[] = {{"Left drag", "turn around what is looked at"},
+                                   {"Middle or Shift drag", "move sideways"},
+                                   {"Wheel, right drag", "nearer and farther"},
+                                   {"Double click", "look at the point that is seen"}};
+
+constexpr HelpLine of_transfer_function[] = {
+    {"Double click", "new point; below the curves, new colour"},
+    {"Drag", "move points; a rectangle selects"},
+    {"Shift or Ctrl click", "select more"},
+    {"Right click", "menu of the selected points"},
+    {"Right drag", "level along the values, window up and down"},
+    {"Wheel, middle drag", "fewer values, along the values"},
+    {"Arrows", "nudge by a pixel; with Shift by ten"},
+    {"Delete", "delete the selected points"},
+    {"Ctrl+A", "select all"},
+    {"Esc", "take a drag back, or select nothing"}};
+
+constexpr HelpLine of_all[] = {{"Ctrl+Z", "undo"},
+                               {"Ctrl+Y, Ctrl+Shift+Z", "redo"},
+                               {"Ctrl click on a number", "type it"},
+                               {"F1", "this help"}};
+
+void table(const char* title, std::span<const HelpLine> lines) {
+    ImGui::TextColored(theme::dim, "%s", title);
+    if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
+        return;
+    for (const HelpLine& line : lines) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(line.input);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(line.effect);
+    }
+    ImGui::EndTable();
+    ImGui::Spacing();
+}
+
+}  // namespace
+
+void help_window(bool& open) {
+    if (!open) return;
+    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+    ImGui::SetNextWindowPos(middle, ImGuiCond_Appearing, {.5f, .5f});
+    if (ImGui::Begin("Keys and pointer", &open,
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
+        table("Picture", of_picture);
+        table("Transfer function", of_transfer_function);
+        table("Everywhere", of_all);
+        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open = false;
+    }
+    ImGui::End();
+}
+
+}  // namespace lamina::view

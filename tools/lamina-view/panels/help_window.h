@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace lamina::view {
+
+// What pointer and keys do, over everything else. `open` is cleared when it is closed.
+void help_window(bool& open);
+
+}  // namespace lamina::view

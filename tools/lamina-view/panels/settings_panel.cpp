@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels/settings_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "lamina/error.h"
+#include "model/key_effects.h"
+#include "model/scene_edit.h"
+#include "model/scene_keys.h"
+#include "model/starting_values.h"
+#include "panels/setting_controls.h"
+#include "panels/theme.h"
+
+namespace lamina::view {
+namespace {
+
+// What one changes while one looks; the rest says what is looked at.
+constexpr std::array<std::string_view, 6> first_groups{"render", "camera", "lighting",
+                                                       "clip",   "image",  "transfer_function"};
+
+bool is_first(const SettingNode& node) {
+    return std::ranges::find(first_groups, node.key) != first_groups.end();
+}
+
+std::string below(const std::string& path, const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+}
+
+void show_help(const SettingNode& node, const std::string& reason) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(em(26));
+    ImGui::TextUnformatted(node.path.c_str());
+    if (!node.description.empty()) ImGui::TextColored(theme::dim, "%s", node.description.c_str());
+    if (!node.otherwise.is_null())
+        ImGui::TextColored(theme::dim, "Default: %s", node.otherwise.dump().c_str());
+    if (!reason.empty()) ImGui::TextColored(theme::warning, "Changes nothing: %s", reason.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+std::optional<Grid::Bounds> data_bounds(const PanelContext& context) {
+    if (context.shown.loaded == 0) return {};
+    return context.shown.bounds;
+}
+
+void wrapped(const ImVec4& color, const std::string& text) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(color, "%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace
+
+void SettingsPanel::draw(PanelContext& context) {
+    drawn_.clear();
+    if (!context.document.is_open()) return;
+    settings_ = settings_of(context.document.scene());
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##filter", "Find a key", filter_.InputBuf,
+                                 IM_ARRAYSIZE(filter_.InputBuf)))
+        filter_.Build();
+    const SettingNode& scene = scene_keys();
+    for (const std::string_view key : first_groups)
+        for (const SettingNode& part : scene.parts)
+            if (part.key == key) draw_node(part, part.key, context);
+    if (all_open || filter_.IsActive()) ImGui::SetNextItemOpen(true);
+    if (!ImGui::TreeNodeEx("data", ImGuiTreeNodeFlags_SpanAvailWidth)) return;
+    for (const SettingNode& part : scene.parts)
+        if (!is_first(part)) draw_node(part, part.key, context);
+    ImGui::TreePop();
+}
+
+// A node is shown where its path has what is looked for, or one below it has.
+bool SettingsPanel::passes(const SettingNode& node) const {
+    return filter_.PassFilter(node.path.c_str()) ||
+           std::ranges::any_of(node.parts, [&](const SettingNode& part) { return passes(part); });
+}
+
+SettingsPanel::Json SettingsPanel::value_at(const std::string& path) const {
+    return setting_at(settings_, path);
+}
+
+SettingsPanel::Json SettingsPanel::start_of(const SettingNode& node, const std::string& path,
+                                            PanelContext& context) const {
+    return starting_value(node, path, context.document.scene(), context.shown.resolved.get(),
+                          data_bounds(context));
+}
+
+void SettingsPanel::set(const std::string& path, const Json& value, PanelContext& context) {
+    try {
+        context.document.set_setting(path, value);
+        message_.clear();
+    } catch (const Error& error) {
+        message_ = error.what();
+    }
+    message_path_ = path;
+}
+
+void SettingsPanel::draw_parts(const SettingNode& node, const std::string& path,
+                               PanelContext& context) {
+    for (const SettingNode& part : node.parts) draw_node(part, below(path, part.key), context);
+}
+
+void SettingsPanel::draw_node(const SettingNode& node, const std::string& path,
+                              PanelContext& context) {
+    if (!passes(node)) return;
+    drawn_.insert(node.path);
+    ImGui::PushID(path.c_str());
+    switch (node.kind) {
+        case SettingKind::group:
+            if (node.path == "transfer_function")
+                draw_transfer_function(node);
+            else
+                draw_group(node, path, context);
+            break;
+        case SettingKind::list:
+            draw_list(node, path, context);
+            break;
+        case SettingKind::either:
+            draw_either(node, path, context);
+            break;
+        default:
+            draw_leaf(node, path, context);
+    }
+    if (path == message_path_ && !message_.empty()) wrapped(theme::bad, message_);
+    ImGui::PopID();
+}
+
+void SettingsPanel::draw_label(const SettingNode& node, const std::string& reason) {
+    ImGui::AlignTextToFramePadding();
+    if (reason.empty())
+        ImGui::TextUnformatted(node.key.c_str());
+    else
+        ImGui::TextDisabled("%s", node.key.c_str());
+    show_help(node, reason);
+    ImGui::SameLine(em(8.5f));
+}
+
+void SettingsPanel::draw_leaf(const SettingNode& node, const std::string& path,
+                              PanelContext& context) {
+    const std::string reason = why_without_effect(context.document.scene(), node.path);
+    draw_label(node, reason);
+    ImGui::BeginDisabled(!reason.empty());
+    Json value = value_at(path);
+    if (node.automatic) {
+        bool automatic = value.is_null() || value == node.automatic_word;
+        if (ImGui::Checkbox(node.automatic_word.c_str(), &automatic)) {
+            set(path, automatic ? Json(node.automatic_word) : start_of(node, path, context),
+                context);
+        }
+        ImGui::SameLine();
+        if (value.is_null() || value == node.automatic_word) {
+            ImGui::BeginDisabled();
+            setting_control(node, start_of(node, path, context),
+                            context.document.scene().color_space);
+            ImGui::EndDisabled();
+            ImGui::EndDisabled();
+            return;
+        }
+    }
+    if (value.is_null()) value = node.otherwise;
+    if (const auto answer = setting_control(node, value, context.document.scene().color_space))
+        set(path, *answer, context);
+    ImGui::EndDisabled();
+}
+
+// Switches a group on or off, or hands it to the plan. Returns whether its keys are there.
+bool SettingsPanel::draw_switch(const SettingNode& node, const std::string& path,
+                                PanelContext& context) {
+    const Json value = value_at(path);
+    const bool own = value.is_object();
+    ImGui::SameLine(em(8.5f));
+    if (node.path == "camera") {
+        if (ImGui::SmallButton("from the data")) context.document.choose_camera();
+        return true;
+    }
+    const bool automatic_without = node.automatic && node.key == "table";
+    const bool automatic = value == node.automatic_word || (automatic_without && value.is_null());
+    ImGui::SetNextItemWidth(-1);
+    const char* const now = own ? "own" : automatic ? node.automatic_word.c_str() : "none";
+    if (ImGui::BeginCombo("##switch", now)) {
+        if (!automatic_without && ImGui::Selectable("none", !own && !automatic))
+            set(path, nullptr, context);
+        if (node.automatic && ImGui::Selectable(node.automatic_word.c_str(), automatic))
+            set(path, node.automatic_word, context);
+        if (ImGui::Selectable("own", own) && !own)
+            set(path, start_of(node, path, context), context);
+        ImGui::EndCombo();
+    }
+    return own;
+}
+
+void SettingsPanel::draw_group(const SettingNode& node, const std::string& path,
+                               PanelContext& context) {
+    const std::string reason = why_without_effect(context.document.scene(), node.path);
+    const bool switched = may_be_absent(node) || node.path == "camera";
+    if (all_open || filter_.IsActive()) ImGui::SetNextItemOpen(true);
+    if (!reason.empty())
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    const bool open = ImGui::TreeNodeEx(
+        node.key.c_str(), (switched ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth) |
+                              (node.path == "render" ? ImGuiTreeNodeFlags_DefaultOpen : 0));
+    if (!reason.empty()) ImGui::PopStyleColor();
+    show_help(node, reason);
+    ImGui::BeginDisabled(!reason.empty());
+    const bool there = !switched || draw_switch(node, path, context);
+    ImGui::EndDisabled();
+    if (!open) return;
+    if (!reason.empty()) wrapped(theme::dim, "Changes nothing: " + reason);
+    ImGui::BeginDisabled(!there);
+    if (there || all_open)
+        draw_parts(node, path, context);
+    else
+        wrapped(theme::dim, "It has no keys as it is");
+    ImGui::EndDisabled();
+    ImGui::TreePop();
+}
+
+void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
+                              PanelContext& context) {
+    const Json value = value_at(path);
+    const std::size_t size = value.is_array() ? value.size() : 0;
+    const std::string one = node.key.substr(0, node.key.size() - 1);
+    const SettingNode& element = node.parts.front();
+    draw_label(node, {});
+    ImGui::BeginDisabled(node.count > 0 && size >= node.count);
+    if (ImGui::SmallButton("add")) {
+        Json longer = value.is_array() ? value : Json::array();
+        longer.push_back(starting_value(element, below(path, std::to_string(size)),
+                                        context.document.scene(), nullptr, data_bounds(context)));
+        set(path, longer, context);
+    }
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    ImGui::TextDisabled("%zu", size);
+    // Without an element its keys are shown all the same where everything is.
+    const std::size_t shown = all_open && size == 0 ? 1 : size;
+    for (std::size_t i = 0; i < shown; ++i) {
+        const std::string at = below(path, std::to_string(i));
+        ImGui::PushID(static_cast<int>(i));
+        ImGui::SetNextItemOpen(true, all_open ? ImGuiCond_Always : ImGuiCond_Appearing);
+        const bool open = ImGui::TreeNode("##element", "%s %zu", one.c_str(), i + 1);
+        ImGui::SameLine(em(8.5f));
+        ImGui::BeginDisabled(size <= node.least_count);
+        if (ImGui::SmallButton("remove")) {
+            Json shorter = value;
+            shorter.erase(i);
+            set(path, shorter, context);
+        }
+        ImGui::EndDisabled();
+        if (open) {
+            ImGui::BeginDisabled(i >= size);
+            draw_parts(element, at, context);
+            ImGui::EndDisabled();
+            ImGui::TreePop();
+        }
+        ImGui::PopID();
+    }
+}
+
+// A file, or made: told apart by a text or an object in its place. A name in the field makes it a
+// file.
+void SettingsPanel::draw_either(const SettingNode& node, const std::string& path,
+                                PanelContext& context) {
+    const Json value = value_at(path);
+    draw_label(node, {});
+    ImGui::SetNextItemWidth(-1);
+    const char* const made = node.path == "volume" ? "generated" : "made from the volume";
+    const char* const now = value.is_string() ? "file" : value.is_object() ? made : "none";
+    if (ImGui::BeginCombo("##either", now)) {
+        if (may_be_absent(node) && ImGui::Selectable("none", value.is_null()))
+            set(path, nullptr, context);
+        if (ImGui::Selectable(made, value.is_object()) && !value.is_object())
+            set(path, starting_value(node, path, context.document.scene(), nullptr, {}), context);
+        ImGui::EndCombo();
+    }
+    ImGui::Indent();
+    for (const SettingNode& part : node.parts) {
+        if (part.kind == SettingKind::text) {
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextUnformatted("file");
+            ImGui::SameLine(em(8.5f));
+            if (const auto answer = setting_control(part, value, {})) set(path, *answer, context);
+        } else if (value.is_object() || all_open) {
+            ImGui::BeginDisabled(!value.is_object());
+            draw_parts(part, path, context);
+            ImGui::EndDisabled();
+        }
+    }
+    ImGui::Unindent();
+}
+
+// Its keys have their controls in the transfer panel.
+void SettingsPanel::draw_transfer_function(const SettingNode& node) {
+    draw_label(node, {});
+    ImGui::TextColored(theme::dim, "in its own panel");
+    for (const std::string& path : paths_below(node)) drawn_.insert(path);
+}
+
+}  // namespace lamina::view

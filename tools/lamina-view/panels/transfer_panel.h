@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "panels/panel.h"
+#include "panels/transfer_plot.h"
+
+namespace lamina::view {
+
+// The editor of the transfer function: the plot, and on its right the numbers of the selected
+// points, colour maps, and what changes the whole function.
+class TransferPanel : public Panel {
+  public:
+    const char* title() const override { return "Transfer function"; }
+    PanelPlace place() const override { return PanelPlace::bottom; }
+    void draw(PanelContext& context) override;
+
+  private:
+    void draw_controls(PanelContext& context);
+    void draw_selected(Document& document);
+    void draw_density_point(Document& document, std::size_t index);
+    void draw_color(Document& document, double value, const glm::dvec3& color);
+    void draw_whole(Document& document);
+    void draw_density_slider(Document& document);
+    void draw_between(Document& document);
+    void draw_maps(PanelContext& context);
+    void apply_map(PanelContext& context, const std::string& name_or_path);
+
+    TransferPlot plot_;
+    std::uint64_t fitted_to_ = 0;  // Revisions::data
+    bool counted_ = false;         // whether the histogram was there then
+    double density_ = 1;           // of the slider, while it is drawn
+    bool over_points_ = false;     // maps are stretched over the points, or over the data
+    std::string map_file_, map_message_;
+};
+
+}  // namespace lamina::view
