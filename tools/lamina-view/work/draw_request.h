@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 
 #include "lamina/scene.h"
 #include "model/revisions.h"
+#include "work/pinned_picture.h"
 
 namespace lamina::view {
 
@@ -15,6 +17,7 @@ struct DrawRequest {
     bool moving = false;  // something is being dragged: a coarse picture serves
     bool coarse = true;   // whether it may get one
     bool trace = true;    // whether the tracer replaces the picture at rest
+    std::shared_ptr<const PinnedPicture> pinned = {};     // to be kept in the view of the scene
     std::chrono::steady_clock::time_point asked_at = {};  // for measurements
 };
 
