@@ -110,6 +110,10 @@ TEST(TransferCurves, RefuseWhatIsNoFunction) {
     TransferCurves curves;
     curves.density = {{1, .5, false, 0, {}}, {0, .5, false, 0, {}}};
     EXPECT_THROW((void)curves.function(), Error);
+    curves.density = {{1, .5, false, 0, {}}, {1, .2, false, 0, {}}, {1, .1, false, 0, {}}};
+    EXPECT_THROW((void)curves.function(), Error);
+    curves.density = {};
+    EXPECT_THROW((void)curves.function(), Error);
     curves.density = {{0, -1, false, 0, {}}};
     EXPECT_THROW((void)curves.function(), Error);
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "lamina/color.h"
+#include "model/density_shapes.h"
 #include "model/opacity_slopes.h"
 
 namespace lamina::view {
@@ -266,6 +267,21 @@ TEST(TransferEditor, MapsReplaceColoursAlone) {
     EXPECT_EQ(editor.curves().density, density);
     EXPECT_TRUE(editor.recolor(load_colormap("ct-bone"), 0, 5, true));
     EXPECT_NE(editor.curves().density, density);
+}
+
+TEST(TransferEditor, ShapesReplaceExtinctionAlone) {
+    TransferEditor editor = four_points();
+    const glm::dvec3 color = editor.function().at(1.7).color;
+    EXPECT_TRUE(editor.set_density(ramp_shape(-1, 9, 2)));
+    EXPECT_EQ(editor.function().at(4).extinction, 1);
+    EXPECT_EQ(editor.function().at(1.7).color, color);
+    EXPECT_TRUE(editor.set_density(peak_shape(0, 40, 10, 3)));
+    EXPECT_EQ(editor.function().at(10).extinction, 3);
+    EXPECT_EQ(editor.function().at(9).extinction, 0);
+    EXPECT_TRUE(editor.set_density(step_shape(0, 40, 10, 3)));
+    EXPECT_EQ(editor.function().at(9.99).extinction, 0);
+    EXPECT_EQ(editor.function().at(10).extinction, 3);
+    EXPECT_FALSE(editor.set_density({}));
 }
 
 TEST(TransferEditor, PalettesStepHalfway) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "lamina/context_choice.h"
@@ -19,12 +20,29 @@ int report(const std::string& message, int exit_code) {
     return exit_code;
 }
 
+// Of "800x600"; nothing where it is none.
+std::optional<glm::ivec2> size_of(const std::string& text) {
+    int width = 0, height = 0;
+    char cross = 0, more = 0;
+    if (std::sscanf(text.c_str(), "%d%c%d%c", &width, &cross, &height, &more) != 3 || cross != 'x')
+        return {};
+    constexpr int largest = 16384;
+    if (width < 1 || height < 1 || width > largest || height > largest) return {};
+    return glm::ivec2(width, height);
+}
+
 int run(int argc, char** argv) {
     lamina::view::WindowOptions options;
     CLI::App app("lamina-view: look at a scene or a data file, and see the error of each picture",
                  "lamina-view");
     app.set_version_flag("--version", "lamina-view " LAMINA_VERSION);
     app.add_option("FILE", options.file, "Scene (JSON), volume or mesh");
+    std::string size;
+    app.add_option("--size", size, "Of the picture in pixels, whatever the window's")
+        ->option_text("WxH");
+    app.add_option("--script", options.script, "Play this script (docs/viewer.md) and end")
+        ->option_text("FILE")
+        ->check(CLI::ExistingFile);
     const std::map<std::string, ContextChoice> contexts = {{"auto", ContextChoice::automatic},
                                                            {"osmesa", ContextChoice::osmesa},
                                                            {"egl", ContextChoice::egl},
@@ -39,7 +57,9 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return report(error.what() + std::string(" (lamina-view --help shows the usage)"), 2);
     }
-    options.session.many_frames = true;
+    if (!size.empty() && !(options.picture_size = size_of(size)))
+        return report(fmt::format("--size: found {}, expected WIDTHxHEIGHT, each 1 to 16384", size),
+                      2);
     lamina::view::Window(options).run();
     return 0;
 }

@@ -3,22 +3,27 @@
 
 #include <glad/gl.h>
 
+#include <array>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "lamina/session.h"
+#include "model/input_event.h"
 
 struct GLFWwindow;
 
 namespace lamina::view {
 
-struct InputEvent;
+class ScriptPlayer;
 class Viewer;
 
 struct WindowOptions {
-    std::filesystem::path file;  // to be opened; empty: none
-    int width = 1280, height = 860;
+    std::filesystem::path file;    // to be opened; empty: none
+    std::filesystem::path script;  // to be played; empty: none
+    std::optional<glm::ivec2> picture_size;
     SessionOptions session;
 };
 
@@ -31,19 +36,38 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    void run();  // until it is closed
+    // Until it is closed, or its script is over. Throws Error for what a script cannot do.
+    void run();
+
+    // What a user does, or a script. Places are in the window, from its upper left corner.
+    void move(const glm::dvec2& place);
+    void button(PointerButton button, bool down, bool shift, bool control);
+    void wheel(const glm::dvec2& steps);
+    void key(int key, bool down, bool shift, bool control);
+    void character(unsigned unicode);
+    void set_size(int width, int height);
+    void close();
+    void take_screenshot(const std::filesystem::path& file);  // of the next frame
 
   private:
     static Window& of(GLFWwindow* window);
     void set_callbacks();
+    void wait_for_events();
     void frame();
-    void handle(const InputEvent& event);
+    void give_input_to_imgui();
+    void measure(double began);
+    void write_screenshot(int width, int height);
 
     GLFWwindow* window_ = nullptr;
     GladGLContext gl_{};
     std::unique_ptr<Viewer> viewer_;
+    std::unique_ptr<ScriptPlayer> player_;
     int frames_left_ = 3;  // ImGui needs some until what happened shows
     std::string title_;
+    std::filesystem::path screenshot_;
+    glm::dvec2 pointer_{-1};
+    std::array<bool, 3> down_{}, went_down_{};  // by button; went_down_: since the last frame
+    std::chrono::steady_clock::time_point measured_ = {};
 };
 
 }  // namespace lamina::view

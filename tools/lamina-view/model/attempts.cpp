@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/attempts.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -23,12 +23,10 @@ std::string text_without_view(Scene scene) {
 // RFC 4180: a cell with a comma, a quote or the end of a line is put in quotes.
 std::string quoted(const std::string& cell) {
     if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
-    std::string text = "\"";
-    for (const char c : cell) {
-        if (c == '"') text += '"';
-        text += c;
-    }
-    return text + '"';
+    std::string text(1, '"');
+    for (const char c : cell) text.append(c == '"' ? 2 : 1, c);
+    text.push_back('"');
+    return text;
 }
 
 // Cells of what is not known are empty.
@@ -52,9 +50,9 @@ std::string csv_row(const Attempt& row) {
                                  fmt::to_string(row.resolved.width),
                                  fmt::to_string(row.resolved.height),
                                  nlohmann::ordered_json::parse(scene_text(row.resolved)).dump()};
-    std::string line;
-    for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + quoted(cell);
-    return line + "\r\n";
+    std::vector<std::string> quoted_cells;
+    for (const std::string& cell : cells) quoted_cells.push_back(quoted(cell));
+    return fmt::format("{}\r\n", fmt::join(quoted_cells, ","));
 }
 
 }  // namespace

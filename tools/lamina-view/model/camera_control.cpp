@@ -111,7 +111,7 @@ bool CameraControl::key(const InputEvent& event, const Around& around, Document&
                                          : Projection::perspective);
             return true;
         case key::home:
-            document.edit([](Scene& scene) { scene.automatic_camera = true; });
+            document.choose_camera();
             return true;
         default:
             return fly(event, around, document);

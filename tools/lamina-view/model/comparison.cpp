@@ -27,6 +27,11 @@ void Comparison::unpin() {
     pinned_.reset();
 }
 
+void Comparison::flip() {
+    flipped = by != CompareBy::flip || !flipped;
+    by = CompareBy::flip;
+}
+
 void Comparison::follow(const Shown& shown) {
     if (pinned_ && shown.pinned && shown.pinned->number == pinned_->number) pinned_ = shown.pinned;
     if (pinned_ && pinned_->data != shown.full_revisions.data && shown.full) unpin();

@@ -32,6 +32,8 @@ class Comparison {
     // The full picture that is shown, of this scene, is A from now on.
     void pin(const Scene& scene, const Shown& shown);
     void unpin();
+    // The other picture is seen where this one was, and the other way round.
+    void flip();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 
     // Takes what there is to see: A, where it was drawn again, and B.

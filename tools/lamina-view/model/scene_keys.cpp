@@ -82,7 +82,8 @@ class SchemaReader {
         for (const auto& [key, value] : given.at("properties").items()) {
             const std::string path = node.path.empty() ? key : node.path + "." + key;
             node.parts.push_back(this->node(value, path, key));
-            node.parts.back().required = std::find(required.begin(), required.end(), Json(key)) != required.end();
+            node.parts.back().required =
+                std::find(required.begin(), required.end(), Json(key)) != required.end();
         }
     }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "lamina/error.h"
@@ -126,6 +127,18 @@ double extinction_in(const TransferKnot& knot) {
     return knot.optics.extinction;
 }
 
+// Throws Error unless points are in order, two at most at a value.
+template <typename Point>
+void check_order(const std::vector<Point>& points, const char* curve) {
+    if (points.empty()) throw Error(std::string(curve) + ": found no point, expected one or more");
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const bool falls = points[i].value < points[i - 1].value;
+        if (falls || (i > 1 && points[i].value == points[i - 2].value))
+            throw Error(std::string(curve) + ": point " + std::to_string(i) +
+                        (falls ? " is below the one before it" : " is the third at its value"));
+    }
+}
+
 std::vector<double> values_of(const std::vector<ExtinctionKnot>& knots,
                               const std::vector<ColorPoint>& colors) {
     std::vector<double> values;
@@ -177,6 +190,8 @@ ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
 
 TransferFunction TransferCurves::function() const {
     const std::vector<ExtinctionKnot> extinctions = knots_of(density);
+    check_order(extinctions, "extinction");
+    check_order(colors, "colour");
     std::vector<TransferKnot> knots;
     for (const double value : values_of(extinctions, colors)) {
         const DensitySides density_here = density_at(extinctions, value);

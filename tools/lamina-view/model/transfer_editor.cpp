@@ -282,6 +282,16 @@ bool TransferEditor::set_palette(bool palette) {
     });
 }
 
+bool TransferEditor::set_density(const std::vector<DensityPoint>& points) {
+    const bool set = change([&](TransferCurves& curves) {
+        curves.density = points;
+        curves.palette = false;
+        return !points.empty();
+    });
+    if (set) selection_.clear();
+    return set;
+}
+
 bool TransferEditor::recolor(Colormap map, double lo, double hi, bool opacities) {
     if (!map.own_range) {
         if (!(lo < hi) || !(map.colors.front().value < map.colors.back().value)) return false;

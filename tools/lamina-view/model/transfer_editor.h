@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "lamina/colormap.h"
 #include "lamina/image_color_space.h"
@@ -75,6 +76,7 @@ class TransferEditor {
     // opacity over unit_length() is linear, or extinction.
     bool set_opacity_linear(bool opacity);
     bool set_palette(bool palette);
+    bool set_density(const std::vector<DensityPoint>& points);  // another curve of extinction
     // The map's colours, stretched over [lo, hi] unless it has a range of its own; with its
     // opacities where `opacities` and it has any.
     bool recolor(Colormap map, double lo, double hi, bool opacities);

@@ -32,12 +32,15 @@ class MovedValues {
         return wanted;
     }
 
-    // Sums round, so walls hold for them once more.
+    // Sums round: what goes up to a wall is put there, and walls hold for the sums once more.
     std::vector<double> shifted(double by) const {
         std::vector<double> result = values_;
         for (std::size_t i = 0; i < values_.size(); ++i) {
-            if (moves_[i] != 0)
-                result[i] = std::clamp(values_[i] + by, wall_below(i), wall_above(i));
+            if (moves_[i] == 0) continue;
+            const double below = wall_below(i), above = wall_above(i);
+            result[i] = by == above - values_[i]   ? above
+                        : by == below - values_[i] ? below
+                                                   : std::clamp(values_[i] + by, below, above);
         }
         for (std::size_t i = 1; i < result.size(); ++i)
             if (moves_[i] != 0) result[i] = std::max(result[i], result[i - 1]);

@@ -102,7 +102,8 @@ void ComparisonPanel::draw(PanelContext& context) {
     draw_two(context);
     draw_choices(comparison);
     if (comparison.by == CompareBy::flip)
-        wrapped(theme::dim, comparison.flipped ? "A is seen. X shows B." : "B is seen. X shows A.");
+        wrapped(theme::dim,
+                comparison.flipped ? "A is seen. Key B: back to B." : "B is seen. Key B: A.");
     if (comparison.by == CompareBy::difference) draw_difference(comparison);
     if (!comparison.missing().empty()) {
         if (comparison.by != CompareBy::nothing) wrapped(theme::warning, comparison.missing());

@@ -2,7 +2,6 @@
 #include "panels/setting_controls.h"
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 
 #include "lamina/color.h"
 #include "panels/theme.h"
+#include "panels/typed_input.h"
 
 namespace lamina::view {
 namespace {
@@ -49,10 +49,13 @@ Answer number_control(const SettingNode& node, const Json& value) {
     const bool slides = node.least >= 0 && std::isfinite(node.most) && node.most <= 1000;
     bool changed = false;
     if (slides) {
-        const double least = node.least > 0 ? node.least : 0, most = node.most;
-        const bool wide = most > 10 && !(node.least_excluded && node.most_excluded);
-        changed = ImGui::SliderScalar("##number", ImGuiDataType_Double, &number, &least, &most,
-                                      "%.6g", wide ? ImGuiSliderFlags_Logarithmic : 0);
+        // Ends that are no values themselves are left out by little.
+        const double least = node.least_excluded ? 1e-4 * node.most : node.least;
+        const double most = node.most_excluded ? node.most - least : node.most;
+        const bool by_ratio = (least > 0 && most / least > 50) || most > 100;
+        changed =
+            ImGui::SliderScalar("##number", ImGuiDataType_Double, &number, &least, &most, "%.6g",
+                                by_ratio && !node.most_excluded ? ImGuiSliderFlags_Logarithmic : 0);
     } else {
         const float speed = static_cast<float>(std::max(1e-30, .005 * std::abs(number)));
         changed = ImGui::DragScalar("##number", ImGuiDataType_Double, &number, speed, nullptr,
@@ -77,8 +80,7 @@ Answer whole_control(const SettingNode& node, const Json& value) {
 
 Answer text_control(const Json& value) {
     std::string text = value.is_string() ? value.get<std::string>() : "";
-    ImGui::InputText("##text", &text);
-    if (ImGui::IsItemDeactivatedAfterEdit()) return Json(text);
+    if (typed_text("##text", "", text)) return Json(text);
     return {};
 }
 
@@ -92,8 +94,7 @@ std::string factors_text(const Json& value) {
 
 Answer factors_control(const Json& value) {
     std::string text = factors_text(value);
-    ImGui::InputTextWithHint("##factors", "32x32, 4^5", &text);
-    if (ImGui::IsItemDeactivatedAfterEdit()) return Json(text);
+    if (typed_text("##factors", "32x32, 4^5", text)) return Json(text);
     return {};
 }
 

@@ -20,8 +20,15 @@ namespace {
 constexpr std::array<std::string_view, 6> first_groups{"render", "camera", "lighting",
                                                        "clip",   "image",  "transfer_function"};
 
+constexpr float label_width = 10.5f;  // of the font's height: of the longest key where it stands
+
 bool is_first(const SettingNode& node) {
     return std::ranges::find(first_groups, node.key) != first_groups.end();
+}
+
+// What is open at first: how the picture is drawn.
+bool is_used(const SettingNode& node, const Scene& scene) {
+    return node.path == "render" || node.path == std::string("render.") + name_of(scene.method);
 }
 
 std::string below(const std::string& path, const std::string& key) {
@@ -136,7 +143,7 @@ void SettingsPanel::draw_label(const SettingNode& node, const std::string& reaso
     else
         ImGui::TextDisabled("%s", node.key.c_str());
     show_help(node, reason);
-    ImGui::SameLine(em(8.5f));
+    ImGui::SameLine(em(label_width));
 }
 
 void SettingsPanel::draw_leaf(const SettingNode& node, const std::string& path,
@@ -172,7 +179,7 @@ bool SettingsPanel::draw_switch(const SettingNode& node, const std::string& path
                                 PanelContext& context) {
     const Json value = value_at(path);
     const bool own = value.is_object();
-    ImGui::SameLine(em(8.5f));
+    ImGui::SameLine(em(label_width));
     if (node.path == "camera") {
         if (ImGui::SmallButton("from the data")) context.document.choose_camera();
         return true;
@@ -201,8 +208,9 @@ void SettingsPanel::draw_group(const SettingNode& node, const std::string& path,
     if (!reason.empty())
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     const bool open = ImGui::TreeNodeEx(
-        node.key.c_str(), (switched ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth) |
-                              (node.path == "render" ? ImGuiTreeNodeFlags_DefaultOpen : 0));
+        node.key.c_str(),
+        (switched ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth) |
+            (is_used(node, context.document.scene()) ? ImGuiTreeNodeFlags_DefaultOpen : 0));
     if (!reason.empty()) ImGui::PopStyleColor();
     show_help(node, reason);
     ImGui::BeginDisabled(!reason.empty());
@@ -243,7 +251,7 @@ void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
         ImGui::PushID(static_cast<int>(i));
         ImGui::SetNextItemOpen(true, all_open ? ImGuiCond_Always : ImGuiCond_Appearing);
         const bool open = ImGui::TreeNode("##element", "%s %zu", one.c_str(), i + 1);
-        ImGui::SameLine(em(8.5f));
+        ImGui::SameLine(em(label_width));
         ImGui::BeginDisabled(size <= node.least_count);
         if (ImGui::SmallButton("remove")) {
             Json shorter = value;
@@ -282,7 +290,7 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
         if (part.kind == SettingKind::text) {
             ImGui::AlignTextToFramePadding();
             ImGui::TextUnformatted("file");
-            ImGui::SameLine(em(8.5f));
+            ImGui::SameLine(em(label_width));
             if (const auto answer = setting_control(part, value, {})) set(path, *answer, context);
         } else if (value.is_object() || all_open) {
             ImGui::BeginDisabled(!value.is_object());

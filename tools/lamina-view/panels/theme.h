@@ -22,9 +22,9 @@ inline constexpr ImU32 curve = IM_COL32(232, 234, 238, 255);
 inline constexpr ImU32 handle = IM_COL32(240, 242, 246, 255);
 inline constexpr ImU32 selected = IM_COL32(255, 176, 60, 255);
 inline constexpr ImU32 marker = IM_COL32(110, 200, 255, 220);
-inline constexpr ImVec4 dim{.58f, .6f, .64f, 1};
-inline constexpr ImVec4 bad{1, .5f, .44f, 1};
-inline constexpr ImVec4 warning{1, .78f, .4f, 1};
+inline const ImVec4 dim{.58f, .6f, .64f, 1};
+inline const ImVec4 bad{1, .5f, .44f, 1};
+inline const ImVec4 warning{1, .78f, .4f, 1};
 }  // namespace theme
 
 }  // namespace lamina::view

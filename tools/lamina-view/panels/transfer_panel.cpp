@@ -2,16 +2,17 @@
 #include "panels/transfer_panel.h"
 
 #include <imgui.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lamina/color.h"
 #include "lamina/error.h"
+#include "model/density_shapes.h"
 #include "model/opacity_slopes.h"
 #include "panels/theme.h"
 #include "panels/transfer_drawing.h"
+#include "panels/typed_input.h"
 
 namespace lamina::view {
 namespace {
@@ -25,12 +26,9 @@ void row(const char* label) {
     ImGui::SetNextItemWidth(-1);
 }
 
-// Enter or leaving the field ends the input: until then nothing changes.
 bool number_input(const char* label, double& number) {
     row(label);
-    const std::string id = std::string("##") + label;
-    ImGui::InputDouble(id.c_str(), &number, 0, 0, "%.9g");
-    return ImGui::IsItemDeactivatedAfterEdit();
+    return typed_number((std::string("##") + label).c_str(), number);
 }
 
 void help(const char* text) {
@@ -83,8 +81,8 @@ void TransferPanel::draw(PanelContext& context) {
 
 void TransferPanel::draw_controls(PanelContext& context) {
     Document& document = context.document;
-    if (ImGui::Button("Auto")) document.choose_transfer_function();
-    help("Chooses the transfer function from the data (docs/first-picture.md)");
+    if (ImGui::Button("Presets")) ImGui::OpenPopup("presets");
+    draw_presets(context);
     ImGui::SameLine();
     if (ImGui::Button("Show all"))
         plot_.fit(document.transfer().curves(), context.shown.histogram.get());
@@ -105,6 +103,37 @@ void TransferPanel::draw_controls(PanelContext& context) {
     ImGui::Separator();
     draw_maps(context);
     draw_whole(document);
+}
+
+// Shapes begin at the selected point, else in the middle of the data.
+void TransferPanel::draw_presets(PanelContext& context) {
+    if (!ImGui::BeginPopup("presets")) return;
+    Document& document = context.document;
+    TransferEditor& editor = document.transfer();
+    if (ImGui::MenuItem("From the data (auto)")) document.choose_transfer_function();
+    ImGui::Separator();
+    const ValueSpan span = span_of(context);
+    double at = (span.lo + span.hi) / 2, densest = 0;
+    for (const TransferHandle& point : editor.selection())
+        if (point.curve == Curve::density) at = editor.curves().density[point.index].value;
+    for (const DensityPoint& point : editor.curves().density)
+        densest = std::max(densest, point.extinction);
+    if (densest == 0) densest = 1;
+    const auto shape = [&](const char* name, const std::vector<DensityPoint>& points) {
+        if (ImGui::MenuItem(name) && editor.set_density(points)) document.transfer_edited(name);
+    };
+    shape("Ramp", ramp_shape(span.lo, span.hi, densest));
+    shape("Peak", peak_shape(span.lo, span.hi, at, densest));
+    shape("Step", step_shape(span.lo, span.hi, at, densest));
+    ImGui::Separator();
+    const ImageColorSpace space = document.scene().color_space;
+    for (const std::string& name : colormap_names()) {
+        ImGui::PushID(name.c_str());
+        map_preview(load_colormap(name, space), space);
+        if (ImGui::MenuItem(name.c_str())) apply_map(context, name);
+        ImGui::PopID();
+    }
+    ImGui::EndPopup();
 }
 
 void TransferPanel::draw_selected(Document& document) {
@@ -221,23 +250,10 @@ void TransferPanel::draw_between(Document& document) {
 }
 
 void TransferPanel::draw_maps(PanelContext& context) {
-    const ImageColorSpace space = context.document.scene().color_space;
     row("colormap");
-    if (ImGui::BeginCombo("##map", "choose ...")) {
-        for (const std::string& name : colormap_names()) {
-            ImGui::PushID(name.c_str());
-            map_preview(load_colormap(name, space), space);
-            if (ImGui::Selectable(name.c_str())) apply_map(context, name);
-            ImGui::PopID();
-        }
-        ImGui::EndCombo();
-    }
-    help("Colours of a shipped map; ct-bone and ct-soft-tissue are in HU and have opacities");
-    row("  from file");
-    if (ImGui::InputTextWithHint("##file", "ParaView preset (JSON)", &map_file_,
-                                 ImGuiInputTextFlags_EnterReturnsTrue))
+    if (typed_text("##file", "name, or ParaView preset (JSON)", map_file_))
         apply_map(context, map_file_);
-    row("  range");
+    row("  over");
     if (ImGui::RadioButton("data", !over_points_)) over_points_ = false;
     ImGui::SameLine();
     if (ImGui::RadioButton("points", over_points_)) over_points_ = true;
@@ -249,15 +265,19 @@ void TransferPanel::draw_maps(PanelContext& context) {
     }
 }
 
+// What maps and shapes are stretched over: the data, or the points.
+ValueSpan TransferPanel::span_of(const PanelContext& context) const {
+    const auto& points = context.document.transfer().curves().density;
+    const ValueHistogram* const histogram = context.shown.histogram.get();
+    if (!over_points_ && histogram != nullptr && histogram->least < histogram->most)
+        return {histogram->least, histogram->most};
+    const double lo = points.front().value, hi = points.back().value;
+    return lo < hi ? ValueSpan{lo, hi} : ValueSpan{lo, lo + 1};
+}
+
 void TransferPanel::apply_map(PanelContext& context, const std::string& name_or_path) {
     TransferEditor& editor = context.document.transfer();
-    const auto& points = editor.curves().density;
-    double lo = points.front().value, hi = points.back().value;
-    const ValueHistogram* const histogram = context.shown.histogram.get();
-    if (!over_points_ && histogram != nullptr && !histogram->shares.empty()) {
-        lo = histogram->least;
-        hi = histogram->most;
-    }
+    const auto [lo, hi] = span_of(context);
     map_message_.clear();
     try {
         const Colormap map = load_colormap(name_or_path, context.document.scene().color_space);

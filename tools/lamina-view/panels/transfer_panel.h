@@ -9,6 +9,10 @@
 
 namespace lamina::view {
 
+struct ValueSpan {
+    double lo = 0, hi = 1;
+};
+
 // The editor of the transfer function: the plot, and on its right the numbers of the selected
 // points, colour maps, and what changes the whole function.
 class TransferPanel : public Panel {
@@ -19,6 +23,7 @@ class TransferPanel : public Panel {
 
   private:
     void draw_controls(PanelContext& context);
+    void draw_presets(PanelContext& context);
     void draw_selected(Document& document);
     void draw_density_point(Document& document, std::size_t index);
     void draw_color(Document& document, double value, const glm::dvec3& color);
@@ -26,6 +31,7 @@ class TransferPanel : public Panel {
     void draw_density_slider(Document& document);
     void draw_between(Document& document);
     void draw_maps(PanelContext& context);
+    ValueSpan span_of(const PanelContext& context) const;
     void apply_map(PanelContext& context, const std::string& name_or_path);
 
     TransferPlot plot_;

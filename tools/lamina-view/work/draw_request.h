@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 
 #include "lamina/scene.h"
@@ -17,8 +18,10 @@ struct DrawRequest {
     bool moving = false;  // something is being dragged: a coarse picture serves
     bool coarse = true;   // whether it may get one
     bool trace = true;    // whether the tracer replaces the picture at rest
-    std::shared_ptr<const PinnedPicture> pinned = {};     // to be kept in the view of the scene
-    std::chrono::steady_clock::time_point asked_at = {};  // for measurements
+    std::shared_ptr<const PinnedPicture> pinned = {};  // to be kept in the view of the scene
+    std::uint64_t number = 0;
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point asked_at = {};  // of the input, for measurements
 };
 
 }  // namespace lamina::view

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 // Of the 50 ms from input to picture, the window needs the rest.
 constexpr double moving_target_ms = 35;
 constexpr double tile_publish_ms = 100;
+constexpr int histogram_bins = 512;
 
 double ms_since(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -69,7 +70,8 @@ SessionSteps::Next SessionSteps::step_after_data() const {
 
 SessionSteps::Next SessionSteps::step_after_full() const {
     const std::shared_ptr<const PinnedPicture> a = pinned();
-    if (a && !same_view(a->scene, request_.scene) && pinned_failed_ != request_.revisions)
+    if (a && shown_.resolved && !same_view(a->scene, *shown_.resolved) &&
+        pinned_failed_ != request_.revisions)
         return Next::pinned;
     return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
 }
@@ -107,7 +109,7 @@ void SessionSteps::fail(const std::string& message) {
     next_ = Next::nothing;
     shown_.activity.clear();
     shown_.failure = message;
-    shown_.failed = request_.revisions;
+    shown_.failed_request = request_.number;
     publish_(shown_);
 }
 
@@ -134,7 +136,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     coarse_size_ = CoarseSize(moving_target_ms);
     shown_.loaded = applied_.data;
     shown_.bounds = session_->bounds();
-    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(512));
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(histogram_bins));
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
     shown_.chosen_of = applied_;
     shown_.resolved.reset();
@@ -204,8 +206,11 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     }
     auto picture = std::make_shared<Image>();
     session_->draw(*picture, stop, progress());
+    // Another method may draw other data.
+    shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(histogram_bins));
     shown_.full = picture;
     shown_.full_revisions = request_.revisions;
+    shown_.bounds = session_->bounds();
     tell_plan();
     show(PictureKind::full, *picture);
     shown_.full_screen = shown_.screen;
@@ -224,10 +229,10 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
 // step that needs it.
 void SessionSteps::draw_pinned(const std::stop_token& stop) {
     auto drawn = std::make_shared<PinnedPicture>(*pinned());
-    drawn->scene.camera = request_.scene.camera;
+    drawn->scene.camera = shown_.resolved->camera;
     drawn->scene.automatic_camera = false;
-    drawn->scene.width = request_.scene.width;
-    drawn->scene.height = request_.scene.height;
+    drawn->scene.width = shown_.resolved->width;
+    drawn->scene.height = shown_.resolved->height;
     holds_pinned_ = true;
     try {
         session_->set_scene(drawn->scene);

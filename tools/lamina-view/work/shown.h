@@ -76,9 +76,9 @@ struct Shown {
     std::string activity;  // what is being done; empty: nothing
     double share_done = 0;
     std::vector<std::string> warnings;
-    // Why the last request has no picture; empty where it has. `failed`: of the request.
+    // Why a request has no picture; empty where the last one has.
     std::string failure;
-    Revisions failed;
+    std::uint64_t failed_request = 0;  // DrawRequest::number
 };
 
 }  // namespace lamina::view

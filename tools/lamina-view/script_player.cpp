@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "script_player.h"
+
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "lamina/error.h"
+#include "viewer.h"
+#include "window.h"
+
+namespace lamina::view {
+namespace {
+
+PointerButton button_of(const ScriptCommand& command) {
+    const std::string& name = command.words[0];
+    if (name == "left") return PointerButton::left;
+    if (name == "right") return PointerButton::right;
+    if (name == "middle") return PointerButton::middle;
+    command.fail("left, right or middle");
+}
+
+bool has(const ScriptCommand& command, const char* word) {
+    return std::ranges::find(command.words, word) != command.words.end();
+}
+
+bool on(const ScriptCommand& command) {
+    const std::string& word = command.words[1];
+    if (word != "on" && word != "off") command.fail("on or off");
+    return word == "on";
+}
+
+}  // namespace
+
+ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer)
+    : commands_(std::move(commands)), window_(window), viewer_(viewer) {}
+
+void ScriptPlayer::advance(double seconds) {
+    if (waiting_) {
+        if (!waiting_(seconds)) return;
+        waiting_ = nullptr;
+    }
+    if (actions_.empty() && next_ < commands_.size()) begin(commands_[next_++], seconds);
+    if (actions_.empty()) return;
+    const auto action = std::move(actions_.front());
+    actions_.pop_front();
+    action();
+}
+
+std::optional<double> ScriptPlayer::next(double seconds) const {
+    if (waiting_) return until_ > 0 ? std::optional(until_) : std::nullopt;
+    return seconds;
+}
+
+void ScriptPlayer::begin(const ScriptCommand& command, double seconds) {
+    const std::string& name = command.name;
+    if (name == "wait") return begin_wait(command, seconds);
+    if (name == "drag") return begin_drag(command);
+    if (name == "measure") return measure(command);
+    if (name == "set") return set(command);
+    if (name == "quit") return then([this] { window_.close(); });
+    if (name == "open") return then([&] { viewer_.open(command.words[0]); });
+    if (name == "screenshot") return then([&] { window_.take_screenshot(command.words[0]); });
+    if (name == "save") {
+        const std::string wrong = viewer_.save(command.words[0]);
+        if (!wrong.empty()) command.fail(wrong);
+        return;
+    }
+    if (name == "size") {
+        const int width = static_cast<int>(command.number(0));
+        const int height = static_cast<int>(command.number(1));
+        return then([=, this] { window_.set_size(width, height); });
+    }
+    if (name == "key") {
+        const int key = key_of(command, command.words[0]);
+        const bool shift = has(command, "shift"), control = has(command, "control");
+        then([=, this] { window_.key(key, true, shift, control); });
+        return then([=, this] { window_.key(key, false, shift, control); });
+    }
+    if (name == "type") {
+        std::string text = command.words[0];
+        for (std::size_t i = 1; i < command.words.size(); ++i) text += " " + command.words[i];
+        for (const char character : text)
+            then([=, this] { window_.character(static_cast<unsigned char>(character)); });
+        return;
+    }
+    begin_pointer(command);
+}
+
+void ScriptPlayer::begin_pointer(const ScriptCommand& command) {
+    const std::string& name = command.name;
+    if (name == "wheel") {
+        const double steps = command.number(0);
+        return then([=, this] { window_.wheel({0, steps}); });
+    }
+    if (name == "press") {
+        const bool shift = has(command, "shift");
+        const PointerButton button = button_of(command);
+        return then([=, this] { window_.button(button, true, shift, false); });
+    }
+    if (name == "release") {
+        const PointerButton button = button_of(command);
+        return then([=, this] { window_.button(button, false, false, false); });
+    }
+    const glm::dvec2 place(command.number(0), command.number(1));
+    then([=, this] { window_.move(place); });
+    if (name == "move") return;
+    const bool shift = has(command, "shift"), control = has(command, "control");
+    for (int i = 0; i < (name == "doubleclick" ? 2 : 1); ++i) {
+        then([=, this] { window_.button(PointerButton::left, true, shift, control); });
+        then([=, this] { window_.button(PointerButton::left, false, shift, control); });
+    }
+}
+
+void ScriptPlayer::begin_drag(const ScriptCommand& command) {
+    const PointerButton button = button_of(command);
+    const glm::dvec2 from(command.number(1), command.number(2));
+    const glm::dvec2 to(command.number(3), command.number(4));
+    const bool shift = has(command, "shift");
+    const std::size_t numbers = command.words.size() - (shift ? 1 : 0);
+    const int steps = numbers > 5 ? std::max(1, static_cast<int>(command.number(5))) : 10;
+    const double pause = numbers > 6 ? command.number(6) / 1000 : 0;
+    then([=, this] { window_.move(from); });
+    then([=, this] { window_.button(button, true, shift, false); });
+    for (int i = 1; i <= steps; ++i) {
+        then([=, this] { window_.move(from + (static_cast<double>(i) / steps) * (to - from)); });
+        if (pause > 0)
+            then([=, this] {
+                until_ = glfwGetTime() + pause;
+                waiting_ = [this](double seconds) { return seconds >= until_; };
+            });
+    }
+    then([=, this] { window_.button(button, false, shift, false); });
+}
+
+// What went wrong in the window ends the waiting.
+void ScriptPlayer::begin_wait(const ScriptCommand& command, double seconds) {
+    const std::string& what = command.words[0];
+    until_ = 0;
+    const auto until = [&](auto reached) {
+        waiting_ = [this, where = command.where, reached](double) {
+            if (viewer_.is_failed()) throw Error(fmt::format("{}: {}", where, viewer_.failure()));
+            return reached();
+        };
+    };
+    if (what == "full") return until([this] { return viewer_.is_full(); });
+    if (what == "truth") return until([this] { return viewer_.is_truth(); });
+    if (what == "saved") return until([this] { return !viewer_.is_saving(); });
+    until_ = seconds + command.number(0) / 1000;
+    waiting_ = [this](double now) { return now >= until_; };
+}
+
+void ScriptPlayer::measure(const ScriptCommand& command) {
+    if (command.words[0] == "start") return measurements_.start();
+    fmt::print("{}\n", measurements_.text(command.words[0]));
+    std::fflush(stdout);
+}
+
+void ScriptPlayer::set(const ScriptCommand& command) {
+    const std::string& what = command.words[0];
+    const bool value = on(command);
+    if (what == "coarse")
+        viewer_.set_coarse(value);
+    else if (what == "trace")
+        viewer_.set_trace(value);
+    else if (what == "panels")
+        viewer_.show_panels(value);
+    else
+        command.fail("coarse, trace or panels");
+}
+
+}  // namespace lamina::view

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "measurements.h"
+#include "model/input_event.h"
+#include "script.h"
+
+namespace lamina::view {
+
+class Viewer;
+class Window;
+
+// Does what a script says, one thing a frame, as if a user did it.
+class ScriptPlayer {
+  public:
+    ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);
+
+    // Before a frame. Throws Error where something cannot be done, or went wrong in the window.
+    void advance(double seconds);
+    // When it has to go on; nothing: when something happens.
+    std::optional<double> next(double seconds) const;
+    bool done() const { return next_ == commands_.size() && actions_.empty() && !waiting_; }
+    Measurements& measurements() { return measurements_; }
+
+  private:
+    using Waiting = std::function<bool(double)>;
+    void begin(const ScriptCommand& command, double seconds);
+    void begin_pointer(const ScriptCommand& command);
+    void begin_drag(const ScriptCommand& command);
+    void begin_wait(const ScriptCommand& command, double seconds);
+    void press(const ScriptCommand& command, std::size_t from, PointerButton button, bool down);
+    void then(std::function<void()> action) { actions_.push_back(std::move(action)); }
+    void measure(const ScriptCommand& command);
+    void set(const ScriptCommand& command);
+
+    std::vector<ScriptCommand> commands_;
+    Window& window_;
+    Viewer& viewer_;
+    std::size_t next_ = 0;
+    std::deque<std::function<void()>> actions_;  // of the command that is being done
+    Waiting waiting_;
+    double until_ = 0;  // of a wait for a time
+    Measurements measurements_;
+};
+
+}  // namespace lamina::view
