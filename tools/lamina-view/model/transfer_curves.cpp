@@ -188,6 +188,10 @@ ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
     return {below, above};
 }
 
+TransferCurves::TransferCurves() : density(1), colors(1) {
+    colors.front().color = glm::dvec3(1);
+}
+
 TransferFunction TransferCurves::function() const {
     const std::vector<ExtinctionKnot> extinctions = knots_of(density);
     check_order(extinctions, "extinction");

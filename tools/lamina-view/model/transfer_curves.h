@@ -34,8 +34,10 @@ struct DensityPoint {
 // of many colours leaves few points of extinction to hold. Both are linear between points and
 // constant outside; two points at one value make a step.
 struct TransferCurves {
-    std::vector<DensityPoint> density{{}};           // one or more, in order of value
-    std::vector<ColorPoint> colors{{0, {1, 1, 1}}};  // the same
+    TransferCurves();  // white, and transparent everywhere
+
+    std::vector<DensityPoint> density;  // one or more, in order of value
+    std::vector<ColorPoint> colors;     // the same
     // The function steps halfway between neighbouring values of both curves (a palette).
     bool palette = false;
 

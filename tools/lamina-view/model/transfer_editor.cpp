@@ -50,6 +50,8 @@ void stretch_map(Colormap& map, double lo, double hi) {
 
 }  // namespace
 
+TransferEditor::TransferEditor() : function_(curves_.function()) {}
+
 bool TransferEditor::put(const TransferCurves& curves) {
     try {
         function_ = curves.function();

@@ -25,6 +25,8 @@ class TransferEditor {
   public:
     using Curve = TransferHandle::Curve;
 
+    TransferEditor();  // of TransferCurves()
+
     const TransferCurves& curves() const { return curves_; }
     const TransferFunction& function() const { return function_; }
     // World length that opacities refer to, > 0. It changes no extinction.
@@ -92,7 +94,7 @@ class TransferEditor {
     std::set<TransferHandle> moving_points() const;
 
     TransferCurves curves_;
-    TransferFunction function_ = TransferCurves{}.function();
+    TransferFunction function_;
     double unit_length_ = 1;
     std::set<TransferHandle> selection_;
     std::optional<TransferCurves> start_;

@@ -17,7 +17,14 @@ struct HelpLine {
 constexpr HelpLine of_picture[] = {{"Left drag", "turn around what is looked at"},
                                    {"Middle or Shift drag", "move sideways"},
                                    {"Wheel, right drag", "nearer and farther"},
-                                   {"Double click", "look at the point that is seen"}};
+                                   {"Double click", "look at the point that is seen"},
+                                   {"W A S D, Q E", "fly ahead, aside, back; down and up"},
+                                   {"F", "fit the data"},
+                                   {"X Y Z, Shift, 1 to 6", "look along an axis"},
+                                   {"P", "perspective or orthographic"},
+                                   {"Home", "the automatic camera"},
+                                   {"C", "coarse pictures while something moves"},
+                                   {"T", "trace at rest"}};
 
 constexpr HelpLine of_transfer_function[] = {
     {"Double click", "new point; below the curves, new colour"},
@@ -31,10 +38,13 @@ constexpr HelpLine of_transfer_function[] = {
     {"Ctrl+A", "select all"},
     {"Esc", "take a drag back, or select nothing"}};
 
-constexpr HelpLine of_all[] = {{"Ctrl+Z", "undo"},
+constexpr HelpLine of_all[] = {{"Ctrl+O, Ctrl+S, Ctrl+E", "open, save the scene, save the picture"},
+                               {"Ctrl+Z", "undo"},
                                {"Ctrl+Y, Ctrl+Shift+Z", "redo"},
                                {"Ctrl click on a number", "type it"},
-                               {"F1", "this help"}};
+                               {"Tab", "show or hide the panels"},
+                               {"F1", "this help"},
+                               {"Ctrl+Q", "quit"}};
 
 void table(const char* title, std::span<const HelpLine> lines) {
     ImGui::TextColored(theme::dim, "%s", title);

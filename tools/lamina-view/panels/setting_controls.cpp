@@ -88,7 +88,10 @@ Answer text_control(const Json& value) {
 std::string factors_text(const Json& value) {
     if (!value.is_array()) return word_of(value);
     std::string text;
-    for (const Json& factor : value) text += (text.empty() ? "" : "x") + word_of(factor);
+    for (const Json& factor : value) {
+        if (!text.empty()) text += 'x';
+        text += word_of(factor);
+    }
     return text;
 }
 
