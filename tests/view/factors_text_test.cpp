@@ -10,7 +10,7 @@ namespace lamina::view {
 namespace {
 
 Scene scene_of(const std::string& render) {
-    return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"},
+    return parse_scene(R"({"version": 1, "volume": {"generate": "gaussians"}, "mesh": {"kuhn": true},
                            "render": )" +
                            render + "}",
                        "scene.json");

@@ -93,7 +93,9 @@ TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {
     EXPECT_EQ(drawn.shown().share_traced, 1);
     Session alone(drawn.document.scene(), native);
     EXPECT_EQ(drawn.shown().truth->rgba, alone.trace().rgba);
-    drawn.document.set_clip({.planes = {{.point = glm::dvec3(.5), .normal = {1, 0, 0}}}});
+    Clip clip;
+    clip.planes.push_back({.point = glm::dvec3(.5), .normal = {1, 0, 0}});
+    drawn.document.set_clip(clip);
     drawn.draw();
     EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba);
 }

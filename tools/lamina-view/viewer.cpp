@@ -27,6 +27,10 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
                                           ImGuiWindowFlags_NoSavedSettings |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+bool is_comparison_key(int key) {
+    return key == 'B' || key == 'M' || key == 'N' || key == 'V';
+}
+
 void begin_fixed(const char* name, float x, float y, float width, float height) {
     ImGui::SetNextWindowPos({x, y});
     ImGui::SetNextWindowSize({width, height});
@@ -123,7 +127,7 @@ void Viewer::handle(const InputEvent& event) {
     if (event.kind == Kind::key) {
         if (io.WantTextInput || prompt_.open()) return;
         if (event.key == key_f1 || event.control || event.key == key::tab || event.key == 'T' ||
-            event.key == 'C' || event.key == 'B' || event.key == 'N')
+            event.key == 'C' || is_comparison_key(event.key))
             return take_key(event);
         if (io.WantCaptureKeyboard && event.key < '0') return;
     }
@@ -139,8 +143,7 @@ void Viewer::take_key(const InputEvent& event) {
     if (!event.control) {
         if (event.key == 'T') settings_.trace = !settings_.trace;
         if (event.key == 'C') settings_.coarse = !settings_.coarse;
-        if (event.key == 'B') precision_.comparison.flip();
-        if (event.key == 'N') precision_.pin(document_, *shown_);
+        take_comparison_key(event.key);
         return;
     }
     switch (event.key) {
@@ -160,6 +163,13 @@ void Viewer::take_key(const InputEvent& event) {
         default:
             return;
     }
+}
+
+void Viewer::take_comparison_key(int key) {
+    if (key == 'B') precision_.comparison.flip();
+    if (key == 'M') precision_.comparison.next_way();
+    if (key == 'N') precision_.pin(document_, *shown_);
+    if (key == 'V') precision_.comparison.next_with();
 }
 
 std::string Viewer::title() const {

@@ -75,6 +75,7 @@ class Viewer {
     void draw_file_menu();
     void draw_view_menu();
     void draw_picture(float left, float top, float width, float height, float pixels);
+    void take_comparison_key(int key);
     void draw_comparison();
     void draw_side_panels();
     void draw_bottom_panels();

@@ -32,6 +32,28 @@ void Comparison::flip() {
     by = CompareBy::flip;
 }
 
+void Comparison::next_way() {
+    switch (by) {
+        case CompareBy::nothing:
+        case CompareBy::flip:
+            by = CompareBy::wipe;
+            return;
+        case CompareBy::wipe:
+            by = CompareBy::side_by_side;
+            return;
+        case CompareBy::side_by_side:
+            by = CompareBy::difference;
+            return;
+        case CompareBy::difference:
+            by = CompareBy::nothing;
+            return;
+    }
+}
+
+void Comparison::next_with() {
+    with = with == CompareWith::pinned ? CompareWith::truth : CompareWith::pinned;
+}
+
 void Comparison::follow(const Shown& shown) {
     if (pinned_ && shown.pinned && shown.pinned->number == pinned_->number) pinned_ = shown.pinned;
     if (pinned_ && pinned_->data != shown.full_revisions.data && shown.full) unpin();

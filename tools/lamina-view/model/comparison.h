@@ -34,6 +34,8 @@ class Comparison {
     void unpin();
     // The other picture is seen where this one was, and the other way round.
     void flip();
+    void next_way();  // of CompareBy, but for flip
+    void next_with();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 
     // Takes what there is to see: A, where it was drawn again, and B.
