@@ -134,6 +134,8 @@ PlanSummary Session::plan() {
             summary.error = plan.project.segment_error;
             summary.expected_error = plan.project.expected_error(parts_->scene.project);
         }
+        // A bound of full scale says nothing.
+        if (summary.expected_error >= 255.) summary.expected_error.reset();
         for (const Omission& omission : plan.omitted)
             summary.left_out.push_back({omission.name, omission.reason});
     });

@@ -322,8 +322,8 @@ void Viewer::draw_comparison() {
     Comparison& comparison = precision_.comparison;
     if (!comparison.active()) return;
     const bool truth = comparison.with == CompareWith::truth;
-    const std::string a = truth ? "the truth" : short_text(comparison.pinned()->scene);
-    comparison_view_.draw(comparison, area_, "A: " + a, "B: " + short_text(document_.scene()));
+    const std::string a = truth ? "the truth" : short_text(comparison.pinned()->resolved);
+    comparison_view_.draw(comparison, area_, "A: " + a, "B: " + short_text(*shown_->resolved));
 }
 
 // Of a picture that moves, the value would belong to another place when it is read.

@@ -12,11 +12,12 @@
 namespace lamina::view {
 
 void Comparison::pin(const Scene& scene, const Shown& shown) {
-    if (!shown.full || !shown.full_screen) return;
+    if (!shown.full || !shown.full_screen || !shown.resolved) return;
     pinned_ =
         std::make_shared<const PinnedPicture>(PinnedPicture{.number = ++pins_,
                                                             .data = shown.full_revisions.data,
                                                             .scene = scene,
+                                                            .resolved = *shown.resolved,
                                                             .picture = shown.full,
                                                             .screen = shown.full_screen,
                                                             .statistics = shown.statistics,

@@ -8,7 +8,7 @@
 namespace lamina::view {
 
 void error_and_time_columns() {
-    for (const char* name : {"expected", "Linf", "L2", "measured", "ms"})
+    for (const char* name : {"expected", "Linf", "L2", "traced", "ms"})
         ImGui::TableSetupColumn(name);
 }
 
@@ -23,11 +23,11 @@ void error_and_time_cells(const Attempt& attempt) {
                            "%.3g", attempt.error.linf);
     }
     ImGui::TableNextColumn();
-    if (measured) ImGui::Text("%.3g", attempt.error.l2);
+    if (measured) ImGui::Text("%.2g", attempt.error.l2);
     ImGui::TableNextColumn();
     if (measured) ImGui::Text("%.0f %%", 100 * attempt.share_measured);
     ImGui::TableNextColumn();
-    ImGui::Text("%.1f", attempt.draw_ms);
+    ImGui::Text("%.0f", attempt.draw_ms);
 }
 
 }  // namespace lamina::view

@@ -42,10 +42,10 @@ void draw_two(const PanelContext& context) {
         wrapped(theme::dim, "A: the truth, as far as it is traced");
     else if (comparison.pinned())
         wrapped(theme::dim,
-                "A: " + short_text(comparison.pinned()->scene) +
+                "A: " + short_text(comparison.pinned()->resolved) +
                     fmt::format("; {:.1f} ms", comparison.pinned()->statistics.draw_ms));
     if (context.shown.resolved)
-        wrapped(theme::dim, "B: " + short_text(context.document.scene()) +
+        wrapped(theme::dim, "B: " + short_text(*context.shown.resolved) +
                                 fmt::format("; {:.1f} ms", context.shown.statistics.draw_ms));
 }
 
@@ -111,7 +111,8 @@ void ComparisonPanel::draw(PanelContext& context) {
     }
     const ErrorNorms norms = comparison.norms();
     wrapped(ImGui::GetStyleColorVec4(ImGuiCol_Text),
-            fmt::format("B - A: Linf {:.4g}, L2 {:.4g}, mean {:+.4g} / 255", norms.linf, norms.l2,
+            fmt::format("B - {}: Linf {:.4g}, L2 {:.4g}, mean {:+.4g} / 255",
+                        comparison.with == CompareWith::truth ? "truth" : "A", norms.linf, norms.l2,
                         norms.l1));
 }
 

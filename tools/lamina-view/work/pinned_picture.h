@@ -19,6 +19,7 @@ struct PinnedPicture {
     std::uint64_t number = 0;  // of pins: a picture drawn again keeps it
     std::uint64_t data = 0;    // Revisions::data
     Scene scene;               // as it was asked for, in the view of `picture`
+    Scene resolved;            // with everything automatic written out
     std::shared_ptr<const Image> picture;
     std::shared_ptr<const ScreenPicture> screen;
     FrameStatistics statistics;

@@ -240,6 +240,7 @@ void SessionSteps::draw_pinned(const std::stop_token& stop) {
         session_->draw(*picture, stop, progress());
         drawn->screen = screen_of(*picture, session_->scene());
         drawn->picture = std::move(picture);
+        drawn->resolved = session_->resolved_scene();
         drawn->statistics = session_->statistics();
         drawn->expected =
             drawn->scene.method == Method::trace ? std::nullopt : session_->plan().expected_error;
