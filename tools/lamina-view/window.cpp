@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "window.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -27,13 +26,14 @@ constexpr int first_width = 1280, first_height = 860;
 std::string glfw_message() {
     const char* text = nullptr;
     glfwGetError(&text);
-    return text == nullptr ? "no reason given" : text;
+    std::string message = text == nullptr ? "no reason given" : text;
+    message.erase(message.find_last_not_of(" \n") + 1);
+    return message;
 }
 
 GLFWwindow* make_window() {
     if (glfwInit() == GLFW_FALSE)
-        throw Error(
-            fmt::format("no display: {}, expected a window system (DISPLAY)", glfw_message()));
+        throw Error(fmt::format("no display: {}; DISPLAY has to name an X server", glfw_message()));
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

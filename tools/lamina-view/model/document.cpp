@@ -8,6 +8,8 @@
 
 namespace lamina::view {
 
+Document::Document() = default;
+
 void Document::open(Scene scene) {
     scene_ = std::move(scene);
     transfer_ = TransferEditor();

@@ -17,6 +17,8 @@ namespace lamina::view {
 // as those of a drag are. Where the camera goes by navigation is no step.
 class Document {
   public:
+    Document();
+
     const Scene& scene() const { return scene_; }
     const Revisions& revisions() const { return revisions_; }
     bool is_open() const { return revisions_.data > 0; }
