@@ -33,7 +33,8 @@ TEST(StartingValues, MayStandInAScene) {
     look(look, scene_keys());
     const SettingNode& plane = scene_key("clip.planes[]");
     EXPECT_EQ(with_setting(scene, "clip.planes",
-                           {starting_value(plane, "clip.planes.0", scene, nullptr, bounds)})
+                           nlohmann::ordered_json::array(
+                               {starting_value(plane, "clip.planes.0", scene, nullptr, bounds)}))
                   .clip.planes.size(),
               1u);
 }
@@ -57,7 +58,7 @@ TEST(StartingValues, GroupsThatMayBeAbsentAreNotWritten) {
     const auto look = [&](const auto& again, const SettingNode& node) -> void {
         for (const SettingNode& part : node.parts) {
             if (part.kind == SettingKind::group && part.path != "clip" &&
-                part.path != "transfer_function") {
+                part.path != "transfer_function" && !part.path.ends_with("[]")) {
                 const bool there = !setting_at(plain, part.path).is_null();
                 EXPECT_NE(may_be_absent(part), there) << part.path;
                 if (!there) continue;

@@ -173,6 +173,7 @@ TEST(TransferEditor, AnyDragsLeaveAFunction) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1, 1);
     TransferEditor editor = four_points();
+    int refused = 0;
     for (int i = 0; i < 3000; ++i) {
         const auto& density = editor.curves().density;
         const auto any = static_cast<std::size_t>((uniform(random) + 1) / 2 *
@@ -183,10 +184,16 @@ TEST(TransferEditor, AnyDragsLeaveAFunction) {
         if (i % 3 == 0) editor.clear_selection();
         editor.toggle({Curve::density, std::min(any, density.size() - 1)});
         editor.begin_move();
-        EXPECT_TRUE(editor.move({4 * uniform(random), uniform(random)}, axis));
+        const TransferCurves before = editor.curves();
+        // Points that are a rounding apart may come to be three at one value: then all stay.
+        if (!editor.move({4 * uniform(random), uniform(random)}, axis)) {
+            ++refused;
+            EXPECT_TRUE(editor.curves() == before);
+        }
         editor.end_move();
         editor.set_opacity_linear(i % 5 == 0);
     }
+    EXPECT_LT(refused, 30);
     TransferEditor again;
     again.take(editor.function());
     EXPECT_TRUE(again.function() == editor.function());

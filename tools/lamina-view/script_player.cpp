@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "script_player.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 

@@ -73,7 +73,8 @@ bool may_be_absent(const SettingNode& node) {
                                                     "render.slice.table",
                                                     "render.project.table",
                                                     "render.project.tree"};
-    return std::ranges::find(paths, node.path) != paths.end();
+    return (node.kind == SettingKind::group || node.kind == SettingKind::either) &&
+           std::ranges::find(paths, node.path) != paths.end();
 }
 
 Json starting_value(const SettingNode& node, const std::string& path, const Scene& scene,

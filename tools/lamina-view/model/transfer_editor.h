@@ -23,8 +23,6 @@ namespace lamina::view {
 // not about keep their numbers, bit for bit.
 class TransferEditor {
   public:
-    TransferEditor();
-
     using Curve = TransferHandle::Curve;
 
     TransferEditor();  // of TransferCurves()

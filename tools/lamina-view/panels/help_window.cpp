@@ -56,6 +56,7 @@ void table(const char* title, std::span<const HelpLine> lines) {
     ImGui::TextColored(theme::dim, "%s", title);
     if (!ImGui::BeginTable(title, 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
         return;
+    ImGui::TableSetupColumn("input", ImGuiTableColumnFlags_WidthFixed, em(11.5f));
     for (const HelpLine& line : lines) {
         ImGui::TableNextColumn();
         ImGui::TextUnformatted(line.input);

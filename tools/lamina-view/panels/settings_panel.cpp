@@ -207,6 +207,7 @@ void SettingsPanel::draw_group(const SettingNode& node, const std::string& path,
     if (all_open || filter_.IsActive()) ImGui::SetNextItemOpen(true);
     if (!reason.empty())
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    if (switched) ImGui::AlignTextToFramePadding();
     const bool open = ImGui::TreeNodeEx(
         node.key.c_str(),
         (switched ? 0 : ImGuiTreeNodeFlags_SpanAvailWidth) |
@@ -305,7 +306,8 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
 void SettingsPanel::draw_transfer_function(const SettingNode& node) {
     draw_label(node, {});
     ImGui::TextColored(theme::dim, "in its own panel");
-    for (const std::string& path : paths_below(node)) drawn_.insert(path);
+    for (const std::string& path : paths_below(node))
+        if (!path.ends_with("[]")) drawn_.insert(path);
 }
 
 }  // namespace lamina::view

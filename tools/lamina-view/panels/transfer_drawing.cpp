@@ -58,7 +58,7 @@ std::vector<double> even_ticks(double lo, double hi, int most) {
     const double step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
     std::vector<double> ticks;
     for (double i = std::ceil(lo / step); i * step <= hi && ticks.size() < 100; ++i)
-        ticks.push_back(i * step);
+        ticks.push_back(i * step + 0.);  // no -0
     return ticks;
 }
 

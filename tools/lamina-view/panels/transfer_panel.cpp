@@ -65,7 +65,7 @@ void TransferPanel::draw(PanelContext& context) {
         counted_ = counted;
     }
     const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float controls = std::min(em(21), all.x / 2);
+    const float controls = std::min(em(19), all.x / 2);
     ImGui::BeginChild("curves", {all.x - controls - em(.5f), all.y}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     const std::string edited = plot_.draw(
@@ -108,6 +108,7 @@ void TransferPanel::draw_controls(PanelContext& context) {
 // Shapes begin at the selected point, else in the middle of the data.
 void TransferPanel::draw_presets(PanelContext& context) {
     if (!ImGui::BeginPopup("presets")) return;
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
     Document& document = context.document;
     TransferEditor& editor = document.transfer();
     if (ImGui::MenuItem("From the data (auto)")) document.choose_transfer_function();

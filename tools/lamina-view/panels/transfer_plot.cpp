@@ -227,6 +227,7 @@ std::string TransferPlot::take_keys(TransferEditor& editor) {
 std::string TransferPlot::menu(TransferEditor& editor) {
     std::string edited;
     if (!ImGui::BeginPopup("points")) return edited;
+    if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
     const bool any = !editor.selection().empty();
     if (ImGui::MenuItem("Delete", "Del", false, any) && editor.remove_selected()) edited = "delete";
     const bool one = editor.selection().size() == 1;
