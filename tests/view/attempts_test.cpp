@@ -27,7 +27,10 @@ Scene moved(Scene scene) {
 }
 
 void add(Attempts& attempts, const Scene& scene, double ms = 1) {
-    attempts.add(scene, scene, 2.5, ms);
+    FrameStatistics statistics;
+    statistics.draw_ms = ms;
+    statistics.stages_ms = {{"facts", .5 * ms}, {"draw", .25 * ms}, {"order", .125 * ms}};
+    attempts.add(scene, scene, 2.5, statistics);
 }
 
 TEST(Attempts, OneSceneHasOneRowThatGoesOn) {
@@ -43,6 +46,7 @@ TEST(Attempts, OneSceneHasOneRowThatGoesOn) {
     ASSERT_EQ(attempts.rows().size(), 2u);
     EXPECT_EQ(attempts.newest(), 0u);
     EXPECT_EQ(attempts.rows()[0].draw_ms, 11);
+    EXPECT_EQ(attempts.rows()[0].frame_ms, .375 * 11);
     // Drawn again, it is traced from the start: what is known stays until there is more.
     attempts.measured(.25, {2, 0, 1});
     EXPECT_EQ(attempts.rows()[0].share_measured, .5);
@@ -118,18 +122,21 @@ TEST(Attempts, CsvHasAllOfThem) {
     const Scene scene = small_scene(R"({"target": "fixed8", "max_error": 2,
                                         "slice": {"samples": 64, "tree": {"factors": [8, 8]}}})");
     add(attempts, small_scene());
-    attempts.add(scene, scene, std::nullopt, 12.5);
+    FrameStatistics statistics;
+    statistics.draw_ms = 12.5;
+    statistics.stages_ms = {{"draw", 8}, {"plan", 3}, {"geometry", 1.5}};
+    attempts.add(scene, scene, std::nullopt, statistics);
     attempts.measured(.25, {3.5, -.125, .5});
     const auto rows = cells_of(attempts.csv());
     ASSERT_EQ(rows.size(), 3u);
-    for (const auto& row : rows) ASSERT_EQ(row.size(), 16u);
+    for (const auto& row : rows) ASSERT_EQ(row.size(), 17u);
     EXPECT_EQ(rows[0][0], "view");
     EXPECT_EQ(rows[1][7], "2.5");
     EXPECT_EQ(rows[1][8], "");
     const std::vector<std::string> told(rows[2].begin(), rows[2].end() - 1);
     EXPECT_EQ(told,
               (std::vector<std::string>{"1", "slice", "auto", "fixed8", "8x8", "64", "2", "", "3.5",
-                                        "-0.125", "0.5", "0.25", "12.5", "800", "600"}));
+                                        "-0.125", "0.5", "0.25", "12.5", "9.5", "800", "600"}));
     // Nothing is lost: the last cell is the scene.
     EXPECT_EQ(scene_text(parse_scene(rows[2].back(), "again.json")), scene_text(scene));
 }

@@ -62,6 +62,13 @@ Attempt attempt_of(const Scene& scene, const Scene& resolved) {
     return attempt;
 }
 
+double frame_ms_of(const FrameStatistics& statistics) {
+    double ms = 0;
+    for (const char* stage : {"geometry", "order", "draw"})
+        if (statistics.stages_ms.contains(stage)) ms += statistics.stages_ms.at(stage);
+    return ms;
+}
+
 std::string short_text(const Scene& scene) {
     const Attempt attempt = attempt_of(scene, scene);
     std::string text = attempt.method + ", " + attempt.classification;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lamina/error_norms.h"
+#include "lamina/frame_statistics.h"
 #include "lamina/scene.h"
 
 namespace lamina::view {
@@ -18,7 +19,8 @@ struct Attempt {
     std::optional<double> expected;  // error, in 1/255, where one is known before
     double share_measured = 0;       // of the pixels, 0 to 1
     ErrorNorms error;                // of these pixels, in 1/255
-    double draw_ms = 0;
+    double draw_ms = 0;              // of the picture, with all that was chosen and made for it
+    double frame_ms = 0;  // of that, what each further picture of the same settings takes
 
     // In short, of `resolved`.
     std::string method;          // "slice"
@@ -30,6 +32,8 @@ struct Attempt {
 
 // The part of it that says what was tried.
 Attempt attempt_of(const Scene& scene, const Scene& resolved);
+// Attempt::frame_ms.
+double frame_ms_of(const FrameStatistics& statistics);
 // In a line: "slice, exact, fixed8, tree 32x32, 1024 slabs".
 std::string short_text(const Scene& scene);
 

@@ -47,6 +47,7 @@ std::string csv_row(const Attempt& row) {
                                  error(row.error.l2),
                                  number(row.share_measured),
                                  number(row.draw_ms),
+                                 number(row.frame_ms),
                                  fmt::to_string(row.resolved.width),
                                  fmt::to_string(row.resolved.height),
                                  nlohmann::ordered_json::parse(scene_text(row.resolved)).dump()};
@@ -66,7 +67,7 @@ int Attempts::view_of(const Scene& scene) {
 }
 
 void Attempts::add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
-                   double draw_ms) {
+                   const FrameStatistics& statistics) {
     const std::string settings = text_without_view(scene);
     std::size_t row = 0;
     while (row < rows_.size() &&
@@ -79,7 +80,8 @@ void Attempts::add(const Scene& scene, const Scene& resolved, std::optional<doub
     Attempt attempt = attempt_of(scene, resolved);
     attempt.view = view_of(resolved);
     attempt.expected = expected;
-    attempt.draw_ms = draw_ms;
+    attempt.draw_ms = statistics.draw_ms;
+    attempt.frame_ms = frame_ms_of(statistics);
     if (known) {
         attempt.share_measured = rows_[row].share_measured;
         attempt.error = rows_[row].error;
@@ -105,7 +107,7 @@ void Attempts::clear() {
 std::string Attempts::csv() const {
     std::string text =
         "view,method,classification,target,tree,samples,max_error,expected_error,linf,l1,l2,"
-        "share_measured,draw_ms,width,height,scene\r\n";
+        "share_measured,draw_ms,frame_ms,width,height,scene\r\n";
     for (const Attempt& row : rows_) text += csv_row(row);
     return text;
 }

@@ -18,9 +18,9 @@ class Attempts {
     // The row of the last picture; none where rows() is empty.
     std::size_t newest() const { return newest_; }
 
-    // A full picture of the scene. `expected` and `draw_ms` are those of the picture.
+    // A full picture of the scene. `expected`: its error; `statistics`: its own.
     void add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
-             double draw_ms);
+             const FrameStatistics& statistics);
     // How far the tracer is with that picture. Fewer pixels than are measured already, of a picture
     // that was drawn again, change nothing.
     void measured(double share, const ErrorNorms& error);

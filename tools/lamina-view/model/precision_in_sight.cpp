@@ -20,7 +20,7 @@ void PrecisionInSight::follow(const Document& document, const Shown& shown) {
     if (is_of(document, shown) && shown.full_revisions != recorded_) {
         recorded_ = shown.full_revisions;
         attempts.add(document.scene(), *shown.resolved, shown.plan.expected_error,
-                     shown.statistics.draw_ms);
+                     shown.statistics);
     }
     if (shown.full_revisions == recorded_) attempts.measured(shown.share_traced, shown.error);
 }

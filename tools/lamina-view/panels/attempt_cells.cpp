@@ -27,7 +27,7 @@ void error_and_time_cells(const Attempt& attempt) {
     ImGui::TableNextColumn();
     if (measured) ImGui::Text("%.0f %%", 100 * attempt.share_measured);
     ImGui::TableNextColumn();
-    ImGui::Text("%.0f", attempt.draw_ms);
+    ImGui::Text("%.3g", attempt.frame_ms);
 }
 
 }  // namespace lamina::view

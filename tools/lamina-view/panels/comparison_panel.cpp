@@ -43,10 +43,10 @@ void draw_two(const PanelContext& context) {
     else if (comparison.pinned())
         wrapped(theme::dim,
                 "A: " + short_text(comparison.pinned()->resolved) +
-                    fmt::format("; {:.1f} ms", comparison.pinned()->statistics.draw_ms));
+                    fmt::format("; {:.1f} ms", frame_ms_of(comparison.pinned()->statistics)));
     if (context.shown.resolved)
         wrapped(theme::dim, "B: " + short_text(*context.shown.resolved) +
-                                fmt::format("; {:.1f} ms", context.shown.statistics.draw_ms));
+                                fmt::format("; {:.1f} ms", frame_ms_of(context.shown.statistics)));
 }
 
 template <typename Value>
