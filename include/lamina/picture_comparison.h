@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,11 @@ LAMINA_API PictureComparison compare_files(const std::filesystem::path& a,
 // The bytes of a PNG file: the largest difference of each pixel's channels in false colour, from
 // -range (dark blue) over 0 (white) to range (dark red), in 1/255, over a colour bar.
 LAMINA_API std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range);
+
+// The false colours in which difference_png() shows these differences, in 1/255, red, green and
+// blue of each: for a screen. Throws Error where one of them is none, or the range not above 0.
+LAMINA_API std::vector<std::uint8_t> difference_codes(std::span<const float> differences,
+                                                      double range);
 
 struct LoadedPicture {
     PreciseImage image;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/picture_comparison.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.h"
 #include "image/difference_picture.h"
+#include "image/false_color.h"
 #include "image/loaded_image.h"
 #include "image/metrics.h"
 #include "image/png.h"
@@ -16,6 +20,10 @@ PictureComparison compared(const Difference& difference) {
             error.worst.row,           error.worst.channel};
 }
 
+void check_range(double range) {
+    if (!(range > 0)) fail("range: found {}, expected a number above 0, in 1/255", range);
+}
+
 }  // namespace
 
 PictureComparison compare(const PreciseImage& a, const PreciseImage& b) {
@@ -27,8 +35,20 @@ PictureComparison compare_files(const std::filesystem::path& a, const std::files
 }
 
 std::string difference_png(const PreciseImage& a, const PreciseImage& b, double range) {
-    if (!(range > 0)) fail("range: found {}, expected a number above 0, in 1/255", range);
+    check_range(range);
     return encode_png(difference_picture(difference(a, b), range));
+}
+
+std::vector<std::uint8_t> difference_codes(std::span<const float> differences, double range) {
+    check_range(range);
+    std::vector<std::uint8_t> codes;
+    codes.reserve(3 * differences.size());
+    for (const float e : differences) {
+        if (std::isnan(e)) fail("difference {}: found nan, expected a number", codes.size() / 3);
+        for (const std::uint16_t code : false_color_of(std::clamp(e / range, -1.0, 1.0)))
+            codes.push_back(static_cast<std::uint8_t>(code));
+    }
+    return codes;
 }
 
 LoadedPicture load_picture(const std::filesystem::path& file) {

@@ -26,6 +26,7 @@ SlicePlan without_remarks(SlicePlan plan) {
     plan.target_reason.clear();
     plan.error_bound.reset();
     plan.tree_reason.clear();
+    plan.rounding_bound.reset();
     plan.table.error = 0;
     return plan;
 }

@@ -56,6 +56,9 @@ struct SlicePlan : CompositingPlan {
     std::optional<TreePlan> tree;
     std::optional<double> error_bound;  // for "tree": "auto", in 1/255; tree_reason explains it
     std::string tree_reason;
+    // What compositing may add to the error of the slabs, in 1/255, whoever chose it; none: nothing
+    // is known that is worth saying.
+    std::optional<double> rounding_bound;
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;  // samples normalised to their range and stored as R32F
@@ -95,6 +98,13 @@ struct SlicePlan : CompositingPlan {
     double found_error() const {
         if (integrates_cells()) return exact_segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
+    }
+    // With the bound on roundings, where both are known: nothing was measured of slabs that the
+    // scene states.
+    std::optional<double> expected_error() const {
+        const bool measured = nothing_visible || integrates_cells() || slab_trial.has_value();
+        if (!measured || !rounding_bound) return {};
+        return found_error() + *rounding_bound;
     }
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }

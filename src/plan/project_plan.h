@@ -62,6 +62,18 @@ struct ProjectPlan : CompositingPlan {
     // Whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
 
+    // In 1/255, where tets are integrated, sorted and composited as they should be.
+    std::optional<double> expected_error(const ProjectSettings& settings) const {
+        const bool integrated = source != SegmentSource::mean && source != SegmentSource::vertices;
+        const bool straight = (orthographic || interpolation == Interpolation::perspective) &&
+                              thickness == Thickness::exact;
+        const bool sorted = settings.order == ProjectOrder::automatic ||
+                            settings.order == ProjectOrder::exact || single_color;
+        if (!integrated || !straight || !sorted || target != Target::float32 || !tree.empty())
+            return {};
+        return segment_error + light_error;
+    }
+
     friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
 };
 

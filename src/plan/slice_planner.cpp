@@ -74,6 +74,8 @@ class SlicePlanner {
         choose_compositing();
         choose_geometry();
         choose_constant_regions();
+        slice.rounding_bound =
+            slice.error_bound ? slice.error_bound : rounding_bound(tree_question(), slice.tree);
         choose_termination();
         return std::move(plan_);
     }
@@ -216,6 +218,7 @@ class SlicePlanner {
                             is_fixed_point(slice.target) ? " before it becomes a code" : ""))) {
             slice.opaque_depth = depth;
             if (slice.error_bound) *slice.error_bound += hidden;
+            if (slice.rounding_bound) *slice.rounding_bound += hidden;
         }
     }
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/unreachable.h"
+#include "compositing/tree_shape.h"
 #include "plan/target_choice.h"
 
 namespace lamina {
@@ -65,6 +67,18 @@ double scaled_for_color(const TreeQuestion& question, double bound) {
     const double largest = std::max(question.largest_color, 1.0);
     const double scaled = is_fixed_point(question.target) ? bound + (largest - 1) : bound * largest;
     return full_scale * std::min(scaled, largest);
+}
+
+// What one level of inner nodes may add, of colours up to 1 (docs/numerics.md, section 4): the
+// bound on a channel that follows from a code h off in each node of this share of the ray, and the
+// rounding of the nodes' colours.
+double level_rounding(const TreeQuestion& question, const TreePlan& tree, double share) {
+    const double storage = storage_error(question);
+    const bool wide = question.target == Target::fixed8 && tree.alpha_bits == 16;
+    const double h = wide ? 0.5 / 65535 : storage;
+    const double y = 1 - std::log(share) / std::numbers::e;
+    const double lost = std::numbers::e * h * y;
+    return storage + (lost < 1 ? std::min(-std::log1p(-lost), 1.0) : 1.0);
 }
 
 // By a node, which emulated buffers do not have, or by blending.
@@ -130,6 +144,24 @@ double straight_error_bound(const TreeQuestion& question) {
 double one_level_error_bound(const TreeQuestion& question) {
     return scaled_for_color(question,
                             storage_error(question) + question.visible_slabs * leaf_roundings);
+}
+
+std::optional<double> rounding_bound(const TreeQuestion& question,
+                                     const std::optional<TreePlan>& tree) {
+    if (!tree) return straight_error_bound(question);
+    if (tree->nodes != NodeArithmetic::shader) return {};
+    const TreeShape shape(tree->factors, question.slabs);
+    if (shape.is_marched(0, shape.root())) return one_level_error_bound(question);
+    if (tree->code != NodeCode::minimax) return {};
+    double inner = 0;
+    int smallest = question.slabs;
+    for (int level = 1; level < shape.levels(); ++level) {
+        smallest = std::max(smallest / shape.factor(level - 1), 1);
+        inner += level_rounding(question, *tree, static_cast<double>(smallest) / question.slabs);
+    }
+    if (is_fixed_point(question.target)) inner *= std::max(question.largest_color, 1.0);
+    return scaled_for_color(
+        question, inner + storage_error(question) + question.visible_slabs * leaf_roundings);
 }
 
 TreeChoice choose_tree(const TreeQuestion& question) {

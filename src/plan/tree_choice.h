@@ -44,6 +44,11 @@ struct TreeChoice {
 double straight_error_bound(const TreeQuestion& question);
 double one_level_error_bound(const TreeQuestion& question);
 
+// The same of what a plan composites with, by blending (no tree) or any tree whose nodes' code has
+// such a bound: the minimax code of shader nodes. Else none.
+std::optional<double> rounding_bound(const TreeQuestion& question,
+                                     const std::optional<TreePlan>& tree);
+
 // Chooses between blending and a tree: the cheaper one whose error bound fits into what the slabs
 // leave of max_error, or, where neither fits, the one with the smaller bound. Throws Error where
 // compositing alone exceeds max_error and the scene asks for another target than float32.

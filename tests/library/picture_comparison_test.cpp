@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "image/png.h"
 #include "lamina/picture_file.h"
 #include "lamina/session.h"
 #include "lamina/study.h"
@@ -27,6 +30,30 @@ TEST(PictureComparison, HasNormsByChannelAndTheWorstPixel) {
     EXPECT_EQ(difference_png(a, b, 3).substr(1, 3), "PNG");
     expect_error([&] { difference_png(a, b, 0); }, {"range"});
     expect_error([&] { compare(a, PreciseImage(1, 2)); }, {"2 x 1", "1 x 2"});
+}
+
+// The ends and the middle of the map are colours of its definition; a picture of one pixel on top
+// of its bar says that difference_png() has the same.
+TEST(DifferenceCodes, AreThoseOfTheDifferencePicture) {
+    const std::vector<float> differences = {-9, -2, 0, 1, 2};
+    const std::vector<std::uint8_t> codes = difference_codes(differences, 2);
+    ASSERT_EQ(codes.size(), 15u);
+    const auto of = [&](std::size_t i) {
+        return std::vector<int>(codes.begin() + 3 * static_cast<std::ptrdiff_t>(i),
+                                codes.begin() + 3 * static_cast<std::ptrdiff_t>(i + 1));
+    };
+    EXPECT_EQ(of(0), (std::vector<int>{5, 48, 97}));
+    EXPECT_EQ(of(1), of(0));
+    EXPECT_EQ(of(2), (std::vector<int>{255, 255, 255}));
+    EXPECT_EQ(of(4), (std::vector<int>{103, 0, 31}));
+    const TemporaryFolder folder;
+    PreciseImage a(1, 1);
+    a.pixel(0, 0)[1] = 1.0 / 255;
+    write_bytes_to(folder.path() / "d.png", difference_png(a, PreciseImage(1, 1), 2));
+    const CodedImage picture = read_png(folder.path() / "d.png");
+    EXPECT_EQ((std::vector<int>(picture.codes.begin(), picture.codes.begin() + 3)), of(3));
+    expect_error([&] { difference_codes(differences, 0); }, {"range"});
+    expect_error([&] { difference_codes(std::vector<float>{0, NAN}, 1); }, {"1", "nan"});
 }
 
 TEST(PictureFiles, ComeBack) {

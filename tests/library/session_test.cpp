@@ -50,9 +50,42 @@ TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
     EXPECT_EQ(session.plan().slabs, 1);
     EXPECT_EQ(session.plan().error, .05);
+    EXPECT_GT(session.plan().expected_error.value(), .05);  // roundings come on top
+    EXPECT_LT(session.plan().expected_error.value(), .06);
     EXPECT_NE(session.explanation().find("slabs"), std::string::npos);
     EXPECT_EQ(session.statistics().drawn_by.substr(0, 4), "cpu:");
     EXPECT_TRUE(session.take_warnings().empty());
+}
+
+// Of what the scene states itself, nothing is measured; what it leaves open has a bound that holds.
+TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
+    const Volume volume = waves(12);
+    Scene scene = scene_for(volume.grid().bounds());
+    scene.target = Target::fixed8;
+    scene.slice.samples = 64;
+    const auto expected = [&] {
+        Session session(scene, volume, native);
+        const PlanSummary plan = session.plan();
+        if (plan.expected_error)
+            EXPECT_LE(error_of(session.draw(), session.trace()).linf, *plan.expected_error);
+        return plan.expected_error;
+    };
+    const double blended = expected().value();
+    scene.slice.tree = TreeSettings{.factors = {8, 8}};
+    const double tree = expected().value();
+    scene.slice.tree->factors = {64};
+    const double node = expected().value();
+    EXPECT_LT(tree, blended / 4);
+    EXPECT_LT(node, tree);
+    scene.slice.tree->factors = {8, 8};
+    scene.slice.tree->code = NodeCode::alpha;
+    EXPECT_FALSE(expected());
+    scene.slice.tree.reset();
+    scene.target = Target::float32;
+    scene.slice.classification = Classification::post;
+    EXPECT_FALSE(expected());
+    scene.slice.samples.reset();
+    EXPECT_LE(expected().value(), scene.max_error);
 }
 
 TEST(Session, DrawsAMeshInMemory) {
@@ -66,6 +99,10 @@ TEST(Session, DrawsAMeshInMemory) {
     // Opacity in closed form, colour by weights good to 1 / 255 in all but rounding.
     EXPECT_LE(error_of(picture, session.trace()).linf, 1);
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
+    EXPECT_LE(session.plan().expected_error.value(), 1);
+    scene.project.interpolation = Interpolation::linear;
+    session.set_scene(scene);
+    EXPECT_FALSE(session.plan().expected_error);
 }
 
 TEST(Session, ClipsAreSetAndTakenBack) {

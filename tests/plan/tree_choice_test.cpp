@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "compositing/fixed_ray.h"
+#include "compositing/node_code.h"
+#include "compositing/tree_shape.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 
@@ -216,6 +219,104 @@ TEST(TreeChoice, CodesStayUnderTheStraightBound) {
         }
     }
     EXPECT_GT(closest, .25);
+}
+
+// Colour and opacity of a ray, front to back, as nodes store them in 8 bits.
+struct RayPart {
+    double depth = 0, color = 0;
+};
+
+double rounded(double value, double largest) {
+    return std::round(value * largest) / largest;
+}
+
+RayPart composited(const std::vector<RayPart>& parts) {
+    double transmittance = 1, color = 0, depth = 0;
+    for (const RayPart& part : parts) {
+        const double alpha = -std::expm1(-part.depth);
+        color += transmittance * alpha * part.color;
+        transmittance *= 1 - alpha;
+        depth += part.depth;
+    }
+    const double alpha = -std::expm1(-depth);
+    return {depth, alpha > 0 ? color / alpha : 0};
+}
+
+// A node of a tree in double precision but for what it stores (docs/numerics.md, section 4).
+RayPart node_of(const std::vector<RayPart>& ray, const TreeShape& shape, int level, SampleSpan node,
+                int alpha_bits) {
+    std::vector<RayPart> parts;
+    if (shape.is_marched(level, node)) {
+        parts.assign(ray.begin() + node.first, ray.begin() + node.end());
+    } else {
+        for (int i = 0; i < shape.factor(level); ++i) {
+            const SampleSpan child = child_span(node, i, shape.factor(level));
+            if (child.count > 0) parts.push_back(node_of(ray, shape, level + 1, child, alpha_bits));
+        }
+    }
+    RayPart found = composited(parts);
+    if (level == 0) return found;
+    const double share = static_cast<double>(node.count) / shape.samples();
+    const double code = encode_depth(NodeCode::minimax, found.depth, share);
+    const double stored = rounded(code, alpha_bits == 16 ? 65535 : 255);
+    return {decode_depth(NodeCode::minimax, stored, share), rounded(found.color, 255)};
+}
+
+// Rays that a bound has to hold for: equal parts of any density, dense and thin parts in turns with
+// the brightest and the darkest colour, and random ones.
+std::vector<RayPart> hard_ray(int samples, int kind, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<RayPart> ray(static_cast<std::size_t>(samples));
+    const double whole = std::exp(10 * unit(random) - 6);  // optical depth
+    const int period = 1 + static_cast<int>(20 * unit(random));
+    for (int i = 0; i < samples; ++i) {
+        const bool odd = i / period % 2 == 1;
+        double share = kind == 0 ? 1 : odd ? 1.9 : .1;
+        if (kind == 2) share = -std::log(1 - unit(random));
+        ray[static_cast<std::size_t>(i)] = {whole * share / samples, kind == 2 ? unit(random)
+                                                                     : odd     ? 0.
+                                                                               : 1.};
+    }
+    return ray;
+}
+
+TEST(RoundingBound, HoldsForTreesOfTheMinimaxCode) {
+    std::mt19937 random(7);
+    double closest = 0;
+    for (const std::vector<int>& factors :
+         {std::vector{32, 32}, {16, 8, 4}, {4, 4, 4, 4, 4}, {2, 300}, {10, 10}}) {
+        for (const int alpha_bits : {8, 16}) {
+            TreeQuestion question = question_of(Target::fixed8, 700);
+            const TreePlan tree{.factors = factors, .alpha_bits = alpha_bits};
+            const double bound = rounding_bound(question, tree).value();
+            const TreeShape shape(factors, question.slabs);
+            for (int i = 0; i < 150; ++i) {
+                const std::vector<RayPart> ray = hard_ray(question.slabs, i % 3, random);
+                const RayPart exact = composited(ray);
+                const RayPart found = node_of(ray, shape, 0, shape.root(), alpha_bits);
+                const double exact_alpha = -std::expm1(-exact.depth);
+                const double alpha = -std::expm1(-found.depth);
+                // The root stores opacity and associated colour.
+                const double e = 255 * std::max(std::abs(rounded(alpha, 255) - exact_alpha),
+                                                std::abs(rounded(alpha * found.color, 255) -
+                                                         exact_alpha * exact.color));
+                EXPECT_LE(e, bound) << to_text(factors) << ", " << alpha_bits << " bits, ray " << i;
+                closest = std::max(closest, e / bound);
+            }
+        }
+    }
+    EXPECT_GT(closest, .2);  // it says something
+    EXPECT_LE(closest, 1);
+}
+
+TEST(RoundingBound, IsThatOfBlendingAndOfOneNodeAndElseUnknown) {
+    const TreeQuestion question = question_of(Target::fixed8, 64);
+    EXPECT_EQ(rounding_bound(question, {}), straight_error_bound(question));
+    EXPECT_EQ(rounding_bound(question, TreePlan{.factors = {64}, .code = NodeCode::phi}),
+              one_level_error_bound(question));
+    EXPECT_FALSE(rounding_bound(question, TreePlan{.factors = {8, 8}, .code = NodeCode::phi}));
+    EXPECT_FALSE(
+        rounding_bound(question, TreePlan{.factors = {64}, .nodes = NodeArithmetic::fixed}));
 }
 
 }  // namespace

@@ -206,6 +206,34 @@ def test_lamina_view_starts_the_viewer():
     assert "cannot start lamina-view" in result.stderr and len(result.stderr.splitlines()) == 1
 
 
+def test_the_line_of_a_wipe_is_dragged_and_not_the_camera():
+    generated("a.nrrd")
+    played("""
+        set trace off
+        set panels off
+        wait full
+        save before.json
+        wait saved
+        key N
+        screenshot plain.png
+        key M
+        wait 50
+        screenshot wipe.png
+        drag left 150 120 220 120 5
+        wait 400
+        screenshot dragged.png
+        key V
+        wait 50
+        screenshot untraced.png
+        save after.json
+        wait saved
+        """, "a.nrrd", "--size", "300x200")
+    pictures = [pathlib.Path(name + ".png").read_bytes() for name in ["plain", "wipe", "dragged"]]
+    assert len(set(pictures)) == 3
+    before, after = (json.loads(pathlib.Path(name + ".json").read_text()) for name in ["before", "after"])
+    assert before == after
+
+
 @pytest.mark.skipif(not shutil.which("xdotool"), reason="there is no xdotool")
 def test_a_user_turns_the_picture_and_quits():
     generated("a.nrrd")

@@ -53,7 +53,8 @@ std::string Measurements::text(const std::string& name, const Shown& shown) cons
         {"share_traced", shown.share_traced},
         {"linf", shown.error.linf},
         {"l2", shown.error.l2},
-        {"predicted", shown.plan.error}};
+        {"expected", shown.plan.expected_error ? nlohmann::ordered_json(*shown.plan.expected_error)
+                                               : nlohmann::ordered_json()}};
     return line.dump();
 }
 

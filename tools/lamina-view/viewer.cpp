@@ -27,6 +27,10 @@ constexpr ImGuiWindowFlags fixed_window = ImGuiWindowFlags_NoTitleBar | ImGuiWin
                                           ImGuiWindowFlags_NoSavedSettings |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+bool is_comparison_key(int key) {
+    return key == 'B' || key == 'M' || key == 'N' || key == 'V';
+}
+
 void begin_fixed(const char* name, float x, float y, float width, float height) {
     ImGui::SetNextWindowPos({x, y});
     ImGui::SetNextWindowSize({width, height});
@@ -41,6 +45,7 @@ Viewer::Viewer(const GladGLContext& gl, const SessionOptions& options, std::func
       worker_(options, wake),
       saving_(wake),
       texture_(gl),
+      comparison_view_(gl),
       panels_(make_panels()),
       shown_(worker_.shown()) {
     try {
@@ -122,7 +127,7 @@ void Viewer::handle(const InputEvent& event) {
     if (event.kind == Kind::key) {
         if (io.WantTextInput || prompt_.open()) return;
         if (event.key == key_f1 || event.control || event.key == key::tab || event.key == 'T' ||
-            event.key == 'C')
+            event.key == 'C' || is_comparison_key(event.key))
             return take_key(event);
         if (io.WantCaptureKeyboard && event.key < '0') return;
     }
@@ -138,6 +143,7 @@ void Viewer::take_key(const InputEvent& event) {
     if (!event.control) {
         if (event.key == 'T') settings_.trace = !settings_.trace;
         if (event.key == 'C') settings_.coarse = !settings_.coarse;
+        take_comparison_key(event.key);
         return;
     }
     switch (event.key) {
@@ -159,6 +165,13 @@ void Viewer::take_key(const InputEvent& event) {
     }
 }
 
+void Viewer::take_comparison_key(int key) {
+    if (key == 'B') precision_.comparison.flip();
+    if (key == 'M') precision_.comparison.next_way();
+    if (key == 'N') precision_.pin(document_, *shown_);
+    if (key == 'V') precision_.comparison.next_with();
+}
+
 std::string Viewer::title() const {
     if (!document_.is_open()) return "lamina";
     return fmt::format("{}{} - lamina", document_.scene().file.filename().string(),
@@ -178,6 +191,7 @@ void Viewer::follow_worker() {
         texture_.show(*shown_->screen);
         uploaded_ = shown_->screen;
     }
+    precision_.follow(document_, *shown_);
     for (const Saving::Result& result : saving_.take_results()) {
         bad_ = !result.failure.empty();
         message_ = bad_ ? result.failure : fmt::format("wrote {}", result.file.string());
@@ -233,6 +247,7 @@ void Viewer::request_picture(double seconds) {
     input_at_.reset();
     DrawRequest request = requested_;
     request.scene = document_.scene();
+    request.pinned = precision_.comparison.pinned();
     worker_.request(std::move(request));
     if (changed) message_.clear(), bad_ = false;
 }
@@ -267,10 +282,10 @@ void Viewer::frame(float width, float height, float pixels, double seconds) {
     find_value();
     if (panels) {
         begin_fixed("side", picture_width, menu, side, height - menu - status);
-        draw_panels(PanelPlace::side);
+        draw_side_panels();
         ImGui::End();
         begin_fixed("bottom", 0, menu + picture_height, picture_width, bottom);
-        draw_panels(PanelPlace::bottom);
+        draw_bottom_panels();
         ImGui::End();
     }
     draw_status(width, height);
@@ -300,6 +315,15 @@ void Viewer::draw_picture(float left, float top, float width, float height, floa
     ImGui::GetBackgroundDrawList()->AddImage(
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture_.name())), {x, y},
         {x + scale * across, y + scale * down});
+    draw_comparison();
+}
+
+void Viewer::draw_comparison() {
+    Comparison& comparison = precision_.comparison;
+    if (!comparison.active()) return;
+    const bool truth = comparison.with == CompareWith::truth;
+    const std::string a = truth ? "the truth" : short_text(comparison.pinned()->resolved);
+    comparison_view_.draw(comparison, area_, "A: " + a, "B: " + short_text(*shown_->resolved));
 }
 
 // Of a picture that moves, the value would belong to another place when it is read.
@@ -312,15 +336,27 @@ void Viewer::find_value() {
     seen_ = shown_->probe->seen(pixel.x, pixel.y);
 }
 
-void Viewer::draw_panels(PanelPlace place) {
-    PanelContext context{document_, *shown_, seen_ ? std::optional(seen_->value) : std::nullopt};
+PanelContext Viewer::panel_context() {
+    return {document_, *shown_, seen_ ? std::optional(seen_->value) : std::nullopt, &precision_};
+}
+
+void Viewer::draw_side_panels() {
+    PanelContext context = panel_context();
+    for (const auto& panel : panels_)
+        if (panel->place() == PanelPlace::side &&
+            ImGui::CollapsingHeader(panel->title(), ImGuiTreeNodeFlags_DefaultOpen))
+            panel->draw(context);
+}
+
+void Viewer::draw_bottom_panels() {
+    PanelContext context = panel_context();
+    if (!ImGui::BeginTabBar("bottom panels")) return;
     for (const auto& panel : panels_) {
-        if (panel->place() != place) continue;
-        if (place == PanelPlace::bottom)
-            panel->draw(context);
-        else if (ImGui::CollapsingHeader(panel->title(), ImGuiTreeNodeFlags_DefaultOpen))
-            panel->draw(context);
+        if (panel->place() != PanelPlace::bottom || !ImGui::BeginTabItem(panel->title())) continue;
+        panel->draw(context);
+        ImGui::EndTabItem();
     }
+    ImGui::EndTabBar();
 }
 
 }  // namespace lamina::view

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "comparison_view.h"
 #include "model/camera_control.h"
 #include "model/document.h"
 #include "model/input_event.h"
+#include "model/precision_in_sight.h"
 #include "model/viewer_settings.h"
 #include "panels/panel.h"
 #include "panels/path_prompt.h"
@@ -74,7 +76,11 @@ class Viewer {
     void draw_file_menu();
     void draw_view_menu();
     void draw_picture(float left, float top, float width, float height, float pixels);
-    void draw_panels(PanelPlace place);
+    void take_comparison_key(int key);
+    void draw_comparison();
+    void draw_side_panels();
+    void draw_bottom_panels();
+    PanelContext panel_context();
     void draw_status(float width, float height);
     std::string status() const;
 
@@ -84,6 +90,8 @@ class Viewer {
     DrawWorker worker_;
     Saving saving_;
     PictureTexture texture_;
+    ComparisonView comparison_view_;
+    PrecisionInSight precision_;
     std::vector<std::unique_ptr<Panel>> panels_;
     PathPrompt prompt_;
     CameraControl control_;

@@ -18,6 +18,11 @@ std::string in_255ths(double error) {
     return fmt::format("{:.3g}/255", error);
 }
 
+std::string expected_text(const PlanSummary& plan) {
+    if (!plan.expected_error) return {};
+    return fmt::format(", expected at most {}", in_255ths(*plan.expected_error));
+}
+
 }  // namespace
 
 void Viewer::ask_open() {
@@ -113,16 +118,15 @@ std::string Viewer::status() const {
     if (!shown.activity.empty() && shown.activity != "tracing")
         add(fmt::format("{} {:.0f} %", shown.activity, 100 * shown.share_done));
     if (shown.kind == PictureKind::full)
-        add(fmt::format("{:.0f} ms, predicted error {}", shown.statistics.draw_ms,
-                        in_255ths(shown.plan.error)));
+        add(fmt::format("{:.0f} ms{}", shown.statistics.draw_ms, expected_text(shown.plan)));
     const bool asks_truth = shown.resolved && shown.resolved->method == Method::trace;
     if (shown.kind == PictureKind::traced && asks_truth)
         add(fmt::format("the truth, traced {:.0f} %", 100 * shown.share_traced));
     if (shown.kind == PictureKind::traced && !asks_truth)
         add(fmt::format(
-            "{}: Linf {} (predicted {}), L2 {}",
+            "{}: Linf {}, L2 {}{}",
             shown.truth ? "the truth" : fmt::format("traced {:.0f} %", 100 * shown.share_traced),
-            in_255ths(shown.error.linf), in_255ths(shown.plan.error), in_255ths(shown.error.l2)));
+            in_255ths(shown.error.linf), in_255ths(shown.error.l2), expected_text(shown.plan)));
     if (shown.kind != PictureKind::moving && !shown.chosen_again.empty())
         add(fmt::format("chosen again: {}{}", shown.chosen_again.front(),
                         shown.chosen_again.size() > 1

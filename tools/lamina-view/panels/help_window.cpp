@@ -26,6 +26,12 @@ constexpr HelpLine of_picture[] = {{"Left drag", "turn around what is looked at"
                                    {"C", "coarse pictures while something moves"},
                                    {"T", "trace at rest"}};
 
+constexpr HelpLine of_comparison[] = {
+    {"N", "keep this picture as A; what is edited is B"},
+    {"B", "A in the place of B, and back"},
+    {"M", "another way to compare: wipe, side by side, difference"},
+    {"V", "with A or with the truth"}};
+
 constexpr HelpLine of_transfer_function[] = {
     {"Double click", "new point; below the curves, new colour"},
     {"Drag", "move points; a rectangle selects"},
@@ -70,6 +76,7 @@ void help_window(bool& open) {
     if (ImGui::Begin("Keys and pointer", &open,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
         table("Picture", of_picture);
+        table("Comparison", of_comparison);
         table("Transfer function", of_transfer_function);
         table("Everywhere", of_all);
         if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open = false;

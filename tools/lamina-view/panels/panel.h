@@ -10,6 +10,8 @@
 
 namespace lamina::view {
 
+class PrecisionInSight;
+
 // Where a panel is: in the column on the right, or in the strip below the picture.
 enum class PanelPlace { side, bottom };
 
@@ -18,6 +20,7 @@ struct PanelContext {
     Document& document;
     const Shown& shown;
     std::optional<double> value_under_pointer;  // of the data, at the point that is seen there
+    PrecisionInSight* precision = nullptr;      // null: nothing is known of it
 };
 
 // A part of the window beside the picture.

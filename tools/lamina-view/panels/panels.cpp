@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "panels/attempts_panel.h"
+#include "panels/comparison_panel.h"
+#include "panels/error_panel.h"
+#include "panels/factors_panel.h"
+#include "panels/frames_panel.h"
 #include "panels/panel.h"
 #include "panels/picture_panel.h"
 #include "panels/plan_panel.h"
@@ -11,8 +16,13 @@ std::vector<std::unique_ptr<Panel>> make_panels() {
     std::vector<std::unique_ptr<Panel>> panels;
     panels.push_back(std::make_unique<PicturePanel>());
     panels.push_back(std::make_unique<PlanPanel>());
+    panels.push_back(std::make_unique<ErrorPanel>());
+    panels.push_back(std::make_unique<ComparisonPanel>());
+    panels.push_back(std::make_unique<FactorsPanel>());
     panels.push_back(std::make_unique<SettingsPanel>());
     panels.push_back(std::make_unique<TransferPanel>());
+    panels.push_back(std::make_unique<AttemptsPanel>());
+    panels.push_back(std::make_unique<FramesPanel>());
     return panels;
 }
 

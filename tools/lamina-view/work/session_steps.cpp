@@ -9,6 +9,7 @@
 
 #include "lamina/error.h"
 #include "lamina/picture_file.h"
+#include "model/same_view.h"
 #include "work/scene_difference.h"
 #include "work/traced_picture.h"
 
@@ -53,9 +54,10 @@ void SessionSteps::forget_tiles() {
     if (shown_.activity == "tracing") shown_.activity.clear();
     if (shown_.kind != PictureKind::traced || shown_.truth) return;
     shown_.kind = shown_.full ? PictureKind::full : PictureKind::none;
-    shown_.screen = full_screen_;
+    shown_.screen = shown_.full_screen;
     shown_.share_traced = 0;
     shown_.error = {};
+    shown_.missed.reset();
     if (next_ == Next::nothing) publish_(shown_);
 }
 
@@ -63,8 +65,22 @@ SessionSteps::Next SessionSteps::step_after_data() const {
     if (request_.moving) return Next::moving;
     const bool drawn = shown_.full && shown_.full_revisions == request_.revisions &&
                        shown_.revisions == request_.revisions && shown_.failure.empty();
-    if (!drawn) return Next::full;
+    return drawn ? step_after_full() : Next::full;
+}
+
+SessionSteps::Next SessionSteps::step_after_full() const {
+    const std::shared_ptr<const PinnedPicture> a = pinned();
+    if (a && shown_.resolved && !same_view(a->scene, *shown_.resolved) &&
+        pinned_failed_ != request_.revisions)
+        return Next::pinned;
     return request_.trace && !shown_.truth ? Next::trace : Next::nothing;
+}
+
+// As it was drawn last.
+std::shared_ptr<const PinnedPicture> SessionSteps::pinned() const {
+    const auto& asked = request_.pinned;
+    if (!asked || asked->data != request_.revisions.data) return {};
+    return shown_.pinned && shown_.pinned->number == asked->number ? shown_.pinned : asked;
 }
 
 void SessionSteps::step(const std::stop_token& stop) {
@@ -78,6 +94,8 @@ void SessionSteps::step(const std::stop_token& stop) {
                 return draw_moving(stop);
             case Next::full:
                 return draw_full(stop);
+            case Next::pinned:
+                return draw_pinned(stop);
             case Next::trace:
                 return trace(stop);
         }
@@ -114,6 +132,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     session_ = std::move(session);
     applied_ = chosen_ = request_.revisions;
     full_size_ = true;
+    holds_pinned_ = false;
     coarse_size_ = CoarseSize(moving_target_ms);
     shown_.loaded = applied_.data;
     shown_.bounds = session_->bounds();
@@ -129,10 +148,11 @@ void SessionSteps::load(const std::stop_token& stop) {
 void SessionSteps::apply_change() {
     const Scene& scene = request_.scene;
     const Revisions& asked = request_.revisions;
-    if (asked == applied_) return;
+    if (asked == applied_ && !holds_pinned_) return;
     const Revisions before = std::exchange(applied_, {.data = asked.data});
-    if (asked.settings != before.settings) {
+    if (holds_pinned_ || asked.settings != before.settings) {
         session_->set_scene(scene);
+        holds_pinned_ = false;
     } else {
         if (asked.camera != before.camera) session_->set_camera(scene.camera);
         if (asked.clip != before.clip) session_->set_clip(scene.clip);
@@ -166,9 +186,10 @@ void SessionSteps::draw_moving(const std::stop_token& stop) {
 
 // What is automatic is chosen again once anything has changed.
 void SessionSteps::choose() {
-    if (chosen_ == request_.revisions && full_size_) return;
+    if (chosen_ == request_.revisions && full_size_ && !holds_pinned_) return;
     applied_ = {.data = request_.revisions.data};
     session_->set_scene(request_.scene);
+    holds_pinned_ = false;
     applied_ = chosen_ = request_.revisions;
     full_size_ = true;
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
@@ -180,7 +201,7 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     if (session_->scene().method == Method::trace) {
         shown_.full.reset();
         shown_.truth.reset();
-        full_screen_.reset();
+        shown_.full_screen.reset();
         return trace(stop);
     }
     auto picture = std::make_shared<Image>();
@@ -192,14 +213,45 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     shown_.bounds = session_->bounds();
     tell_plan();
     show(PictureKind::full, *picture);
-    full_screen_ = shown_.screen;
+    shown_.full_screen = shown_.screen;
     coarse_size_.add(static_cast<double>(picture->width) * picture->height,
                      shown_.statistics.stages_ms["draw"]);
     shown_.activity.clear();
     shown_.share_traced = 0;
     shown_.error = {};
+    shown_.missed.reset();
     shown_.truth.reset();
-    next_ = request_.trace ? Next::trace : Next::nothing;
+    next_ = step_after_full();
+    publish_(shown_);
+}
+
+// The session is that of B: it gets the scene of A for a picture, and that of B back with the next
+// step that needs it.
+void SessionSteps::draw_pinned(const std::stop_token& stop) {
+    auto drawn = std::make_shared<PinnedPicture>(*pinned());
+    drawn->scene.camera = shown_.resolved->camera;
+    drawn->scene.automatic_camera = false;
+    drawn->scene.width = shown_.resolved->width;
+    drawn->scene.height = shown_.resolved->height;
+    holds_pinned_ = true;
+    try {
+        session_->set_scene(drawn->scene);
+        auto picture = std::make_shared<Image>();
+        session_->draw(*picture, stop, progress());
+        drawn->screen = screen_of(*picture, session_->scene());
+        drawn->picture = std::move(picture);
+        drawn->resolved = session_->resolved_scene();
+        drawn->statistics = session_->statistics();
+        drawn->expected =
+            drawn->scene.method == Method::trace ? std::nullopt : session_->plan().expected_error;
+        session_->take_warnings();
+        shown_.pinned = std::move(drawn);
+    } catch (const Error& error) {
+        pinned_failed_ = request_.revisions;
+        shown_.warnings.push_back(std::string("A cannot be drawn in this view: ") + error.what());
+    }
+    shown_.activity.clear();
+    next_ = step_after_full();
     publish_(shown_);
 }
 
@@ -223,10 +275,13 @@ void SessionSteps::show(PictureKind kind, const Image& picture) {
     shown_.probe = session_->probe();
     shown_.warnings = session_->take_warnings();
     shown_.failure.clear();
+    ++shown_.frame;
+    shown_.frame_statistics = session_->statistics();
 }
 
 void SessionSteps::trace(const std::stop_token& stop) {
-    TracedPicture traced(shown_.full, full_screen_, session_->scene());
+    choose();
+    TracedPicture traced(shown_.full, shown_.full_screen, session_->scene());
     auto published = Clock::now();
     shown_.activity = "tracing";
     const PreciseImage& truth =
@@ -239,7 +294,7 @@ void SessionSteps::trace(const std::stop_token& stop) {
         });
     show_traced(traced);
     take_truth(truth);
-    next_ = Next::nothing;
+    next_ = step_after_full();
     publish_(shown_);
 }
 
@@ -250,6 +305,7 @@ void SessionSteps::show_traced(const TracedPicture& traced) {
     shown_.screen = std::make_shared<const ScreenPicture>(traced.screen());
     shown_.share_done = shown_.share_traced = traced.share();
     shown_.error = traced.error();
+    if (shown_.full) shown_.missed = std::make_shared<const PictureDifference>(traced.missed());
 }
 
 void SessionSteps::take_truth(const PreciseImage& truth) {
@@ -260,6 +316,7 @@ void SessionSteps::take_truth(const PreciseImage& truth) {
         shown_.error = error_of(*shown_.full, as_float);
     } else {  // the scene asks for the truth alone
         shown_.full = std::make_shared<const Image>(as_float);
+        shown_.full_screen = shown_.screen;
         shown_.full_revisions = request_.revisions;
         tell_plan();
         shown_.probe = session_->probe();

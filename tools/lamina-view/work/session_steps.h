@@ -30,12 +30,15 @@ class SessionSteps {
     void step(const std::stop_token& stop);
 
   private:
-    enum class Next { nothing, load, moving, full, trace };
+    enum class Next { nothing, load, moving, full, pinned, trace };
     Next step_after_data() const;
     void load(const std::stop_token& stop);
     void draw_moving(const std::stop_token& stop);
     void draw_full(const std::stop_token& stop);
+    void draw_pinned(const std::stop_token& stop);
     void trace(const std::stop_token& stop);
+    std::shared_ptr<const PinnedPicture> pinned() const;
+    Next step_after_full() const;
     void apply_change();
     void choose();
     void set_size_for_moving();
@@ -56,7 +59,8 @@ class SessionSteps {
     Revisions chosen_;   // for what its automatic values were chosen
     bool full_size_ = true;
     CoarseSize coarse_size_;
-    std::shared_ptr<const ScreenPicture> full_screen_;  // of shown_.full
+    bool holds_pinned_ = false;  // the session has the scene of A
+    Revisions pinned_failed_;    // A cannot be drawn in the view of this request
     Shown shown_;
 };
 

@@ -16,7 +16,9 @@
 #include "lamina/point_probe.h"
 #include "lamina/scene.h"
 #include "lamina/value_histogram.h"
+#include "model/picture_difference.h"
 #include "model/revisions.h"
+#include "work/pinned_picture.h"
 
 namespace lamina::view {
 
@@ -39,6 +41,7 @@ struct Shown {
     std::shared_ptr<const ScreenPicture> screen;
     std::optional<PointProbe> probe;    // for the picture: places are pixels of its scene
     std::shared_ptr<const Image> full;  // the last full picture, of `full_revisions`
+    std::shared_ptr<const ScreenPicture> full_screen;
     Revisions full_revisions;
     // Of that picture. `resolved` has everything automatic written out.
     std::shared_ptr<const Scene> resolved;
@@ -51,7 +54,15 @@ struct Shown {
     double share_traced = 0;                    // of its pixels, 0 to 1
     ErrorNorms error;                           // of the pixels that are traced
     std::shared_ptr<const PreciseImage> truth;  // once all of them are
-    double trace_error = 0;                     // of that, in 1/255, as the tracer estimates it
+    // The full picture less the truth, as far as it is traced; null: nothing is.
+    std::shared_ptr<const PictureDifference> missed;
+    double trace_error = 0;  // of that, in 1/255, as the tracer estimates it
+
+    // The one of the last request that had one, as it was drawn last.
+    std::shared_ptr<const PinnedPicture> pinned;
+
+    std::uint64_t frame = 0;           // counts pictures that were drawn, moving and full ones
+    FrameStatistics frame_statistics;  // of the last of them
 
     // The data: of Revisions::data `loaded` (0: none yet).
     std::uint64_t loaded = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lamina/picture_file.h"
@@ -12,6 +13,10 @@ namespace lamina::view {
 TracedPicture::TracedPicture(std::shared_ptr<const Image> full,
                              std::shared_ptr<const ScreenPicture> screen, const Scene& scene)
     : full_(std::move(full)), background_(scene.background), space_(scene.color_space) {
+    if (full_)
+        missed_ = {
+            full_->width, full_->height,
+            std::vector<float>(full_->rgba.size() / 4, std::numeric_limits<float>::quiet_NaN())};
     if (screen && screen->width == scene.width && screen->height == scene.height) {
         screen_ = *screen;
         return;
@@ -28,7 +33,7 @@ void TracedPicture::add(const PictureTile& tile, const PreciseImage& truth) {
         const double* const from = truth.pixel(tile.column, tile.row + row);
         std::transform(from, from + 4 * tile.width, traced.pixel(0, row),
                        [](double number) { return static_cast<float>(number); });
-        if (full_) measure(full_->pixel(tile.column, tile.row + row), traced, row);
+        if (full_) measure(tile, traced, row);
     }
     const std::vector<std::uint8_t> codes = screen_codes(traced, background_, space_);
     const auto line = static_cast<std::ptrdiff_t>(3 * tile.width);
@@ -40,8 +45,15 @@ void TracedPicture::add(const PictureTile& tile, const PreciseImage& truth) {
     pixels_ += static_cast<std::int64_t>(tile.width) * tile.height;
 }
 
-void TracedPicture::measure(const float* full, const Image& traced, int row) {
+void TracedPicture::measure(const PictureTile& tile, const Image& traced, int row) {
+    const float* const full = full_->pixel(tile.column, tile.row + row);
     const float* const truth = traced.pixel(0, row);
+    float* const missed =
+        &missed_
+             .e[static_cast<std::size_t>(tile.row + row) * static_cast<std::size_t>(missed_.width) +
+                static_cast<std::size_t>(tile.column)];
+    for (int i = 0; i < traced.width; ++i)
+        missed[i] = largest_difference(full + 4 * i, truth + 4 * i);
     for (int i = 0; i < 4 * traced.width; ++i) {
         const double e = 255 * (static_cast<double>(full[i]) - static_cast<double>(truth[i]));
         largest_ = std::max(largest_, std::abs(e));

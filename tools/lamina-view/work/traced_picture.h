@@ -8,6 +8,7 @@
 #include "lamina/image.h"
 #include "lamina/picture_tile.h"
 #include "lamina/scene.h"
+#include "model/picture_difference.h"
 #include "work/shown.h"
 
 namespace lamina::view {
@@ -24,12 +25,15 @@ class TracedPicture {
     double share() const;      // of the pixels that are traced
     ErrorNorms error() const;  // of these, as error_of() has it of a traced picture in float32
     const ScreenPicture& screen() const { return screen_; }
+    // The full picture less the truth, where that is traced. Empty where there is no full picture.
+    const PictureDifference& missed() const { return missed_; }
 
   private:
-    void measure(const float* full, const Image& traced, int row);
+    void measure(const PictureTile& tile, const Image& traced, int row);
 
     std::shared_ptr<const Image> full_;
     ScreenPicture screen_;
+    PictureDifference missed_;
     glm::dvec3 background_;
     ImageColorSpace space_;
     std::int64_t pixels_ = 0;

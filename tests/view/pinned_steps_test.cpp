@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lamina/picture_file.h"
+#include "lamina/scene_text.h"
+#include "lamina/session.h"
+#include "model/precision_in_sight.h"
+#include "work/session_steps.h"
+
+namespace lamina::view {
+namespace {
+
+const SessionOptions native{.context = ContextChoice::cpu, .threads = 2};
+
+Scene small_scene() {
+    return parse_scene(
+        R"({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]},
+            "transfer_function": {"points": [{"value": 0, "color": "red", "extinction": 0},
+                                             {"value": 255, "color": "blue", "extinction": 4}]},
+            "camera": {"eye": [2, 1, 2], "center": [0.5, 0.5, 0.5]},
+            "image": {"width": 40, "height": 30},
+            "render": {"target": "fixed8", "slice": {"samples": 64, "classification": "post"}}})",
+        "scene.json");
+}
+
+// A document that is drawn as the viewer does it, one step after the other.
+class DrawnDocument {
+  public:
+    DrawnDocument() : steps_(native, [this](const Shown& shown) { take(shown); }) {
+        document.size_follows_window = false;
+        document.open(small_scene());
+    }
+
+    void draw(bool trace = false) {
+        steps_.begin({.scene = document.scene(),
+                      .revisions = document.revisions(),
+                      .trace = trace,
+                      .pinned = precision.comparison.pinned()});
+        while (steps_.unfinished()) steps_.step({});
+    }
+    const Shown& shown() const { return shown_; }
+
+    Document document;
+    PrecisionInSight precision;
+
+  private:
+    void take(const Shown& shown) {
+        shown_ = shown;
+        precision.follow(document, shown_);
+    }
+    Shown shown_;
+    SessionSteps steps_;
+};
+
+Image drawn_alone(const Scene& scene) {
+    Session session(scene, native);
+    return session.draw();
+}
+
+void turn(Document& document) {
+    document.set_camera(turned(document.scene().camera, 40));
+}
+
+TEST(PinnedPicture, IsDrawnAgainInTheViewOfTheOther) {
+    DrawnDocument drawn;
+    Comparison& comparison = drawn.precision.comparison;
+    comparison.by = CompareBy::difference;
+    drawn.draw();
+    drawn.precision.pin(drawn.document, drawn.shown());
+    ASSERT_TRUE(comparison.pinned());
+    const Scene a = drawn.document.scene();
+    drawn.document.edit([](Scene& scene) { scene.target = Target::float32; });
+    drawn.draw();
+    ASSERT_TRUE(comparison.active());
+    const Image b = drawn_alone(drawn.document.scene());
+    EXPECT_EQ(comparison.norms().linf, error_of(b, drawn_alone(a)).linf);
+    EXPECT_GT(comparison.norms().linf, 1);
+    for (int i = 0; i < 2; ++i) {
+        turn(drawn.document);
+        drawn.draw();
+        Scene a_turned = a;
+        a_turned.camera = drawn.document.scene().camera;
+        ASSERT_TRUE(comparison.active()) << comparison.missing();
+        EXPECT_EQ(comparison.pinned()->picture->rgba, drawn_alone(a_turned).rgba);
+        EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba);
+    }
+    // It is B that is traced, and B whose settings go on.
+    turn(drawn.document);
+    drawn.draw(true);
+    EXPECT_EQ(drawn.shown().share_traced, 1);
+    Session alone(drawn.document.scene(), native);
+    EXPECT_EQ(drawn.shown().truth->rgba, alone.trace().rgba);
+    Clip clip;
+    clip.planes.push_back({.point = glm::dvec3(.5), .normal = {1, 0, 0}});
+    drawn.document.set_clip(clip);
+    drawn.draw();
+    EXPECT_EQ(drawn.shown().full->rgba, drawn_alone(drawn.document.scene()).rgba);
+}
+
+TEST(PinnedPicture, MovingPicturesAreOfTheOther) {
+    DrawnDocument drawn;
+    drawn.draw();
+    drawn.precision.pin(drawn.document, drawn.shown());
+    drawn.document.edit([](Scene& scene) { scene.target = Target::float32; });
+    turn(drawn.document);
+    drawn.draw();  // A comes last
+    turn(drawn.document);
+    Shown last;
+    SessionSteps steps(native, [&](const Shown& shown) { last = shown; });
+    DrawRequest request{.scene = drawn.document.scene(),
+                        .revisions = drawn.document.revisions(),
+                        .trace = false,
+                        .pinned = drawn.precision.comparison.pinned()};
+    const auto run = [&] {
+        steps.begin(request);
+        while (steps.unfinished()) steps.step({});
+    };
+    run();
+    ASSERT_TRUE(last.pinned);  // drawn in this view after B
+    turn(drawn.document);
+    request.scene = drawn.document.scene();
+    request.revisions = drawn.document.revisions();
+    request.moving = true;
+    request.coarse = false;
+    run();
+    EXPECT_EQ(last.kind, PictureKind::moving);
+    const Image b = drawn_alone(request.scene);
+    EXPECT_EQ(last.screen->rgb, screen_codes(b));
+}
+
+TEST(PinnedPicture, ThatCannotBeDrawnIsSaidAndTheOtherGoesOn) {
+    DrawnDocument drawn;
+    drawn.draw();
+    drawn.precision.pin(drawn.document, drawn.shown());
+    PinnedPicture impossible = *drawn.precision.comparison.pinned();
+    // Fixed nodes need one colour, which only the plan knows.
+    impossible.scene.slice.tree = TreeSettings{.factors = {8, 8}, .nodes = NodeArithmetic::fixed};
+    turn(drawn.document);
+    Shown last;
+    SessionSteps steps(native, [&](const Shown& shown) { last = shown; });
+    steps.begin({.scene = drawn.document.scene(),
+                 .revisions = drawn.document.revisions(),
+                 .pinned = std::make_shared<const PinnedPicture>(impossible)});
+    while (steps.unfinished()) steps.step({});
+    ASSERT_FALSE(last.warnings.empty());
+    EXPECT_TRUE(last.warnings.back().starts_with("A cannot be drawn in this view: "));
+    EXPECT_TRUE(last.failure.empty());
+    EXPECT_EQ(last.share_traced, 1);
+}
+
+TEST(PrecisionInSight, RowsFollowTheTracer) {
+    DrawnDocument drawn;
+    const Scene first = drawn.document.scene();
+    drawn.draw(true);
+    drawn.document.edit([](Scene& scene) { scene.target = Target::float32; });
+    drawn.draw(true);
+    const std::vector<Attempt>& rows = drawn.precision.attempts.rows();
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0].share_measured, 1);
+    EXPECT_EQ(rows[1].error.linf, drawn.shown().error.linf);
+    EXPECT_GT(rows[0].error.linf, rows[1].error.linf);
+    EXPECT_EQ(drawn.precision.frames.frames().size(), 2u);
+    EXPECT_NEAR(*std::max_element(drawn.shown().missed->e.begin(), drawn.shown().missed->e.end(),
+                                  [](float a, float b) { return std::abs(a) < std::abs(b); }),
+                0, drawn.shown().error.linf + 1e-6);
+    PrecisionInSight::go_on_with(drawn.document, rows[0].scene, false);
+    EXPECT_EQ(scene_text(drawn.document.scene()), scene_text(first));
+    drawn.draw(true);
+    EXPECT_EQ(rows.size(), 2u);
+    drawn.document.undo();
+    EXPECT_EQ(drawn.document.scene().target, Target::float32);
+}
+
+}  // namespace
+}  // namespace lamina::view

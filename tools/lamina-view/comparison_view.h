@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <imgui.h>
+
+#include <memory>
+#include <string>
+
+#include "model/comparison.h"
+#include "model/picture_area.h"
+#include "picture_texture.h"
+
+namespace lamina::view {
+
+// Draws two pictures where the window has one.
+class ComparisonView {
+  public:
+    explicit ComparisonView(const GladGLContext& gl);
+
+    // Over the picture in `area`, where there is something to be compared. `a`, `b`: what the two
+    // are, for people.
+    void draw(Comparison& comparison, const PictureArea& area, const std::string& a,
+              const std::string& b);
+
+  private:
+    // A texture and the picture that is in it.
+    struct Slot {
+        explicit Slot(const GladGLContext& gl) : texture(gl) {}
+        void take(const std::shared_ptr<const ScreenPicture>& picture);
+        ImTextureID id() const;
+        PictureTexture texture;
+        std::shared_ptr<const ScreenPicture> shown;
+    };
+
+    void draw_wipe(Comparison& comparison, const std::string& a, const std::string& b);
+    void draw_side_by_side(const std::string& a, const std::string& b);
+    void draw_difference(Comparison& comparison);
+
+    Slot other_, edited_, colors_;
+    ImVec2 min_{}, max_{};  // of the picture in the window
+};
+
+}  // namespace lamina::view

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/attempts.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "lamina/scene_text.h"
+#include "model/same_view.h"
+
+namespace lamina::view {
+namespace {
+
+std::string text_without_view(Scene scene) {
+    scene.camera = {};
+    scene.automatic_camera = false;
+    scene.width = scene.height = 1;
+    return scene_text(scene);
+}
+
+// RFC 4180: a cell with a comma, a quote or the end of a line is put in quotes.
+std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
+    std::string text(1, '"');
+    for (const char c : cell) text.append(c == '"' ? 2 : 1, c);
+    text.push_back('"');
+    return text;
+}
+
+// Cells of what is not known are empty.
+std::string csv_row(const Attempt& row) {
+    const bool measured = row.share_measured > 0;
+    const auto number = [](double value) { return fmt::format("{:.6g}", value); };
+    const auto error = [&](double value) { return measured ? number(value) : std::string(); };
+    const std::string cells[] = {fmt::to_string(row.view),
+                                 row.method,
+                                 row.classification,
+                                 row.target,
+                                 row.tree,
+                                 row.samples,
+                                 number(row.resolved.max_error),
+                                 row.expected ? number(*row.expected) : "",
+                                 error(row.error.linf),
+                                 error(row.error.l1),
+                                 error(row.error.l2),
+                                 number(row.share_measured),
+                                 number(row.draw_ms),
+                                 number(row.frame_ms),
+                                 fmt::to_string(row.resolved.width),
+                                 fmt::to_string(row.resolved.height),
+                                 nlohmann::ordered_json::parse(scene_text(row.resolved)).dump()};
+    std::vector<std::string> quoted_cells;
+    for (const std::string& cell : cells) quoted_cells.push_back(quoted(cell));
+    return fmt::format("{}\r\n", fmt::join(quoted_cells, ","));
+}
+
+}  // namespace
+
+int Attempts::view_of(const Scene& scene) {
+    const auto found =
+        std::ranges::find_if(views_, [&](const Scene& view) { return same_view(view, scene); });
+    const auto index = found - views_.begin();
+    if (found == views_.end()) views_.push_back(scene);
+    return static_cast<int>(index) + 1;
+}
+
+void Attempts::add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
+                   const FrameStatistics& statistics) {
+    const std::string settings = text_without_view(scene);
+    std::size_t row = 0;
+    while (row < rows_.size() &&
+           !(settings_[row] == settings && same_view(rows_[row].resolved, resolved)))
+        ++row;
+    const bool known = row < rows_.size();
+    const bool goes_along = !known && !rows_.empty() && settings_[newest_] == settings &&
+                            rows_[newest_].share_measured < 1;
+    if (goes_along) row = newest_;
+    Attempt attempt = attempt_of(scene, resolved);
+    attempt.view = view_of(resolved);
+    attempt.expected = expected;
+    attempt.draw_ms = statistics.draw_ms;
+    attempt.frame_ms = frame_ms_of(statistics);
+    if (known) {
+        attempt.share_measured = rows_[row].share_measured;
+        attempt.error = rows_[row].error;
+    }
+    if (row == rows_.size()) {
+        rows_.emplace_back();
+        settings_.push_back(settings);
+    }
+    rows_[row] = std::move(attempt);
+    newest_ = row;
+}
+
+void Attempts::measured(double share, const ErrorNorms& error) {
+    if (rows_.empty() || share <= 0 || share < rows_[newest_].share_measured) return;
+    rows_[newest_].share_measured = share;
+    rows_[newest_].error = error;
+}
+
+void Attempts::clear() {
+    *this = {};
+}
+
+std::string Attempts::csv() const {
+    std::string text =
+        "view,method,classification,target,tree,samples,max_error,expected_error,linf,l1,l2,"
+        "share_measured,draw_ms,frame_ms,width,height,scene\r\n";
+    for (const Attempt& row : rows_) text += csv_row(row);
+    return text;
+}
+
+std::vector<std::size_t> Attempts::alike(void (*without)(Scene&)) const {
+    std::vector<std::size_t> found;
+    if (rows_.empty()) return found;
+    const auto text = [&](const Attempt& row) {
+        Scene scene = row.scene;
+        without(scene);
+        return text_without_view(std::move(scene));
+    };
+    const std::string wanted = text(rows_[newest_]);
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+        if (rows_[row].view == rows_[newest_].view && text(rows_[row]) == wanted)
+            found.push_back(row);
+    return found;
+}
+
+}  // namespace lamina::view

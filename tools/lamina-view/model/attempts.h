@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "model/attempt.h"
+
+namespace lamina::view {
+
+// What has been tried, in the order in which it was tried first. A scene has one row: drawn again,
+// it goes on with that. A row whose error is not yet measured on all pixels goes along to another
+// view (camera or size) of the same settings, or moving the camera would fill the table.
+class Attempts {
+  public:
+    const std::vector<Attempt>& rows() const { return rows_; }
+    // The row of the last picture; none where rows() is empty.
+    std::size_t newest() const { return newest_; }
+
+    // A full picture of the scene. `expected`: its error; `statistics`: its own.
+    void add(const Scene& scene, const Scene& resolved, std::optional<double> expected,
+             const FrameStatistics& statistics);
+    // How far the tracer is with that picture. Fewer pixels than are measured already, of a picture
+    // that was drawn again, change nothing.
+    void measured(double share, const ErrorNorms& error);
+    void clear();
+
+    // A table (RFC 4180), a row each. Its last column is the resolved scene as JSON: a scene file
+    // of the same picture, for data that it can name.
+    std::string csv() const;
+
+    // Rows whose settings differ from those of the newest row at most in the key that `without`
+    // takes away, in its view.
+    std::vector<std::size_t> alike(void (*without)(Scene&)) const;
+
+  private:
+    int view_of(const Scene& scene);
+
+    std::vector<Attempt> rows_;
+    std::vector<std::string> settings_;  // of each row: its scene's text without the view
+    std::size_t newest_ = 0;
+    std::vector<Scene> views_;  // of which camera and size count
+};
+
+}  // namespace lamina::view

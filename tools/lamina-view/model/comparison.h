@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "lamina/error_norms.h"
+#include "model/picture_difference.h"
+#include "work/pinned_picture.h"
+#include "work/shown.h"
+
+namespace lamina::view {
+
+// What is beside the picture that is edited (B): the one that was pinned, or what the tracer has
+// put in the place of B so far.
+enum class CompareWith { pinned, truth };
+enum class CompareBy { nothing, flip, wipe, side_by_side, difference };
+
+// Two pictures held against each other. Both are full ones: while B moves there is nothing to
+// compare.
+class Comparison {
+  public:
+    CompareWith with = CompareWith::pinned;
+    CompareBy by = CompareBy::nothing;
+    bool flipped = false;         // CompareBy::flip: the other picture is seen
+    double wipe = .5;             // of the picture's width, left of which the other one is seen
+    std::optional<double> range;  // of the difference's colours, in 1/255; none: what fits
+    float strength = 1;           // of these colours over the picture, 0 to 1
+
+    // The full picture that is shown, of this scene, is A from now on.
+    void pin(const Scene& scene, const Shown& shown);
+    void unpin();
+    // The other picture is seen where this one was, and the other way round.
+    void flip();
+    void next_way();  // of CompareBy, but for flip
+    void next_with();
+    const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
+
+    // Takes what there is to see: A, where it was drawn again, and B.
+    void follow(const Shown& shown);
+    // Why there is nothing to be seen beside B; empty where there is.
+    const std::string& missing() const { return missing_; }
+    bool active() const { return by != CompareBy::nothing && missing_.empty(); }
+
+    // Of the pictures that follow() found. Null where there are none.
+    const std::shared_ptr<const ScreenPicture>& other() const { return other_; }
+    const std::shared_ptr<const ScreenPicture>& edited() const { return edited_; }
+    const std::shared_ptr<const PictureDifference>& difference() const { return difference_; }
+    ErrorNorms norms() const { return norms_; }  // of the difference: B less the other one
+    double shown_range() const;                  // `range`, or what fits
+    // The difference in false colours (lamina::difference_codes), where it is known; elsewhere B.
+    std::shared_ptr<const ScreenPicture> colors();
+
+  private:
+    std::string find_pictures(const Shown& shown);
+    std::string find_pinned(const Shown& shown);
+    void measure(const Shown& shown);
+
+    std::shared_ptr<const PinnedPicture> pinned_;
+    std::uint64_t pins_ = 0;
+    std::string missing_;
+    std::shared_ptr<const ScreenPicture> other_, edited_;
+    std::shared_ptr<const PictureDifference> difference_;
+    ErrorNorms norms_;
+    double fitting_ = smallest_range;
+    // What was measured and coloured last.
+    std::shared_ptr<const Image> measured_a_, measured_b_;
+    std::shared_ptr<const PictureDifference> colored_;
+    double colored_range_ = 0;
+    std::shared_ptr<const ScreenPicture> colors_;
+};
+
+}  // namespace lamina::view

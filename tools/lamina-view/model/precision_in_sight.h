@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "model/attempts.h"
+#include "model/comparison.h"
+#include "model/document.h"
+#include "model/frame_history.h"
+
+namespace lamina::view {
+
+// What is known of how wrong pictures are and what they took: of this one, of those before it, and
+// of one beside it.
+class PrecisionInSight {
+  public:
+    Attempts attempts;
+    FrameHistory frames;
+    Comparison comparison;
+
+    // Takes what there is to see.
+    void follow(const Document& document, const Shown& shown);
+    // The picture that is shown is A from now on. Nothing where it is not that of the document.
+    void pin(const Document& document, const Shown& shown);
+    // Goes on with other settings, in the view as it is or that of the scene.
+    static void go_on_with(Document& document, Scene scene, bool keep_view);
+
+  private:
+    static bool is_of(const Document& document, const Shown& shown);
+
+    Revisions recorded_;  // of the newest attempt
+    std::uint64_t last_frame_ = 0;
+};
+
+}  // namespace lamina::view

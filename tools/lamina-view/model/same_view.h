@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lamina/scene.h"
+
+namespace lamina::view {
+
+// Whether pictures of both scenes show the same from the same place, pixel by pixel.
+inline bool same_view(const Scene& a, const Scene& b) {
+    const Camera &from = a.camera, &to = b.camera;
+    return a.width == b.width && a.height == b.height && from.projection == to.projection &&
+           from.eye == to.eye && from.center == to.center && from.up == to.up &&
+           from.fov_y == to.fov_y && from.height == to.height;
+}
+
+}  // namespace lamina::view

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "panels/panel.h"
+
+namespace lamina::view {
+
+// What has been tried. A click on a row goes back to it.
+class AttemptsPanel : public Panel {
+  public:
+    const char* title() const override { return "Tried"; }
+    PanelPlace place() const override { return PanelPlace::bottom; }
+    void draw(PanelContext& context) override;
+
+  private:
+    void draw_table(PanelContext& context);
+    void draw_saving(const PanelContext& context);
+
+    std::string file_;     // empty: beside the scene
+    std::string message_;  // of saving
+    bool failed_ = false;
+};
+
+}  // namespace lamina::view

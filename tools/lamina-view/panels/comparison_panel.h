@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "panels/panel.h"
+
+namespace lamina::view {
+
+// What the picture is held against, and how.
+class ComparisonPanel : public Panel {
+  public:
+    const char* title() const override { return "Compare"; }
+    void draw(PanelContext& context) override;
+};
+
+}  // namespace lamina::view

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "panels/panel.h"
+
+namespace lamina::view {
+
+// What was expected of the picture, what the tracer has found so far, and how much is wanted.
+class ErrorPanel : public Panel {
+  public:
+    const char* title() const override { return "Error"; }
+    void draw(PanelContext& context) override;
+
+  private:
+    void draw_wanted(Document& document);
+
+    std::optional<float> wanted_;  // while the slider is dragged
+};
+
+}  // namespace lamina::view

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "panels/frames_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "model/precision_in_sight.h"
+#include "panels/theme.h"
+#include "panels/transfer_drawing.h"
+
+namespace lamina::view {
+namespace {
+
+// Of FrameHistory::stage_names(), told apart by lightness as well.
+constexpr ImU32 stage_colors[] = {IM_COL32(120, 94, 240, 255),  IM_COL32(220, 38, 127, 255),
+                                  IM_COL32(178, 102, 210, 255), IM_COL32(254, 97, 0, 255),
+                                  IM_COL32(255, 176, 0, 255),   IM_COL32(255, 226, 120, 255),
+                                  IM_COL32(0, 158, 115, 255),   IM_COL32(110, 214, 176, 255),
+                                  IM_COL32(86, 160, 232, 255),  IM_COL32(120, 124, 132, 255)};
+
+ImU32 color_of(const std::string& stage) {
+    const auto& names = FrameHistory::stage_names();
+    const auto index = std::ranges::find(names, stage) - names.begin();
+    return stage_colors[std::min<std::size_t>(static_cast<std::size_t>(index),
+                                              std::size(stage_colors) - 1)];
+}
+
+// Where the graph is on the screen: times from 0 below to `most_ms` on top.
+struct GraphFrame {
+    ImVec2 min, max;
+    double most_ms = 1;
+    float y(double ms) const { return max.y - static_cast<float>(ms / most_ms) * (max.y - min.y); }
+};
+
+void draw_axis(const GraphFrame& graph) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(graph.min, graph.max, theme::plot_back);
+    for (const double tick : even_ticks(0, graph.most_ms, 5)) {
+        const float y = std::round(graph.y(tick));
+        list.AddLine({graph.min.x, y}, {graph.max.x, y}, theme::grid);
+        const std::string text = fmt::format("{} ms", axis_text(tick).text);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        list.AddText({graph.min.x - size.x - em(.3f), y - size.y / 2}, theme::label, text.c_str());
+    }
+    list.AddRect(graph.min, graph.max, theme::plot_frame);
+}
+
+void tell(const FrameCost& frame) {
+    ImGui::BeginTooltip();
+    ImGui::Text("%.1f ms%s", frame.ms, frame.moving ? ", moving" : "");
+    for (const auto& [stage, ms] : frame.stages)
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color_of(stage)), "%s %.2f ms",
+                           stage.c_str(), ms);
+    ImGui::EndTooltip();
+}
+
+// Bars from the left to the newest picture, as many as fit.
+void draw_bars(const GraphFrame& graph, const std::deque<FrameCost>& frames) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float step = std::round(em(.45f)), width = graph.max.x - graph.min.x;
+    const auto fit = static_cast<std::size_t>(std::max(width / step, 1.f));
+    const std::size_t first = frames.size() > fit ? frames.size() - fit : 0;
+    const ImVec2 mouse = ImGui::GetMousePos();
+    for (std::size_t i = first; i < frames.size(); ++i) {
+        const float left = graph.min.x + step * static_cast<float>(i - first);
+        double below = 0;
+        for (const auto& [stage, ms] : frames[i].stages) {
+            list.AddRectFilled({left, graph.y(below + ms)}, {left + step - 1, graph.y(below)},
+                               color_of(stage));
+            below += ms;
+        }
+        if (ImGui::IsItemHovered() && mouse.x >= left && mouse.x < left + step) tell(frames[i]);
+    }
+}
+
+void draw_legend(const std::deque<FrameCost>& frames) {
+    bool first = true;
+    for (const std::string& name : FrameHistory::stage_names()) {
+        const bool there = std::ranges::any_of(frames, [&](const FrameCost& frame) {
+            return std::ranges::any_of(frame.stages,
+                                       [&](const auto& stage) { return stage.first == name; });
+        });
+        if (!there) continue;
+        if (!first) ImGui::SameLine();
+        first = false;
+        ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(color_of(name)), "%s", name.c_str());
+    }
+}
+
+}  // namespace
+
+void FramesPanel::draw(PanelContext& context) {
+    if (context.precision == nullptr) return;
+    const FrameHistory& history = context.precision->frames;
+    if (history.frames().empty()) {
+        ImGui::TextColored(theme::dim, "No picture yet.");
+        return;
+    }
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = em(7);
+    GraphFrame graph{{corner.x + em(4.5f), corner.y + em(.4f)},
+                     {corner.x + width, corner.y + height - em(.4f)},
+                     1.05 * std::max(history.longest_ms(), 1.0)};
+    ImGui::InvisibleButton("graph", {std::max(width, 1.f), height});
+    draw_axis(graph);
+    draw_bars(graph, history.frames());
+    draw_legend(history.frames());
+    ImGui::TextColored(theme::dim, "Medians: %.1f ms while something moves, %.1f ms at rest",
+                       history.median_ms(true), history.median_ms(false));
+}
+
+}  // namespace lamina::view
