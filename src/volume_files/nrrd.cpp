@@ -2,8 +2,8 @@
 #include "volume_files/nrrd.h"
 
 #include "base/file_bytes.h"
-#include "volume_files/nrrd_data.h"
 #include "volume_files/nrrd_header.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 
@@ -13,12 +13,12 @@ bool is_nrrd(const std::filesystem::path& path) {
 
 Volume read_nrrd(const std::filesystem::path& path, const VolumeRequest& request) {
     const NrrdHeader header = read_nrrd_header(path, request);
-    return drawn_volume(header.grid, read_nrrd_samples(header));
+    return drawn_volume(header.grid, read_stored(header.data));
 }
 
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path) {
     std::vector<std::filesystem::path> files{path};
-    for (const auto& data : read_nrrd_header(path).data_paths)
+    for (const auto& data : read_nrrd_header(path).data.files)
         if (data != path) files.push_back(data);
     return files;
 }

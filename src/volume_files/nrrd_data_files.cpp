@@ -65,10 +65,10 @@ class DataFileField {
         return word < words_.size() ? whole_number(words_[word]) : std::nullopt;
     }
 
-    unsigned axes_in(const std::string& word) const {
+    std::size_t axes_in(const std::string& word) const {
         const auto axes = whole_number(word);
         if (!axes || *axes < 1 || *axes > NRRD_DIM_MAX) reject("a number of axes in one file");
-        return static_cast<unsigned>(*axes);
+        return static_cast<std::size_t>(*axes);
     }
 
     [[noreturn]] void reject(const std::string& expected) const {

@@ -11,7 +11,8 @@ namespace lamina {
 // a line, up to the end of the header file), or a pattern ("slice%03d.raw MIN MAX STEP").
 struct NrrdDataFiles {
     std::vector<std::string> names;
-    std::optional<unsigned> axes_each;  // the first axes, which one file holds, where this is said
+    std::optional<std::size_t>
+        axes_each;  // the first axes, which one file holds, where this is said
 };
 
 // `path` and `line` are for messages; `following`: the header after the field's line. Throws Error.

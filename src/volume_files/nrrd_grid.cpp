@@ -175,11 +175,11 @@ std::vector<StoredAxis> nrrd_axes(const std::string& file, const Nrrd& nrrd,
         if (++(time ? times : channels) > 1)
             fail("{}: dimension: found several axes of {}s, expected one", file,
                  time ? "time" : "channel");
-        axes[i].taken = taken_of(file, time ? "time" : "channel",
-                                 time ? request.time : request.channel, axes[i].size);
+        axes[i] = taken_axis(file, time ? "time" : "channel", time ? request.time : request.channel,
+                             axes[i].size);
     }
-    if (channels == 0) taken_of(file, "channel", request.channel, 1);
-    if (times == 0) taken_of(file, "time", request.time, 1);
+    if (channels == 0) taken_axis(file, "channel", request.channel, 1);
+    if (times == 0) taken_axis(file, "time", request.time, 1);
     return axes;
 }
 

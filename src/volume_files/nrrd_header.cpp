@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -14,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -247,11 +245,11 @@ ValueType value_type_of(const std::string& path, int type) {
          airEnumStr(nrrdType, type));
 }
 
-NrrdEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding) {
-    if (encoding == nrrdEncodingRaw) return NrrdEncoding::raw;
-    if (encoding == nrrdEncodingAscii) return NrrdEncoding::ascii;
-    if (encoding == nrrdEncodingGzip) return NrrdEncoding::gzip;
-    if (encoding == nrrdEncodingBzip2) return NrrdEncoding::bzip2;
+DataEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding) {
+    if (encoding == nrrdEncodingRaw) return DataEncoding::raw;
+    if (encoding == nrrdEncodingAscii) return DataEncoding::ascii;
+    if (encoding == nrrdEncodingGzip) return DataEncoding::gzip;
+    if (encoding == nrrdEncodingBzip2) return DataEncoding::bzip2;
     fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
 }
 
@@ -259,39 +257,6 @@ void check_required_fields(const std::string& path, const HeaderText& header) {
     for (const char* const field : {"type", "dimension", "sizes", "encoding"}) {
         if (!header.fields.contains(field))
             fail("{}: the NRRD header has no '{}' field", path, field);
-    }
-}
-
-// Which of the data's axes the files cut off, so that each holds one of their steps; the last axis
-// may be cut into equal pieces, too (format, "data file").
-void check_file_count(const std::string& path, const NrrdDataFiles& files,
-                      std::span<const StoredAxis> axes) {
-    const std::size_t each = files.axes_each.value_or(static_cast<unsigned>(axes.size() - 1));
-    const auto found = static_cast<std::int64_t>(files.names.size());
-    if (found == 1 && !files.axes_each) return;
-    if (each == axes.size() && axes.back().size % found == 0) return;
-    std::int64_t expected = 1;
-    for (std::size_t i = each; i < axes.size(); ++i)
-        if (__builtin_mul_overflow(expected, axes[i].size, &expected)) expected = 0;
-    if (each >= axes.size() || found != expected) {
-        fail("{}: data file: found {} files, expected {}, of {} axes each", path, found,
-             each >= axes.size() ? fmt::format("one or a divisor of {}", axes.back().size)
-                                 : std::to_string(expected),
-             each);
-    }
-}
-
-void set_data_files(const HeaderText& text, NrrdHeader& header) {
-    const std::string name = header.path.string();
-    if (!text.data_files) {
-        header.data_paths = {header.path};
-        header.data_offset = text.length;
-        return;
-    }
-    check_file_count(name, *text.data_files, header.axes);
-    for (const std::string& file : text.data_files->names) {
-        header.data_paths.push_back(header.path.parent_path() / file);
-        check_regular_file(header.data_paths.back(), "data file of " + name + ": ");
     }
 }
 
@@ -315,17 +280,21 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
     if (bad) fail("{}: bad NRRD header: {}", name, reason);
 
     NrrdHeader header;
-    header.path = path;
-    header.type = value_type_of(name, nrrd->type);
-    header.encoding = encoding_of(name, state->encoding);
-    header.axes = nrrd_axes(name, *nrrd, request);
     header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
-    const int native = std::endian::native == std::endian::little ? airEndianLittle : airEndianBig;
-    header.swap_bytes = header.encoding != NrrdEncoding::ascii && bytes_of(header.type) > 1 &&
-                        state->endian != native;
-    set_data_files(text, header);
-    header.line_skip = state->lineSkip;
-    header.byte_skip = state->byteSkip;
+    StoredData& data = header.data;
+    data.path = path;
+    data.type = value_type_of(name, nrrd->type);
+    data.axes = nrrd_axes(name, *nrrd, request);
+    data.encoding = encoding_of(name, state->encoding);
+    set_byte_order(data, state->endian == airEndianBig);
+    if (text.data_files) {
+        set_data_files(data, text.data_files->names, text.data_files->axes_each, "data file");
+    } else {
+        data.files = {path};
+        data.offset = text.length;
+    }
+    data.line_skip = state->lineSkip;
+    data.byte_skip = state->byteSkip;
     return header;
 }
 

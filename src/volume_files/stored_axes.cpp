@@ -149,17 +149,28 @@ void read_taken(ByteReader& reader, Axes axes, std::size_t value_bytes, void* to
     TakenReader(reader, value_bytes, static_cast<char*>(to)).read(axes);
 }
 
-std::int64_t taken_of(const std::string& file, const char* what,
+StoredAxis taken_axis(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count) {
     if (wanted && (*wanted < 0 || *wanted >= count)) {
         fail("{}: {}: found {}, expected a whole number from 0 to {}: the file has {}", file, what,
              *wanted, count - 1, count);
     }
-    if (!wanted && count > 1) {
-        warn(fmt::format("{}: {} 0 of {} is drawn: \"{}\" in the volume tells another", file, what,
-                         count, what));
+    return {count, wanted.value_or(0), what, wanted.has_value()};
+}
+
+void say_taken(const std::string& file, Axes axes) {
+    for (const StoredAxis& axis : axes) {
+        if (!axis.taken || axis.told || axis.size == 1) continue;
+        warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume tells another", file,
+                         axis.what, axis.size, axis.what));
     }
-    return wanted.value_or(0);
+}
+
+std::int64_t taken_of(const std::string& file, const char* what,
+                      const std::optional<std::int64_t>& wanted, std::int64_t count) {
+    const StoredAxis axis = taken_axis(file, what, wanted, count);
+    say_taken(file, {&axis, 1});
+    return *axis.taken;
 }
 
 }  // namespace lamina

@@ -12,9 +12,24 @@ namespace lamina {
 
 // An axis of an array in a file.
 struct StoredAxis {
-    std::int64_t size = 1;
+    StoredAxis(std::int64_t a_size = 1, std::optional<std::int64_t> a_taken = {},
+               const char* its_name = "", bool is_told = false)
+        : size(a_size), taken(a_taken), what(its_name), told(is_told) {}
+
+    std::int64_t size;
     std::optional<std::int64_t> taken;  // the one that is wanted; all where empty
+    const char* what;                   // "channel" or "time", where one is taken
+    bool told;                          // by the request, which one
 };
+
+// An axis of `count` things, such as channels, of which one is taken: the wanted one, else the
+// first. `what`: "channel" or "time", as the request's key is called. Throws Error where the wanted
+// one is none of them.
+StoredAxis taken_axis(const std::string& file, const char* what,
+                      const std::optional<std::int64_t>& wanted, std::int64_t count);
+
+// Warns of every axis of which the first was taken untold.
+void say_taken(const std::string& file, std::span<const StoredAxis> axes);
 
 // Number of bytes of an array, or of what is taken of it. Throws Error where no file holds as much.
 // `file`: for messages.
@@ -28,9 +43,7 @@ std::size_t taken_bytes(const std::string& file, std::span<const StoredAxis> axe
 void read_taken(ByteReader& reader, std::span<const StoredAxis> axes, std::size_t value_bytes,
                 void* to);
 
-// Which of `count` things, such as channels, is taken: the wanted one, else the first, and then a
-// warning says so. `what`: "channel" or "time", as the key is called. Throws Error where the wanted
-// one is none of them.
+// Both at once: which one is taken.
 std::int64_t taken_of(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);
 

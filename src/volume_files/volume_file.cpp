@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "volume_files/grid_check.h"
+#include "volume_files/raw_volume.h"
 #include "volume_files/volume_format.h"
 
 namespace lamina {
@@ -56,6 +57,7 @@ bool is_volume_file(const Path& path) {
 }
 
 Volume read_volume(const Path& path, const VolumeRequest& request) {
+    if (request.raw) return placed(path, read_raw(path, request), request);
     const VolumeFormat& format = expected_format(path);
     expect_known_keys(path, format, request);
     return placed(path, format.read(path, request), request);

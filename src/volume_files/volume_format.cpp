@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string>
 
+#include "volume_files/metaimage.h"
 #include "volume_files/nrrd.h"
 
 namespace lamina {
@@ -14,7 +15,16 @@ using Path = std::filesystem::path;
 
 // Content decides, in this order.
 constexpr VolumeFormat formats[] = {
-    {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, read_nrrd, files_of_nrrd, false, false, true, true}};
+    {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, read_nrrd, files_of_nrrd, false, false, true, true},
+    {"MetaImage",
+     {".mha", ".mhd"},
+     is_metaimage,
+     read_metaimage,
+     files_of_metaimage,
+     false,
+     false,
+     true,
+     true}};
 
 bool has_extension(const VolumeFormat& format, const Path& path) {
     std::string name = path.filename().string();

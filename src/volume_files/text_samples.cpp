@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/nrrd_text.h"
+#include "volume_files/text_samples.h"
 
 #include <charconv>
 #include <cmath>
