@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_files/value_type.h"
+#include "base/value_type.h"
 
 namespace lamina {
 

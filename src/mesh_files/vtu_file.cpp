@@ -19,7 +19,7 @@ constexpr std::ptrdiff_t most_marks = 1'000'000;  // of tags and attributes, 100
 
 std::optional<ValueType> type_named(std::string_view name) {
     for (int i = 0; i <= static_cast<int>(ValueType::float64); ++i) {
-        if (name == name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
+        if (name == vtk_name_of(static_cast<ValueType>(i))) return static_cast<ValueType>(i);
     }
     return std::nullopt;
 }
@@ -202,7 +202,7 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
     count_kept(count, what);
     const ValueType type = type_of(array, what);
     if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
-        fail("{}: type: found {}, expected an integer type", what, name_of(type));
+        fail("{}: type: found {}, expected an integer type", what, vtk_name_of(type));
     }
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "appended") {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_files/value_type.h"
+#include "base/value_type.h"
 #include "mesh_files/vtu_data.h"
 
 namespace lamina {

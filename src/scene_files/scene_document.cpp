@@ -8,7 +8,7 @@
 #include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "mesh_files/mesh_file.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 
@@ -22,9 +22,9 @@ FileKind kind_of_file(const std::filesystem::path& file) {
                        (first != std::string::npos && beginning[first] == '{');
     if (scene) return FileKind::scene;
     fail(
-        "{}: unknown kind of file: expected a scene (JSON), a volume (NRRD) or a mesh (.vtu, .vtk, "
+        "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .vtk, "
         ".node, .ele)",
-        file.string());
+        file.string(), volume_format_names());
 }
 
 nlohmann::json scene_document(const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/nrrd.h"
+#include "volume_files/nrrd.h"
 
 #include <algorithm>
 #include <cctype>

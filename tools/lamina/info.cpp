@@ -16,7 +16,7 @@
 #include "scene_files.h"
 #include "statistics_report.h"
 #include "verbs.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -51,10 +51,8 @@ void run(const InfoOptions& options) {
     }
     const bool volume = is_volume_file(options.file);
     if (!volume && !is_mesh_file(options.file)) {
-        fail(
-            "{}: unknown kind of file: expected a volume (.nrrd, .nhdr) or a mesh (.vtu, .vtk, "
-            ".node, .ele)",
-            options.file);
+        fail("{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .vtk, .node, .ele)",
+             options.file, volume_format_names());
     }
     expect_different_files(volume ? files_of_volume(options.file) : files_of_mesh(options.file),
                            {options.png});

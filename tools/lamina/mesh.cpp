@@ -21,7 +21,7 @@
 #include "scene_files.h"
 #include "scene_files/scene_document.h"
 #include "verbs.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {

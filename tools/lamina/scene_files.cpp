@@ -2,7 +2,7 @@
 #include "scene_files.h"
 
 #include "mesh_files/mesh_file.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -18,7 +18,8 @@ void append(Paths& files, const Paths& more) {
 Paths files_of(const Scene& scene) {
     Paths files{scene.file};
     if (!scene.colormap_file.empty()) files.push_back(scene.colormap_file);
-    if (!scene.volume_file.empty()) append(files, files_of_volume(scene.volume_file));
+    if (!scene.volume_file.empty())
+        append(files, files_of_volume(scene.volume_file, scene.volume_selection));
     if (!scene.mesh_file.empty()) append(files, files_of_mesh(scene.mesh_file));
     return files;
 }

@@ -11,7 +11,7 @@
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {

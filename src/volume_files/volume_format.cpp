@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/volume_format.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "volume_files/nrrd.h"
+
+namespace lamina {
+namespace {
+
+using Path = std::filesystem::path;
+
+// Content decides, in this order.
+constexpr VolumeFormat formats[] = {
+    {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, read_nrrd, files_of_nrrd, false, false, true, true}};
+
+bool has_extension(const VolumeFormat& format, const Path& path) {
+    std::string name = path.filename().string();
+    std::ranges::transform(name, name.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return std::ranges::any_of(format.extensions, [&](const char* extension) {
+        return extension != nullptr && name.size() > std::string_view(extension).size() &&
+               name.ends_with(extension);
+    });
+}
+
+}  // namespace
+
+std::span<const VolumeFormat> volume_formats() {
+    return formats;
+}
+
+const VolumeFormat* format_of(const Path& path) {
+    for (const VolumeFormat& format : formats)
+        if (format.recognizes(path)) return &format;
+    for (const VolumeFormat& format : formats)
+        if (has_extension(format, path)) return &format;
+    return nullptr;
+}
+
+}  // namespace lamina
