@@ -46,14 +46,16 @@ struct MeshTask {
 // The output file, or the two files that .node stands for.
 class MeshOutput {
   public:
-    explicit MeshOutput(const std::filesystem::path& path) : paths_(files_of_mesh(path)) {
+    explicit MeshOutput(const std::filesystem::path& path) : paths_{path} {
         const std::string extension = path.extension();
         if (extension != ".vtu" && extension != ".node") {
             throw UsageError(
                 fmt::format("-o {}: expected a name that ends in .vtu or .node", path.string()));
         }
         file_ = std::make_unique<AtomicFile>(path);
-        if (extension == ".node") elements_ = std::make_unique<AtomicFile>(paths_.back());
+        if (extension != ".node") return;
+        paths_.push_back(std::filesystem::path(path).replace_extension(".ele"));
+        elements_ = std::make_unique<AtomicFile>(paths_.back());
     }
     const std::vector<std::filesystem::path>& paths() const { return paths_; }
     void write(const MeshData& mesh) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files.h"
 
+#include "mesh_files/mesh_file.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -13,16 +14,6 @@ void append(Paths& files, const Paths& more) {
 }
 
 }  // namespace
-
-Paths files_of_mesh(const std::filesystem::path& mesh) {
-    Paths files{mesh};
-    const std::string suffix = mesh.extension();
-    if (suffix == ".node" || suffix == ".ele") {
-        files.push_back(
-            std::filesystem::path(mesh).replace_extension(suffix == ".node" ? ".ele" : ".node"));
-    }
-    return files;
-}
 
 Paths files_of(const Scene& scene) {
     Paths files{scene.file};
