@@ -277,7 +277,9 @@ VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std:
                     }
                 });
             };
-            if (is_integer(type))
+            if (type == ValueType::uint64)
+                store(read_text_values<std::uint64_t>(reader, type, count, what));
+            else if (is_integer(type))
                 store(read_text_values<std::int64_t>(reader, type, count, what));
             else
                 store(read_text_values<double>(reader, type, count, what));

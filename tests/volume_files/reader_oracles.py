@@ -58,7 +58,7 @@ class Cases:
         return os.path.join(self.folder, name)
 
     def add(self, name, stored, steps=((1, 0, 0), (0, 1, 0), (0, 0, 1)), origin=(0, 0, 0), cell=False, drawn=None,
-            warnings=None, **request):
+            warnings=None, lps=None, **request):
         """`stored`: [z, y, x], as stored; `drawn`: the type where it does not follow from that."""
         kind = drawn or drawn_type(stored)
         values = stored.astype(np.float32) if kind == "float" else stored
@@ -67,7 +67,7 @@ class Cases:
         self.cases.append({
             "file": name, "request": request, "type": kind, "size": list(stored.shape[::-1]),
             "steps": np.asarray(steps, float).tolist(), "origin": np.asarray(origin, float).tolist(), "cell": cell,
-            "values": f"values{number}.raw", "warnings": warnings})
+            "values": f"values{number}.raw", "warnings": warnings, "lps": lps})
 
     def write(self):
         with open(self.path("cases.json"), "w", encoding="utf-8") as file:
@@ -210,6 +210,7 @@ def nibabel_files(cases):
                     if "pair" in name:
                         other = file.replace(".img", ".hdr")
                         cases.add(other, stored.astype(stored.dtype.newbyteorder("=")), steps, origin)
+    one_head(cases, nib, oblique)
     # qform alone, sform alone, both (sform counts), neither.
     array = values_of("uint8", (6, 5, 4), seed=99)
     for sform, qform, name in ((0, 1, "q"), (1, 0, "s"), (2, 1, "both"), (0, 0, "none")):
@@ -231,7 +232,7 @@ def nibabel_files(cases):
                 steps, origin = to_lps(header.get_qform())
             else:
                 steps, origin = np.diag([1.5, .75, 3]), (0, 0, 0)
-            cases.add(file, array.T, steps, origin)
+            cases.add(file, array.T, steps, origin, lps=bool(sform or qform))
     # Scaled samples, by the tool's own arithmetic in double precision.
     for slope, inter, drawn in ((2, -1024, "int16"), (.1, 3.5, "float"), (1, 70000, "float"), (-1, 255, "uint8")):
         array = np.arange(120, dtype=np.uint8).reshape(6, 5, 4)
@@ -260,6 +261,30 @@ def nibabel_files(cases):
         rgb[key] = values_of("uint8", (6, 5, 4), seed=20 + i)
     nib.save(nib.Nifti1Image(rgb, oblique), cases.path("rgb.nii"))
     cases.add("rgb.nii", rgb["G"].T, steps, origin, channel=1)
+
+
+def one_head(cases, nib, affine):
+    """The same samples at the same places, as NIfTI (RAS), NRRD and MetaImage (LPS)."""
+    array = values_of("int16", (6, 5, 4), seed=50)
+    nib.save(nib.Nifti1Image(array, affine), cases.path("head.nii.gz"))
+    steps, origin = to_lps(nib.load(cases.path("head.nii.gz")).affine)
+    lengths = np.linalg.norm(steps, axis=1)
+
+    def text(vector):
+        return ",".join(repr(float(x)) for x in vector)
+
+    with open(cases.path("head.nrrd"), "wb") as out:
+        out.write(("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 6 5 4\nspace directions: " +
+                   " ".join(f"({text(step)})" for step in steps) + "\nendian: little\nencoding: raw\nspace origin: (" +
+                   text(origin) + ")\n\n").encode() + array.tobytes(order="F"))
+    with open(cases.path("head.mha"), "wb") as out:
+        rows = (steps / lengths[:, None]).ravel()
+        out.write(("ObjectType = Image\nNDims = 3\nTransformMatrix = " + text(rows).replace(",", " ") + "\nOffset = " +
+                   text(origin).replace(",", " ") + "\nAnatomicalOrientation = RAI\nElementSpacing = " +
+                   text(lengths).replace(",", " ") + "\nDimSize = 6 5 4\nElementType = MET_SHORT\n" +
+                   "ElementDataFile = LOCAL\n").encode() + array.tobytes(order="F"))
+    for file in ("head.nii.gz", "head.nrrd", "head.mha"):
+        cases.add(file, array.T, steps, origin, lps=True)
 
 
 def tifffile_files(cases):

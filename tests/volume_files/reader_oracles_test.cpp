@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/warning.h"
 #include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
@@ -53,6 +54,8 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
 
     void expect_grid(const Json& one, const Grid& grid) {
         EXPECT_EQ(Json(grid.size), one["size"]);
+        if (one["lps"].is_boolean())
+            EXPECT_EQ(grid.axes == WorldAxes::left_posterior_superior, one["lps"]);
         // Headers hold places in single precision or as text of 6 digits and more: 1e-6 of the
         // largest number in them, which is 40, and of the longest step, 3.
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -94,7 +97,7 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(ReaderOracles, AgreeWithWhatIsRead) {
-    const testing::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::string script =
         std::string(LAMINA_SOURCE_DIR) + "/tests/volume_files/reader_oracles.py";
     const int status = std::system(
