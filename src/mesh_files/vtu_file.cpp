@@ -268,8 +268,9 @@ VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std:
             return values;
         },
         [&](TextReader& reader) {
-            VtuValues values{type, std::string(words * bytes_of(type), '\0')};
+            VtuValues values{type, {}};
             const auto store = [&](const auto& numbers) {
+                values.bytes.resize(words * bytes_of(type));
                 with_type(type, [&](auto zero) {
                     for (std::size_t i = 0; i < words; ++i) {
                         const auto value = static_cast<decltype(zero)>(numbers[i]);

@@ -20,6 +20,7 @@ class VtuFile {
     explicit VtuFile(const std::filesystem::path& path, const char* grid_type = "UnstructuredGrid");
 
     const std::string& name() const { return name_; }
+    std::size_t byte_count() const { return file_bytes_; }
     pugi::xml_node grid() const { return grid_; }
 
     // A whole number >= 0 in an attribute.

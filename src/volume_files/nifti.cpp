@@ -97,6 +97,9 @@ Volume read_nifti(const Path& path, const VolumeRequest& request) {
     check_dimensions(header);
     const NiftiType type = type_of(header);
     const Grid grid = nifti_grid(header);
+    if (!std::filesystem::exists(header.data_path)) {
+        fail("{}: data file of {}: no such file", header.data_path.string(), header.path.string());
+    }
     StoredData data;
     data.path = header.path;
     data.type = type.type;

@@ -44,10 +44,14 @@ std::optional<ValueType> type_of(std::uint16_t bits, std::uint16_t format) {
 }  // namespace
 
 int TiffFile::keep_message(TIFF*, void* file, const char*, const char* format, va_list arguments) {
-    std::string& message = static_cast<TiffFile*>(file)->message_;
-    char text[300];
-    if (message.empty() && std::vsnprintf(text, sizeof text, format, arguments) > 0)
-        message = one_line(text);
+    TiffFile& self = *static_cast<TiffFile*>(file);
+    char text[1000];
+    if (!self.message_.empty() || std::vsnprintf(text, sizeof text, format, arguments) <= 0)
+        return 1;
+    self.message_ = one_line(text);
+    // Some of them begin with the file's name, as lamina's do.
+    const std::string name = self.name_ + ": ";
+    if (self.message_.starts_with(name)) self.message_.erase(0, name.size());
     return 1;  // nobody else need hear of it
 }
 

@@ -99,12 +99,12 @@ TEST_F(NrrdAxes, DataFilesAreListedOrNumbered) {
     const std::string header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 3\nencoding: ";
     for (int z = 0; z < 3; ++z) {
         const std::string slice = counting(12).substr(static_cast<std::size_t>(4 * z), 4);
-        write("s" + std::to_string(7 + 2 * z) + ".raw", "12" + slice);
-        write("p" + std::to_string(z) + ".gz", gzip(slice));
+        write(fmt::format("s{}.raw", 7 + 2 * z), fmt::format("12{}", slice));
+        write(fmt::format("p{}.gz", z), gzip(slice));
         std::string text;
-        for (const char sample : slice) text += std::to_string(sample) + " ";
-        write("t" + std::to_string(z) + ".txt", text);
-        write("half" + std::to_string(z) + ".raw", slice);
+        for (const char sample : slice) text += fmt::format("{} ", static_cast<int>(sample));
+        write(fmt::format("t{}.txt", z), text);
+        write(fmt::format("half{}.raw", z), slice);
     }
     Samples expected(12);
     for (std::size_t i = 0; i < 12; ++i) expected[i] = static_cast<std::uint8_t>(i);

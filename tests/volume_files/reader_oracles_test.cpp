@@ -54,8 +54,9 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
 
     void expect_grid(const Json& one, const Grid& grid) {
         EXPECT_EQ(Json(grid.size), one["size"]);
-        if (one["lps"].is_boolean())
+        if (one["lps"].is_boolean()) {
             EXPECT_EQ(grid.axes == WorldAxes::left_posterior_superior, one["lps"]);
+        }
         // Headers hold places in single precision or as text of 6 digits and more: 1e-6 of the
         // largest number in them, which is 40, and of the longest step, 3.
         for (std::size_t axis = 0; axis < 3; ++axis) {

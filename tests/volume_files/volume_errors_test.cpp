@@ -58,7 +58,7 @@ TEST_F(VolumeErrors, OfMetaImage) {
     EXPECT_EQ(read_volume(write("a.mha", local)).grid().size,
               (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.mha", local.substr(0, local.size() - 1), {"(48 bytes)", "holds 47 bytes"});
-    expect("a.mha", good("metaimage/huge.mha"), {"more than any file holds"});
+    expect("a.mha", good("metaimage/huge.mha"), {"1000000 x 1000000 x 1000000", "48 bytes"});
     expect("a.mha", replaced(local, "NDims = 3", "NDims = 2"), {"NDims: found '2'", "from 3 to 4"});
     expect("a.mha", replaced(local, "4 3 2", "4 3"), {"DimSize: found '4 3'", "3 whole numbers"});
     expect("a.mha", replaced(local, "MET_SHORT", "MET_STRING"), {"ElementType", "'MET_STRING'"});
@@ -69,7 +69,7 @@ TEST_F(VolumeErrors, OfMetaImage) {
     expect("a.mha", replaced(local, "Offset = 0", "Offset = inf"), {"Offset", "finite"});
     expect("a.mha", replaced(local, "ElementDataFile = LOCAL", "Nothing = LOCAL"), {"a.mha"});
     expect("a.mhd", good("metaimage/many_files.mhd"), {"at most 100000 files"});
-    expect("a.mhd", good("metaimage/apart.mhd"), {"data of ElementDataFile", "no such file"});
+    expect("a.mhd", good("metaimage/apart.mhd"), {"data: ElementDataFile of", "no such file"});
     const std::string packed = good("metaimage/zlib.mha");
     expect("a.mha", packed.substr(0, packed.size() - 3), {"truncated gzip data"});
     expect("a.mha", "ObjectType = Image\nNDims\n", {"line 2", "'NDims'", "'Key = value'"});
@@ -94,7 +94,7 @@ TEST_F(VolumeErrors, OfNifti) {
     expect("a.nii", "nothing at all", {"no NIfTI header"});
     std::string pair = good("nifti/pair.hdr");
     pair.resize(348);
-    expect("a.hdr", pair, {"a.img", "no such file"});
+    expect("a.hdr", pair, {"a.img: data file of", "no such file"});
     VolumeRequest request;
     request.time = 2;
     expect("a.nii", good("nifti/times.nii"), {"time: found 2", "from 0 to 1", "the file has 2"},
@@ -139,7 +139,7 @@ TEST_F(VolumeErrors, OfTiff) {
     const std::string strips = good("tiff/strips.tif");
     EXPECT_EQ(read_volume(write("a.tif", strips)).grid().size,
               (std::array<std::int64_t, 3>{18, 20, 3}));
-    expect("a.tif", strips.substr(0, 300), {"page 1"});
+    expect("a.tif", strips.substr(0, 300), {"a.tif: page 2: Can not read TIFF directory"});
     expect("a.tif", strips.substr(0, 6), {"page 1"});
     expect("a.tif", replaced(good("tiff/imagej.tif"), "frames=3", "frames=4"),
            {"found 6 pages, ImageJ's description has", "4 times"});
