@@ -6,6 +6,7 @@
 #include "lamina/export.h"
 #include "lamina/mesh_data.h"
 #include "lamina/volume.h"
+#include "lamina/volume_request.h"
 
 namespace lamina {
 
@@ -18,7 +19,7 @@ LAMINA_API FileKind kind_of_file(const std::filesystem::path& file);
 // Reads a volume, or a tetrahedral mesh with its scalars, of any kind that scenes may name
 // (docs/scene.md, "What is drawn"). Throws Error: one line that names the file, what was found and
 // what was expected.
-LAMINA_API Volume load_volume(const std::filesystem::path& file);
+LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {});
 LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file);
 
 // Writes a NRRD file, from which load_volume() gives back the same volume bit for bit; or a mesh as

@@ -19,6 +19,7 @@
 #include "lamina/project_settings.h"
 #include "lamina/slice_settings.h"
 #include "lamina/transfer_function.h"
+#include "lamina/volume_request.h"
 
 namespace lamina {
 
@@ -32,6 +33,7 @@ enum class NanPolicy { error, transparent };
 struct Scene {
     std::filesystem::path file;
     std::filesystem::path volume_file;               // or
+    VolumeRequest volume_selection;                  // what of that file
     std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
     std::filesystem::path mesh_file;                 // or
     std::optional<MeshSettings> mesh_request;        // made from the volume

@@ -27,6 +27,7 @@ class Volume {
     const Grid& grid() const { return grid_; }
     SampleType type() const { return type_; }
     const void* data() const { return samples_.get(); }
+    const std::shared_ptr<const void>& shared_data() const { return samples_; }
     std::size_t byte_count() const {
         return static_cast<std::size_t>(grid_.sample_count()) * bytes_of(type_);
     }

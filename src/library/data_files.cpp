@@ -4,8 +4,8 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "mesh_files/mesh_file.h"
-#include "volume/nrrd.h"
-#include "volume/volume_file.h"
+#include "volume/nrrd_writer.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -19,8 +19,8 @@ void expect_suffix(const std::filesystem::path& file, const char* suffix) {
 
 }  // namespace
 
-Volume load_volume(const std::filesystem::path& file) {
-    return read_volume(file);
+Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request) {
+    return read_volume(file, request);
 }
 
 MeshData load_mesh_data(const std::filesystem::path& file) {

@@ -5,13 +5,40 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 namespace lamina {
 namespace {
 
-constexpr std::int64_t tetra = 10, voxel = 11, hexahedron = 12, wedge = 13, pyramid = 14,
-                       quadratic_tetra = 24;
+constexpr std::int64_t tetra = 10, voxel = 11, hexahedron = 12, wedge = 13, pyramid = 14;
+
+struct NumberedType {
+    std::int64_t number;
+    CellType type;
+};
+// vtkCellType.h; the corners of each come first (vtkQuadraticHexahedron.h and so on).
+constexpr NumberedType types[] = {
+    {tetra, {"tetrahedron", 4, 4, tetra}},
+    {voxel, {"voxel", 8, 8, voxel}},
+    {hexahedron, {"hexahedron", 8, 8, hexahedron}},
+    {wedge, {"wedge", 6, 6, wedge}},
+    {pyramid, {"pyramid", 5, 5, pyramid}},
+    {24, {"quadratic tetrahedron", 10, 4, tetra}},
+    {25, {"quadratic hexahedron", 20, 8, hexahedron}},
+    {26, {"quadratic wedge", 15, 6, wedge}},
+    {27, {"quadratic pyramid", 13, 5, pyramid}},
+    {29, {"triquadratic hexahedron", most_cell_points, 8, hexahedron}},
+    {31, {"quadratic linear wedge", 12, 6, wedge}},
+    {32, {"biquadratic quadratic wedge", 18, 6, wedge}},
+    {33, {"biquadratic quadratic hexahedron", 24, 8, hexahedron}},
+    {37, {"triquadratic pyramid", 19, 5, pyramid}},
+};
+
+const CellType* find_type(std::int64_t number) {
+    const auto found = std::ranges::find(types, number, &NumberedType::number);
+    return found == std::end(types) ? nullptr : &found->type;
+}
 
 // Corners of a face, counter-clockwise seen from outside; a triangle has 3, then `none`.
 constexpr std::size_t none = 8;
@@ -63,8 +90,8 @@ double volume(const Tet& tet, std::span<const glm::dvec3> points) {
 }  // namespace
 
 CellUse use_of_cell(std::int64_t type) {
-    if (type == tetra || type == quadratic_tetra) return CellUse::tet;
-    if (type >= voxel && type <= pyramid) return CellUse::split;
+    if (const CellType* const cell = find_type(type))
+        return cell->straight == tetra ? CellUse::tet : CellUse::split;
     // vtkCellType.h: all types of 0, 1 and 2 dimensions up to VTK 9.
     constexpr std::int64_t without_volume[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  21,
                                                22, 23, 28, 30, 34, 35, 36, 51, 52, 53, 54,
@@ -73,21 +100,9 @@ CellUse use_of_cell(std::int64_t type) {
 }
 
 CellType cell_type(std::int64_t type) {
-    switch (type) {
-        case tetra:
-            return {"tetrahedron", 4};
-        case voxel:
-            return {"voxel", 8};
-        case hexahedron:
-            return {"hexahedron", 8};
-        case wedge:
-            return {"wedge", 6};
-        case pyramid:
-            return {"pyramid", 5};
-        default:
-            assert(type == quadratic_tetra);
-            return {"quadratic tetrahedron", 10};
-    }
+    const CellType* const found = find_type(type);
+    assert(found != nullptr);
+    return *found;
 }
 
 SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,

@@ -17,11 +17,16 @@ namespace lamina {
 enum class CellUse { skip, tet, split, unsupported };
 CellUse use_of_cell(std::int64_t type);
 
-// A type of cell with volume: its number of points (10 for a quadratic tetrahedron, of which the
-// first four are its corners) and its name for messages.
+// The most points of a cell type that is read: a triquadratic hexahedron's.
+inline constexpr std::size_t most_cell_points = 27;
+
+// A type of cell with volume. Of a quadratic cell only the corners are used, which come first: it
+// is straightened to the cell of type `straight`.
 struct CellType {
-    const char* name;
-    std::size_t points;
+    const char* name;     // for messages
+    std::size_t points;   // of the cell in the file
+    std::size_t corners;  // of these
+    std::int64_t straight;
 };
 CellType cell_type(std::int64_t type);
 
@@ -40,6 +45,7 @@ struct SplitCell {
 // be numbered in either sense, because both are in use. Other cells are cut as numbered, so that an
 // inverted cell gives inverted tets. `corners` must be valid indices of `points`. A repeated corner
 // gives tets with a repeated corner.
+// `type`: one with straight edges.
 SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
                      std::span<const glm::dvec3> points);
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <span>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/warning.h"
 #include "mesh_files/cell_split.h"
 
 namespace lamina {
@@ -35,11 +35,11 @@ void check_ends(const MeshPiece& piece) {
 }
 
 // Returns the corners of a cell as indices into the points of the whole mesh. (The other points of
-// a quadratic tetrahedron are not used. An index of theirs that is out of range still means a
-// damaged file.)
+// a quadratic cell are not used. An index of theirs that is out of range still means a damaged
+// file.)
 std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cell,
-                                         std::int32_t first_point,
-                                         std::array<std::int32_t, 10>& corners) {
+                                         std::span<const std::int32_t> indices,
+                                         std::array<std::int32_t, most_cell_points>& corners) {
     const std::int64_t begin = cell == 0 ? 0 : piece.cells.ends[cell - 1];
     const auto found = static_cast<std::size_t>(piece.cells.ends[cell] - begin);
     const CellType type = cell_type(piece.cells.types[cell]);
@@ -53,33 +53,55 @@ std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cel
             fail("{}: cell {} (the first is 0): found point index {}, expected 0 to {}",
                  piece.label, cell, index, static_cast<std::int64_t>(piece.points.size()) - 1);
         }
-        corners[i] = static_cast<std::int32_t>(index + first_point);
+        corners[i] = indices[static_cast<std::size_t>(index)];
     }
-    return std::span(corners).first(found);
+    return std::span(corners).first(type.corners);
 }
 
-void append(std::vector<MeshScalar>& all, std::vector<MeshScalar> more, bool first,
-            const MeshPiece& piece, const char* kind) {
-    if (first) {
-        all = std::move(more);
-        return;
-    }
+// The scalars of a piece in the order of those of the pieces before it.
+std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
+                                       const std::vector<MeshScalar>& more, const MeshPiece& piece,
+                                       const char* kind) {
     if (more.size() != all.size()) {
         fail("{}: found {} scalars in its {}, expected {} as in the pieces before", piece.label,
              more.size(), kind, all.size());
     }
     std::multimap<std::string_view, const MeshScalar*> by_name;  // of one name: in order
     for (const MeshScalar& scalar : more) by_name.emplace(scalar.name, &scalar);
-    for (MeshScalar& scalar : all) {
+    std::vector<const MeshScalar*> found;
+    for (const MeshScalar& scalar : all) {
         const auto same = by_name.lower_bound(scalar.name);
         if (same == by_name.end() || same->first != scalar.name) {
             fail("{}: no array '{}' in its {}, which the pieces before have", piece.label,
                  one_line(scalar.name), kind);
         }
-        const std::vector<double>& values = same->second->values;
-        scalar.values.insert(scalar.values.end(), values.begin(), values.end());
+        found.push_back(same->second);
         by_name.erase(same);
     }
+    return found;
+}
+
+// vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL.
+constexpr int hiding_bits = 1 | 8 | 32;
+
+// Removes the arrays that say which cells (points) are another piece's; returns the cells.
+std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count) {
+    std::vector<bool> ghosts(count, false);
+    std::erase_if(scalars, [&](const MeshScalar& scalar) {
+        const bool levels = scalar.name == "vtkGhostLevels";
+        if (!levels && scalar.name != "vtkGhostType") return false;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double value = scalar.values[i];
+            if (!(value > 0 && value < 256)) continue;
+            if (levels || (static_cast<int>(value) & hiding_bits) != 0) ghosts[i] = true;
+        }
+        return true;
+    });
+    return ghosts;
+}
+
+bool same(double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
 }
 
 }  // namespace
@@ -92,49 +114,84 @@ std::vector<glm::dvec3> points_from_values(const std::vector<double>& values) {
     return points;
 }
 
-MeshScalar scalar_from_values(std::string name, std::int64_t components,
-                              std::vector<double> values) {
-    if (components == 3) {
-        for (std::size_t i = 0; i < values.size() / 3; ++i) {
-            values[i] = std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-        }
-        values.resize(values.size() / 3);
-        values.shrink_to_fit();
+void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std::int64_t components,
+                 std::vector<double> values) {
+    if (components == 1) {
+        scalars.push_back({name, std::move(values)});
+        return;
     }
-    return {std::move(name), std::move(values)};
+    const std::size_t count = values.size() / 3;
+    std::vector<double> lengths(count);
+    for (std::size_t i = 0; i < count; ++i)
+        lengths[i] = std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    scalars.push_back({name, std::move(lengths)});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<double> component(count);
+        for (std::size_t i = 0; i < count; ++i) component[i] = values[3 * i + axis];
+        scalars.push_back({name + "." + "xyz"[axis], std::move(component)});
+    }
+}
+
+// Returns the index in the whole mesh of each point of the piece.
+std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece) {
+    std::vector<std::int32_t> indices(piece.points.size(), -1);
+    if (!mesh_.points.empty()) {
+        if (!table_) table_.emplace(mesh_.points).add_all();
+        PointTable own(piece.points);
+        own.add_all();
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            if ((i & 0xfffff) == 0) check_interrupt();
+            if (own.find(piece.points[i]) >= 0) indices[i] = table_->find(piece.points[i]);
+        }
+    }
+    const auto merged = static_cast<std::size_t>(
+        std::ranges::count_if(indices, [](std::int32_t index) { return index >= 0; }));
+    const std::size_t total = mesh_.points.size() + piece.points.size() - merged;
+    if (total > most_points)
+        fail("{}: found {} points, expected at most {}", piece.label, total, most_points);
+    mesh_.cells.merged_points += static_cast<std::int64_t>(merged);
+    if (mesh_.points.empty()) mesh_.points.reserve(total);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] >= 0) continue;
+        indices[i] = static_cast<std::int32_t>(mesh_.points.size());
+        mesh_.points.push_back(piece.points[i]);
+        if (table_) table_->add(indices[i]);
+    }
+    return indices;
 }
 
 // Returns the cell of each tet that was made.
 std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
-                                                  std::int32_t first_point) {
+                                                  const std::vector<bool>& ghosts,
+                                                  std::span<const std::int32_t> indices) {
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
     // Memory is reserved for the first piece only. Reserved for each of many small pieces, the
     // vector would grow by one piece at a time.
     if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
-    std::array<std::int32_t, 10> corners{};
+    std::array<std::int32_t, most_cell_points> corners{};
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {
         if ((cell & 0xfffff) == 0) check_interrupt();
         const std::int64_t type = piece.cells.types[cell];
         const CellUse use = use_of_cell(type);
-        if (use == CellUse::skip) {
-            ++mesh_.cells.skipped;
+        if (use == CellUse::skip || ghosts[cell]) {
+            ++(ghosts[cell] ? mesh_.cells.ghosts : mesh_.cells.skipped);
             continue;
         }
         if (use == CellUse::unsupported) {
             fail(
-                "{}: cell {} (the first is 0): found VTK cell type {}, expected tetrahedra (10, "
-                "24), hexahedra (12), voxels (11), wedges (13), pyramids (14) or cells without "
-                "volume",
+                "{}: cell {} (the first is 0): found VTK cell type {}, expected tetrahedra (10), "
+                "hexahedra (12), voxels (11), wedges (13), pyramids (14), their quadratic kinds "
+                "(24 to 27, 29, 31 to 33, 37) or cells without volume",
                 piece.label, cell, type);
         }
-        const auto used = corners_of(piece, cell, first_point, corners);
+        const auto used = corners_of(piece, cell, indices, corners);
         SplitCell split{{{{used[0], used[1], used[2], used[3]}}}, 1};
         if (use == CellUse::split) {
-            split = split_cell(type, used, mesh_.points);
+            split = split_cell(cell_type(type).straight, used, mesh_.points);
             ++mesh_.cells.split;
         }
-        mesh_.cells.straightened += use == CellUse::tet && cell_type(type).points > 4;
+        mesh_.cells.straightened += cell_type(type).straight != type;
         mesh_.tets.insert(mesh_.tets.end(), split.tets.begin(),
                           split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
         cell_of_tet.insert(cell_of_tet.end(), split.count, static_cast<std::int64_t>(cell));
@@ -142,16 +199,42 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
     return cell_of_tet;
 }
 
+// A point that a piece before has, too, keeps the value that it has there.
+void MeshAssembly::add_point_scalars(MeshPiece& piece, std::size_t points_before,
+                                     std::span<const std::int32_t> indices) {
+    if (first_) {
+        mesh_.point_scalars = std::move(piece.point_scalars);
+        return;
+    }
+    const auto more = matched(mesh_.point_scalars, piece.point_scalars, piece, "point data");
+    for (std::size_t number = 0; number < more.size(); ++number) {
+        std::vector<double>& values = mesh_.point_scalars[number].values;
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < indices.size(); ++i) {
+            const auto index = static_cast<std::size_t>(indices[i]);
+            const double value = more[number]->values[i];
+            if (index >= points_before) {
+                values.push_back(value);
+            } else {
+                different += !same(value, values[index]);
+            }
+        }
+        if (different == 0) continue;
+        warn(
+            fmt::format("{}: '{}': found {} points with other values than the pieces before have "
+                        "there, expected the same: theirs are used",
+                        piece.label, one_line(more[number]->name), different));
+    }
+}
+
 void MeshAssembly::add(MeshPiece piece) {
     if (piece.points.empty() && piece.cells.types.empty()) return;
     check_ends(piece);
-    if (piece.points.size() > most_points - mesh_.points.size()) {
-        fail("{}: found {} points, expected at most {}", piece.label,
-             piece.points.size() + mesh_.points.size(), most_points);
-    }
-    const auto first_point = static_cast<std::int32_t>(mesh_.points.size());
-    mesh_.points.insert(mesh_.points.end(), piece.points.begin(), piece.points.end());
-    const std::vector<std::int64_t> cell_of_tet = add_cells(piece, first_point);
+    take_ghosts(piece.point_scalars, 0);
+    const std::vector<bool> ghosts = take_ghosts(piece.cell_scalars, piece.cells.types.size());
+    const std::size_t points_before = mesh_.points.size();
+    const std::vector<std::int32_t> indices = add_points(piece);
+    const std::vector<std::int64_t> cell_of_tet = add_cells(piece, ghosts, indices);
     for (MeshScalar& scalar : piece.cell_scalars) {
         std::vector<double> of_tets(cell_of_tet.size());
         for (std::size_t tet = 0; tet < of_tets.size(); ++tet) {
@@ -159,13 +242,25 @@ void MeshAssembly::add(MeshPiece piece) {
         }
         scalar.values = std::move(of_tets);
     }
-    append(mesh_.point_scalars, std::move(piece.point_scalars), first_, piece, "point data");
-    append(mesh_.cell_scalars, std::move(piece.cell_scalars), first_, piece, "cell data");
+    add_point_scalars(piece, points_before, indices);
+    if (first_) {
+        mesh_.cell_scalars = std::move(piece.cell_scalars);
+    } else {
+        const auto more = matched(mesh_.cell_scalars, piece.cell_scalars, piece, "cell data");
+        for (std::size_t i = 0; i < more.size(); ++i) {
+            std::vector<double>& values = mesh_.cell_scalars[i].values;
+            values.insert(values.end(), more[i]->values.begin(), more[i]->values.end());
+        }
+    }
     first_ = false;
 }
 
 MeshData MeshAssembly::finish() {
     if (mesh_.points.empty()) fail("{}: found no points", file_);
+    if (mesh_.tets.empty() && mesh_.cells.ghosts > 0) {
+        fail("{}: found {} ghost cells, which other pieces have, expected cells of its own", file_,
+             mesh_.cells.ghosts);
+    }
     if (mesh_.tets.empty() && mesh_.cells.skipped > 0) {
         fail(
             "{}: found {} cells, all without volume, expected tetrahedra, hexahedra, wedges or "

@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "mesh_files/node_ele.h"
+#include "mesh_files/pvd_reader.h"
+#include "mesh_files/pvtu_reader.h"
 #include "mesh_files/vtk_reader.h"
 #include "mesh_files/vtu_reader.h"
 
@@ -20,6 +22,10 @@ using Path = std::filesystem::path;
 // Text that VTK's files begin with.
 constexpr const char* vtk_magic = "# vtk DataFile";
 
+MeshData read_first_of_pvd(const Path& path) {
+    return read_pvd(path, 0);
+}
+
 struct MeshFormat {
     MeshData (*read)(const Path&);
     bool (*holds)(const std::string& beginning);
@@ -30,9 +36,22 @@ bool is_vtk(const std::string& beginning) {
     return beginning.starts_with(vtk_magic);
 }
 
-bool is_vtu(const std::string& beginning) {
+// The beginning of the VTKFile element of a VTK XML file; else nothing.
+std::string vtk_xml_tag(const std::string& beginning) {
     const std::size_t tag = beginning.find("<VTKFile");
-    return tag != std::string::npos && beginning.find("UnstructuredGrid", tag) != std::string::npos;
+    return tag == std::string::npos ? "" : beginning.substr(tag);
+}
+
+bool is_pvtu(const std::string& beginning) {
+    return vtk_xml_tag(beginning).find("PUnstructuredGrid") != std::string::npos;
+}
+
+bool is_vtu(const std::string& beginning) {
+    return vtk_xml_tag(beginning).find("UnstructuredGrid") != std::string::npos;
+}
+
+bool is_pvd(const std::string& beginning) {
+    return vtk_xml_tag(beginning).find("\"Collection\"") != std::string::npos;
 }
 
 // TetGen's files are numbers, which could mean anything.
@@ -41,7 +60,9 @@ bool is_node_ele(const std::string& /*beginning*/) {
 }
 
 const MeshFormat* find_format(const Path& path) {
-    static const std::vector<MeshFormat> formats{{read_vtu, is_vtu, {".vtu"}},
+    static const std::vector<MeshFormat> formats{{read_pvtu, is_pvtu, {".pvtu"}},
+                                                 {read_vtu, is_vtu, {".vtu"}},
+                                                 {read_first_of_pvd, is_pvd, {".pvd"}},
                                                  {read_vtk, is_vtk, {".vtk"}},
                                                  {read_node_ele, is_node_ele, {".node", ".ele"}}};
     const std::string beginning = file_beginning(path, 512);
@@ -54,16 +75,56 @@ const MeshFormat* find_format(const Path& path) {
     return nullptr;
 }
 
+const MeshFormat& format_of(const Path& path) {
+    if (const MeshFormat* const format = find_format(path)) return *format;
+    fail(
+        "{}: not a mesh file: found extension '{}', expected .vtu, .pvtu, .pvd, .vtk, .node or "
+        ".ele",
+        path.string(), path.extension().string());
+}
+
+bool is_pvd_file(const Path& path) {
+    const MeshFormat* const format = find_format(path);
+    return format != nullptr && format->read == read_first_of_pvd;
+}
+
+void append_files(std::vector<Path>& files, const Path& part) {
+    files.push_back(part);
+    const MeshFormat* const format = find_format(part);
+    if (format == nullptr || format->read != read_pvtu) return;
+    for (const Path& piece : pieces_of_pvtu(part)) files.push_back(piece);
+}
+
 }  // namespace
 
 bool is_mesh_file(const Path& path) {
     return find_format(path) != nullptr;
 }
 
-MeshData read_mesh(const Path& path) {
-    if (const MeshFormat* const format = find_format(path)) return format->read(path);
-    fail("{}: not a mesh file: found extension '{}', expected .vtu, .vtk, .node or .ele",
-         path.string(), path.extension().string());
+MeshData read_mesh(const Path& path, std::int64_t time) {
+    const MeshFormat& format = format_of(path);
+    if (is_pvd_file(path)) return read_pvd(path, time);
+    if (time != 0)
+        fail("{}: time: found {}, expected 0: the file has one step", path.string(), time);
+    return format.read(path);
+}
+
+std::int64_t steps_of_mesh(const Path& path) {
+    return is_pvd_file(path) ? std::ssize(steps_of_pvd(path)) : 1;
+}
+
+std::vector<Path> files_of_mesh(const Path& path) {
+    std::vector<Path> files;
+    append_files(files, path);
+    if (is_pvd_file(path)) {
+        for (const PvdStep& step : steps_of_pvd(path)) {
+            for (const Path& part : step.files) append_files(files, part);
+        }
+    }
+    const std::string extension = path.extension().string();
+    if (extension == ".node" || extension == ".ele")
+        files.push_back(Path(path).replace_extension(extension == ".node" ? ".ele" : ".node"));
+    return files;
 }
 
 }  // namespace lamina

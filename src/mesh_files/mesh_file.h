@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "base/atomic_file.h"
 #include "lamina/mesh_data.h"
 
 namespace lamina {
 
-// Whether a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .vtk,
-// .node or .ele.
+// Whether a path names a mesh: by its content (VTK's formats), else by its extension: .vtu, .pvtu,
+// .pvd, .vtk, .node or .ele.
 bool is_mesh_file(const std::filesystem::path& path);
 
-// Reads a mesh: a VTK XML or legacy VTK unstructured grid, or TetGen's pair of .node and .ele
-// (either name stands for both). Hexahedra, voxels, wedges and pyramids are cut into tets
-// (mesh_files/cell_split.h); cells without volume are counted. Point and cell arrays of one
-// component become scalars, and those of three components become the lengths of their vectors.
-// Other arrays are skipped. All corner indices of the result are in range. Throws Error: one line
-// that names the file, what was found and what was expected. Takes no memory for data that the file
-// cannot hold.
-MeshData read_mesh(const std::filesystem::path& path);
+// Reads a mesh: a VTK XML or legacy VTK unstructured grid; one in several files, which a .pvtu
+// names; one step of a .pvd; or TetGen's pair of .node and .ele (either name stands for both).
+// Pieces are joined (mesh_files/mesh_assembly.h). Hexahedra, voxels, wedges and pyramids are cut
+// into tets (mesh_files/cell_split.h), quadratic cells are straightened; cells without volume are
+// counted. Point and cell arrays of one component become scalars, and those of three components the
+// lengths of their vectors and three scalars NAME.x, .y and .z. Other arrays are skipped. All
+// corner indices of the result are in range. `time`: the step, counted from 0 in the order of time;
+// what is no .pvd has one only. Throws Error: one line that names the file, what was found and what
+// was expected. Takes no memory for data that the file cannot hold.
+MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
+
+// The number of steps of a mesh file: 1, but of a .pvd. Throws Error.
+std::int64_t steps_of_mesh(const std::filesystem::path& path);
+
+// The files that reading the mesh means, of all steps: itself first. Throws Error.
+std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);
 
 // Writes a VTK XML unstructured grid. All numbers are Float64, appended raw with zlib, in this
 // machine's byte order. Throws Error where it cannot be written. Does not commit the file.

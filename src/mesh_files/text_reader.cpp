@@ -32,7 +32,7 @@ std::string next_word(TextReader reader) {
     return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-const char* name_of(ValueType type) {
+const char* vtk_name_of(ValueType type) {
     static constexpr const char* names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
                                             "UInt32", "Int64", "UInt64", "Float32", "Float64"};
     return names[static_cast<std::size_t>(type)];

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
-#include "mesh_files/value_type.h"
+#include "base/value_type.h"
 
 namespace lamina {
 
@@ -79,7 +79,8 @@ class TextReader {
 // The next word for messages: "'abc'", shortened where it is long, or "the end".
 std::string next_word(TextReader reader);
 
-const char* name_of(ValueType type);
+// As VTK XML files have it: "Float32".
+const char* vtk_name_of(ValueType type);
 
 // Reads `count` numbers of `type`. Throws Error. `what`: names the file and the array in messages.
 template <typename To>
@@ -94,7 +95,7 @@ std::vector<To> read_text_values(TextReader& reader, ValueType type, std::int64_
             if ((i & 0xfffff) == 0) check_interrupt();
             if (!reader.read(value)) {
                 fail("{}: value {} of {}: found {}, expected a number ({})", what, i + 1, count,
-                     next_word(reader), name_of(type));
+                     next_word(reader), vtk_name_of(type));
             }
             values[i] = value_as<To>(value);
         }

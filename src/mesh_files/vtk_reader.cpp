@@ -270,8 +270,7 @@ class VtkReader {
             fail("{}: {}: found {} values, expected {}", tokens_.where(), what, tuples, tuples_);
         }
         auto& scalars = data_ == Data::point ? piece_.point_scalars : piece_.cell_scalars;
-        scalars.push_back(
-            scalar_from_values(name, components, tokens_.values<double>(type.value, count, what)));
+        add_scalars(scalars, name, components, tokens_.values<double>(type.value, count, what));
     }
 
     enum class Data { none, point, cell };

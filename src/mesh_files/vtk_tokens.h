@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/value_type.h"
 #include "mesh_files/text_reader.h"
-#include "mesh_files/value_type.h"
 
 namespace lamina {
 

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_files/vtu_data.h"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <limits>
+#include <span>
 
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/warning.h"
 #include "mesh_files/encoded_bytes.h"
 #include "mesh_files/text_reader.h"
+#include "mesh_files/vtu_compressor.h"
 
 namespace lamina {
 namespace {
-
-// Deflate codes at most 258 bytes in 2 bits (zlib, "Technical details": 1032:1).
-constexpr std::uint64_t deflate_expansion = 1032;
 
 std::uint64_t read_header_word(EncodedBytes& bytes, const VtuEncoding& encoding) {
     char word[8];
@@ -48,7 +44,8 @@ struct Block {
 // Reads the header of compressed data: the number of blocks, the size of each but the last, the
 // size of the last where it is not full, then the stored size of each.
 std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
-                               std::uint64_t expected, const std::string& what) {
+                               const VtuCompressor& compressor, std::uint64_t expected,
+                               const std::string& what) {
     const std::uint64_t count = read_header_word(bytes, encoding);
     const std::uint64_t full = read_header_word(bytes, encoding);
     const std::uint64_t last = read_header_word(bytes, encoding);
@@ -65,9 +62,9 @@ std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
         block.stored = read_header_word(bytes, encoding);
         overflow |= __builtin_add_overflow(stored, block.stored, &stored);
         overflow |= __builtin_add_overflow(size, block.size, &size);
-        if (block.size / deflate_expansion > block.stored) {
-            fail("{}: block {} promises {} bytes out of {} of zlib data, more than zlib can hold",
-                 what, i + 1, block.size, block.stored);
+        if (block.size / compressor.most_expansion() > block.stored) {
+            fail("{}: block {} promises {} bytes out of {} of {} data, more than {} can hold", what,
+                 i + 1, block.size, block.stored, compressor.word(), compressor.word());
         }
     }
     if (overflow) fail("{}: damaged header: the sizes of its blocks have no sum", what);
@@ -81,9 +78,10 @@ std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
     return blocks;
 }
 
-std::string read_zlib(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
-                      const std::string& what) {
-    const std::vector<Block> blocks = read_blocks(bytes, encoding, expected, what);
+std::string read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding,
+                            std::uint64_t expected, const std::string& what) {
+    const VtuCompressor compressor = VtuCompressor::named(encoding.compressor, what);
+    const std::vector<Block> blocks = read_blocks(bytes, encoding, compressor, expected, what);
     std::string values(expected, '\0'), packed;
     std::size_t done = 0;
     std::uint64_t surplus = 0;
@@ -91,30 +89,28 @@ std::string read_zlib(EncodedBytes& bytes, const VtuEncoding& encoding, std::uin
         check_interrupt();
         packed.resize(blocks[i].stored);
         bytes.read(packed.data(), packed.size());
-        uLongf size = blocks[i].size, used = packed.size();
-        const int result = uncompress2(reinterpret_cast<Bytef*>(values.data() + done), &size,
-                                       reinterpret_cast<const Bytef*>(packed.data()), &used);
-        if (result == Z_MEM_ERROR) throw std::bad_alloc();
-        if (result != Z_OK || size != blocks[i].size) {
-            fail("{}: damaged zlib data in block {} of {}", what, i + 1, blocks.size());
+        const std::int64_t used =
+            compressor.decode(packed, std::span(values).subspan(done, blocks[i].size));
+        if (used < 0) {
+            fail("{}: damaged {} data in block {} of {}", what, compressor.word(), i + 1,
+                 blocks.size());
         }
         done += blocks[i].size;
-        surplus += packed.size() - used;
+        surplus += packed.size() - static_cast<std::size_t>(used);
     }
     if (surplus > 0) {
         warn(
-            fmt::format("{}: found {} bytes behind the zlib data of its {} blocks, expected none: "
+            fmt::format("{}: found {} bytes behind the {} data of its {} blocks, expected none: "
                         "they are not used",
-                        what, surplus, blocks.size()));
+                        what, surplus, compressor.word(), blocks.size()));
     }
     return values;
 }
 
 }  // namespace
 
-template <typename To>
-std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                              std::int64_t count, const std::string& what) {
+std::string read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                           std::int64_t count, const std::string& what) {
     if (count == 0) return {};
     std::uint64_t expected = 0;
     if (__builtin_mul_overflow(static_cast<std::uint64_t>(count), bytes_of(type), &expected)) {
@@ -124,15 +120,18 @@ std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, Va
     std::string values;
     if (encoding.compressor.empty()) {
         values = read_plain(bytes, encoding, expected, what);
-    } else if (encoding.compressor == "vtkZLibDataCompressor") {
-        values = read_zlib(bytes, encoding, expected, what);
     } else {
-        fail(
-            "{}: compressor: found '{}', expected 'vtkZLibDataCompressor' or none: write the file "
-            "again with zlib or without compression (ParaView: Save Data, Compressor Type)",
-            what, one_line(encoding.compressor));
+        values = read_compressed(bytes, encoding, expected, what);
     }
     source.text.remove_prefix(bytes.used());
+    return values;
+}
+
+template <typename To>
+std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                              std::int64_t count, const std::string& what) {
+    if (count == 0) return {};
+    const std::string values = read_vtu_bytes(source, encoding, type, count, what);
     return values_from_bytes<To>(type, values.data(), static_cast<std::size_t>(count),
                                  encoding.swap_bytes);
 }

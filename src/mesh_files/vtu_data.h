@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh_files/value_type.h"
+#include "base/value_type.h"
 
 namespace lamina {
 
@@ -15,6 +15,12 @@ struct VtuEncoding {
     bool swap_bytes = false;
     ValueType header_type = ValueType::uint32;
     std::string compressor;  // empty: none
+};
+
+// Values in their own type and native byte order.
+struct VtuValues {
+    ValueType type = ValueType::uint8;
+    std::string bytes;
 };
 
 // The encoded text of one array.
@@ -27,6 +33,9 @@ struct VtuSource {
 // Reads `count` values of `type` from binary data, as vtkXMLDataParser does: a header (the length,
 // or the lengths of the compressed blocks), then the values. Checks lengths before it takes memory.
 // Throws Error. `what`: names the file and the array in messages.
+// The bytes of the values, in the file's byte order.
+std::string read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                           std::int64_t count, const std::string& what);
 template <typename To>
 std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "mesh_files/mesh_assembly.h"
 #include "mesh_files/vtu_file.h"
 
 namespace lamina {
@@ -44,8 +43,8 @@ std::vector<MeshScalar> read_scalars(const VtuFile& file, pugi::xml_node piece, 
         const std::string what = fmt::format("{}: {} '{}'", label, section, one_line(name));
         const std::int64_t components = file.components_of(array, what);
         if (!makes_scalar(components)) continue;
-        scalars.push_back(scalar_from_values(name, components,
-                                             file.values<double>(array, tuples, components, what)));
+        add_scalars(scalars, name, components,
+                    file.values<double>(array, tuples, components, what));
     }
     return scalars;
 }
@@ -78,9 +77,8 @@ MeshPiece read_piece(const VtuFile& file, pugi::xml_node node, const std::string
 
 }  // namespace
 
-MeshData read_vtu(const std::filesystem::path& path) {
+void add_vtu(const std::filesystem::path& path, MeshAssembly& assembly) {
     const VtuFile file(path);
-    MeshAssembly assembly(file.name());
     const auto pieces = file.grid().children("Piece");
     const bool single = std::distance(pieces.begin(), pieces.end()) == 1;
     int number = 0;
@@ -90,6 +88,11 @@ MeshData read_vtu(const std::filesystem::path& path) {
             file, piece, single ? file.name() : fmt::format("{}: Piece {}", file.name(), number)));
     }
     if (number == 0) fail("{}: no <Piece> in it", file.name());
+}
+
+MeshData read_vtu(const std::filesystem::path& path) {
+    MeshAssembly assembly(path.string());
+    add_vtu(path, assembly);
     return assembly.finish();
 }
 

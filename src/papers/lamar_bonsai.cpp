@@ -9,7 +9,7 @@
 #include "papers/lamar_stage.h"
 #include "papers/panels.h"
 #include "study/text_file.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina::papers {
 namespace {

@@ -2,7 +2,7 @@
 #include "lamina/scene.h"
 
 #include "volume/generate.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 
@@ -136,7 +136,8 @@ const char* name_of(OverRounding rounding) {
 }
 
 Volume load_volume(const Scene& scene) {
-    return scene.volume_request ? generate(*scene.volume_request) : read_volume(scene.volume_file);
+    if (scene.volume_request) return generate(*scene.volume_request);
+    return read_volume(scene.volume_file, scene.volume_selection);
 }
 
 }  // namespace lamina

@@ -22,12 +22,20 @@ std::string list_names(const MeshData& data) {
     return names.empty() ? "none" : names;
 }
 
+// Where the name of a vector stands for its length, NAME.magnitude is another word for that.
+bool is_called(const MeshScalar& scalar, const std::vector<MeshScalar>& all,
+               const std::string& name) {
+    if (scalar.name == name) return true;
+    return name == scalar.name + ".magnitude" &&
+           std::ranges::count(all, scalar.name + ".x", &MeshScalar::name) > 0;
+}
+
 // Takes the scalar out of the data and drops all others.
 MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     const std::string file = name_of_mesh(scene);
     const auto find = [&](std::vector<MeshScalar>& scalars) {
         return std::find_if(scalars.begin(), scalars.end(), [&](const MeshScalar& scalar) {
-            return scene.scalar.empty() || scalar.name == scene.scalar;
+            return scene.scalar.empty() || is_called(scalar, scalars, scene.scalar);
         });
     };
     MeshScalar taken;

@@ -6,6 +6,7 @@
 
 #include "base/enum_words.h"
 #include "scene_files/json_reader.h"
+#include "scene_files/volume_selection_json.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -45,10 +46,13 @@ GeneratorRequest read_generator(JsonReader reader) {
 
 void read_volume_source(JsonReader& reader, Scene& scene) {
     if (!reader.has("volume")) return;
-    if (reader.has("volume") && reader.value("volume").is_object()) {
-        scene.volume_request = read_generator(reader.object("volume"));
-    } else {
+    if (!reader.value("volume").is_object()) {
         scene.volume_file = reader.path_of("volume");
+    } else if (JsonReader volume = reader.object("volume"); volume.has("path")) {
+        scene.volume_file = volume.path_of("path");
+        scene.volume_selection = read_volume_selection(volume);
+    } else {
+        scene.volume_request = read_generator(volume);
     }
 }
 

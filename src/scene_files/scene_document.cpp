@@ -8,7 +8,8 @@
 #include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "mesh_files/mesh_file.h"
-#include "volume/volume_file.h"
+#include "scene_files/volume_selection_json.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 
@@ -22,18 +23,21 @@ FileKind kind_of_file(const std::filesystem::path& file) {
                        (first != std::string::npos && beginning[first] == '{');
     if (scene) return FileKind::scene;
     fail(
-        "{}: unknown kind of file: expected a scene (JSON), a volume (NRRD) or a mesh (.vtu, .vtk, "
+        "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .vtk, "
         ".node, .ele)",
-        file.string());
+        file.string(), volume_format_names());
 }
 
-nlohmann::json scene_document(const std::filesystem::path& file) {
-    const FileKind kind = kind_of_file(file);
+nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request) {
+    const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
     if (kind == FileKind::scene) return load_json(file);
-    return {
-        {"version", 1},
-        {kind == FileKind::volume ? "volume" : "mesh", std::filesystem::absolute(file).string()},
-        {"nan", "transparent"}};
+    const std::string path = std::filesystem::absolute(file).string();
+    nlohmann::json document{{"version", 1}, {"nan", "transparent"}};
+    if (kind == FileKind::volume)
+        document["volume"] = volume_selection_json(path, request);
+    else
+        document["mesh"] = path;
+    return document;
 }
 
 }  // namespace lamina

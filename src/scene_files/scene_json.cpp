@@ -5,6 +5,7 @@
 
 #include "scene_files/clip_json.h"
 #include "scene_files/lighting_json.h"
+#include "scene_files/volume_selection_json.h"
 
 namespace lamina {
 
@@ -21,7 +22,9 @@ std::string path_text(const std::filesystem::path& path) {
 }
 
 Json volume_json(const Scene& scene) {
-    if (!scene.volume_request) return path_text(scene.volume_file);
+    if (!scene.volume_request) {
+        return volume_selection_json(path_text(scene.volume_file), scene.volume_selection);
+    }
     const GeneratorRequest& request = *scene.volume_request;
     Json volume{{"generate", request.name}, {"type", name_of(request.type)}};
     if (request.size) volume["size"] = *request.size;

@@ -6,13 +6,19 @@
 
 #include <utility>
 
+#include "base/json_text.h"
+#include "scene_files/volume_selection_json.h"
 #include "study/picture_key.h"
 #include "volume/generate.h"
 
 namespace lamina::study {
 
 std::string volume_name(const Scene& scene) {
-    if (!scene.volume_request) return scene.volume_file.string();
+    if (!scene.volume_request) {
+        const std::string file = scene.volume_file.string();
+        if (scene.volume_selection == VolumeRequest{}) return file;
+        return json_text(volume_selection_json(file, scene.volume_selection));
+    }
     const GeneratorRequest& request = *scene.volume_request;
     const auto size = generated_grid(request).size;
     return fmt::format("{} {} {}", request.name, fmt::join(size, "x"), name_of(request.type));

@@ -17,7 +17,7 @@
 #include "base/unreachable.h"
 #include "volume/analytic_generators.h"
 #include "volume/mixing_generator.h"
-#include "volume/nrrd.h"
+#include "volume/nrrd_writer.h"
 
 namespace lamina {
 namespace {

@@ -6,11 +6,23 @@
 namespace lamina::fuzz {
 
 std::span<const FuzzTarget> fuzz_targets() {
-    static constexpr FuzzTarget all[] = {
-        {"colormap", run_colormap}, {"exr", run_exr}, {"integrate", run_integrate},
-        {"node_ele", run_node_ele}, {"npy", run_npy}, {"nrrd", run_nrrd},
-        {"plan", run_plan},         {"png", run_png}, {"scene", run_scene},
-        {"study", run_study},       {"vtk", run_vtk}, {"vtu", run_vtu}};
+    static constexpr FuzzTarget all[] = {{"colormap", run_colormap},
+                                         {"exr", run_exr},
+                                         {"integrate", run_integrate},
+                                         {"metaimage", run_metaimage},
+                                         {"nifti", run_nifti},
+                                         {"npy_volume", run_npy_volume},
+                                         {"tiff", run_tiff},
+                                         {"vti", run_vti},
+                                         {"node_ele", run_node_ele},
+                                         {"npy", run_npy},
+                                         {"nrrd", run_nrrd},
+                                         {"plan", run_plan},
+                                         {"png", run_png},
+                                         {"scene", run_scene},
+                                         {"study", run_study},
+                                         {"vtk", run_vtk},
+                                         {"vtu", run_vtu}};
     return all;
 }
 

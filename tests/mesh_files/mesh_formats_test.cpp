@@ -91,7 +91,7 @@ TEST_F(MeshFormats, PiecesAreJoined) {
         for (std::size_t i = 0; i < 24; ++i) {
             EXPECT_EQ(mesh.points[i], first.points[i]);
             EXPECT_EQ(mesh.points[24 + i], second.points[i]);
-            EXPECT_EQ(mesh.point_scalars[0].values[24 + i], second.point_scalars[2].values[i]);
+            EXPECT_EQ(mesh.point_scalars[0].values[24 + i], second.point_scalars[5].values[i]);
         }
         for (std::size_t i = 0; i < 19; ++i) {
             for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -185,9 +185,12 @@ TEST_F(MeshFormats, LegacyAttributesOfEveryKind) {
                              "FIELD more 4\nlabels 1 4 string\none\ntwo%20words\n\nfour\n"
                              "flags 1 4 bit\n1 0 1 0\nNULL_ARRAY\nx%25 1 4 double\n.1 .2 .3 .4\n";
     const MeshData mesh = read("a.vtk", text);
-    ASSERT_EQ(mesh.point_scalars.size(), 4u);
+    ASSERT_EQ(mesh.point_scalars.size(), 7u);
     expect_equal(mesh.point_scalars, {{"s", {1, 2, 3, 4}},
                                       {"n", {1, 2, 3, 4}},
+                                      {"n.x", {0, 0, 0, 0}},
+                                      {"n.y", {0, 0, 0, 0}},
+                                      {"n.z", {1, 2, 3, 4}},
                                       {"ids", {10, 11, 12, 13}},
                                       {"x%", {.1, .2, .3, .4}}});
     expect_equal(mesh.cell_scalars, {{"c", {7}}});
@@ -265,7 +268,8 @@ TEST(MeshFile, GoesByTheExtension) {
     for (const char* const name : {"a.nrrd", "vtu", "a.vtu.gz", ""}) {
         EXPECT_FALSE(is_mesh_file(name)) << name;
     }
-    expect_error([] { read_mesh("a.stl"); }, {"a.stl", "'.stl'", ".vtu, .vtk, .node or .ele"});
+    expect_error([] { read_mesh("a.stl"); },
+                 {"a.stl", "'.stl'", ".vtu, .pvtu, .pvd, .vtk, .node or .ele"});
 }
 
 }  // namespace

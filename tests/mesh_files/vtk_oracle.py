@@ -19,7 +19,8 @@ try:
 except ImportError:
     sys.exit(77)
 
-CELLS = [(10, 4), (12, 8), (13, 6), (14, 5), (11, 8), (24, 10), (5, 3), (3, 2), (1, 1), (9, 4), (7, 5)]
+CELLS = [(10, 4), (12, 8), (13, 6), (14, 5), (11, 8), (24, 10), (5, 3), (3, 2), (1, 1), (9, 4), (7, 5),
+         (25, 20), (26, 15), (27, 13), (29, 27)]
 ARRAYS = [  # class, name, components
     (core.vtkFloatArray, "first one", 1), (core.vtkDoubleArray, "velocity in %", 3),
     (core.vtkDoubleArray, "pair", 2), (core.vtkIntArray, "whole", 1),
@@ -57,21 +58,21 @@ def make_grid():
     for i in range(60):
         points.InsertNextPoint(rng.uniform(-9, 9), rng.uniform(-9, 9), i)
     grid.SetPoints(points)
-    for i in range(44):
+    for i in range(60):
         kind, corners = CELLS[i % len(CELLS)]
         ids = core.vtkIdList()
         for point in rng.sample(range(60), corners):
             ids.InsertNextId(point)
         grid.InsertNextCell(kind, ids)
     add_arrays(grid.GetPointData(), 60, rng)
-    add_arrays(grid.GetCellData(), 44, rng)
+    add_arrays(grid.GetCellData(), 60, rng)
     return grid
 
 
 def write_all(folder):
     grid = make_grid()
     for mode in ("Ascii", "Binary", "Appended"):
-        for compressor in ("None", "ZLib"):
+        for compressor in ("None", "ZLib", "LZ4", "LZMA"):
             for bits in (32, 64):
                 for order in ("BigEndian", "LittleEndian"):
                     writer = vtkXMLUnstructuredGridWriter()
@@ -82,8 +83,6 @@ def write_all(folder):
                     getattr(writer, "SetByteOrderTo" + order)()
                     writer.SetBlockSize(256)
                     writer.SetEncodeAppendedData(bits == 64)  # base64 or raw
-                    if mode == "Binary":
-                        writer.SetNumberOfPieces(3)
                     writer.SetFileName(f"{folder}/{mode}-{compressor}-{bits}-{order}.vtu")
                     writer.Write()
     for version in (42, 51):

@@ -85,6 +85,7 @@ TEST_F(VtkOracle, ReadsWhatWeReadAndWhatWeWrite) {
         const MeshData mesh = read_mesh(entry.path());
         EXPECT_EQ(mesh.cells.split, expected.cells.split);
         EXPECT_EQ(mesh.cells.skipped, expected.cells.skipped);
+        EXPECT_EQ(mesh.cells.straightened, expected.cells.straightened);
         // VTK puts the arrays of a file in an order of its own.
         const auto by_name = [](const MeshScalar& a, const MeshScalar& b) {
             return a.name < b.name;
@@ -98,7 +99,7 @@ TEST_F(VtkOracle, ReadsWhatWeReadAndWhatWeWrite) {
         if (entry.path().filename() == "ours.vtu") expect_equal(mesh, ours);
         ++files;
     }
-    EXPECT_EQ(files, 24 + 4 + 1);
+    EXPECT_EQ(files, 48 + 4 + 1);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,13 +88,20 @@ inline TestGrid mixed_grid() {
     return grid;
 }
 
-inline std::vector<double> scalar_of(const TestArray& array) {
-    if (array.components == 1) return array.values;
-    std::vector<double> lengths;
+// The scalars that an array gives: itself; or a vector's length and components.
+inline std::vector<MeshScalar> scalars_of(const TestArray& array) {
+    if (array.components == 1) return {{array.name, array.values}};
+    if (array.components != 3) return {};
+    std::vector<MeshScalar> scalars{{array.name, {}},
+                                    {array.name + ".x", {}},
+                                    {array.name + ".y", {}},
+                                    {array.name + ".z", {}}};
     for (std::size_t i = 0; i < array.values.size(); i += 3) {
-        lengths.push_back(std::hypot(array.values[i], array.values[i + 1], array.values[i + 2]));
+        const double* const v = &array.values[i];
+        scalars[0].values.push_back(std::hypot(v[0], v[1], v[2]));
+        for (std::size_t axis = 0; axis < 3; ++axis) scalars[axis + 1].values.push_back(v[axis]);
     }
-    return lengths;
+    return scalars;
 }
 
 // What read_mesh should make of a grid.
@@ -111,23 +119,27 @@ inline MeshData expected_mesh(const TestGrid& grid) {
         if (cell.type == 10 || cell.type == 24) {
             mesh.tets.push_back({c[0], c[1], c[2], c[3]});
         } else {
-            const SplitCell split = split_cell(cell.type, c, grid.points);
+            // 25: a quadratic hexahedron, and so on. Of quadratic cells only the corners count.
+            const int straight = cell.type < 20 ? cell.type : cell.type == 29 ? 12 : cell.type - 13;
+            const std::size_t corners = straight > 12 ? static_cast<std::size_t>(19 - straight) : 8;
+            const SplitCell split = split_cell(straight, std::span(c).first(corners), grid.points);
             mesh.tets.insert(mesh.tets.end(), split.tets.begin(),
                              split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
             ++mesh.cells.split;
         }
+        mesh.cells.straightened += cell.type > 20;
         cell_of_tet.resize(mesh.tets.size(), i);
     }
     for (const auto& array : grid.point_arrays) {
-        if (array.components != 1 && array.components != 3) continue;
-        mesh.point_scalars.push_back({array.name, scalar_of(array)});
+        for (const MeshScalar& scalar : scalars_of(array)) mesh.point_scalars.push_back(scalar);
     }
     for (const auto& array : grid.cell_arrays) {
-        if (array.components != 1 && array.components != 3) continue;
-        const std::vector<double> values = scalar_of(array);
-        MeshScalar scalar{array.name, {}};
-        for (const std::size_t cell : cell_of_tet) scalar.values.push_back(values[cell]);
-        mesh.cell_scalars.push_back(scalar);
+        for (const MeshScalar& of_cells : scalars_of(array)) {
+            MeshScalar scalar{of_cells.name, {}};
+            for (const std::size_t cell : cell_of_tet)
+                scalar.values.push_back(of_cells.values[cell]);
+            mesh.cell_scalars.push_back(scalar);
+        }
     }
     return mesh;
 }

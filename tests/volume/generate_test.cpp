@@ -2,19 +2,20 @@
 #include "volume/generate.h"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "nrrd_files.h"
+#include "base/error.h"
+#include "support/samples_of.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
 namespace {
 
 using testing::samples_of;
-using GenerateFiles = testing::NrrdFiles;
 
 GeneratorRequest request(const std::string& name, std::array<std::int64_t, 3> size,
                          SampleType type = SampleType::uint8) {
@@ -146,35 +147,6 @@ TEST(Generate, GivesTheSameSamplesOnEveryMachine) {
         EXPECT_EQ(checksum(generate(request(name, {40, 41, 42}, SampleType::float32))), sum)
             << name;
     }
-}
-
-TEST_F(GenerateFiles, StreamedFileHoldsTheSameVolume) {
-    for (const std::string& name : generator_names()) {
-        for (const SampleType type : {SampleType::uint8, SampleType::uint16, SampleType::float32}) {
-            const GeneratorRequest wanted = request(name, {33, 20, 11}, type);
-            AtomicFile file(folder() / "a.nrrd");
-            generate_nrrd(file, wanted);
-            file.commit();
-            const Volume streamed = read_nrrd(folder() / "a.nrrd");
-            const Volume whole = generate(wanted);
-            EXPECT_EQ(streamed.type(), type);
-            EXPECT_EQ(streamed.grid().step, whole.grid().step);
-            EXPECT_EQ(streamed.grid().origin, whole.grid().origin);
-            EXPECT_EQ(streamed.grid().centering, whole.grid().centering);
-            ASSERT_EQ(streamed.byte_count(), whole.byte_count());
-            EXPECT_EQ(std::memcmp(streamed.data(), whole.data(), whole.byte_count()), 0) << name;
-        }
-    }
-}
-
-TEST_F(GenerateFiles, ManySlabsMakeTheSameVolumeAsOne) {
-    const GeneratorRequest wanted =
-        request("gaussians", {1100, 1000, 10}, SampleType::float32);  // 44 MB: 2 slabs
-    AtomicFile file(folder() / "a.nrrd");
-    generate_nrrd(file, wanted);
-    file.commit();
-    const Volume streamed = read_nrrd(folder() / "a.nrrd");
-    EXPECT_EQ(checksum(streamed), checksum(generate(wanted)));
 }
 
 TEST(Generate, RefusesWhatItCannotMake) {

@@ -12,12 +12,18 @@ void count_cells(const RenderRequest& request, const CellCounts& cells, RenderSt
     stats.counts["split_cells"] = cells.split;
     stats.counts["skipped_cells"] = cells.skipped;
     stats.counts["straightened_cells"] = cells.straightened;
+    stats.counts["ghost_cells"] = cells.ghosts;
+    stats.counts["merged_points"] = cells.merged_points;
+    if (cells.merged_points > 0) {
+        request.message(fmt::format("{} points that pieces of the mesh share are one each",
+                                    cells.merged_points));
+    }
     if (cells.skipped > 0) {
         request.message(fmt::format("{} cells have no volume and are not drawn", cells.skipped));
     }
     if (cells.straightened > 0) {
         request.message(
-            fmt::format("{} quadratic tets are drawn with straight edges", cells.straightened));
+            fmt::format("{} quadratic cells are drawn with straight edges", cells.straightened));
     }
 }
 

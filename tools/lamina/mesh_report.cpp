@@ -58,6 +58,8 @@ Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     info["split_cells"] = findings.cells.split;
     info["skipped_cells"] = findings.cells.skipped;
     info["straightened_cells"] = findings.cells.straightened;
+    info["ghost_cells"] = findings.cells.ghosts;
+    info["merged_points"] = findings.cells.merged_points;
     add_statistics(statistics, info);
     return info;
 }

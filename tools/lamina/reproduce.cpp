@@ -31,7 +31,7 @@
 #include "study/machine.h"
 #include "study/report_page.h"
 #include "verbs.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {

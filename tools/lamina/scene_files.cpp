@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_files.h"
 
-#include "volume/volume_file.h"
+#include "mesh_files/mesh_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -14,20 +15,11 @@ void append(Paths& files, const Paths& more) {
 
 }  // namespace
 
-Paths files_of_mesh(const std::filesystem::path& mesh) {
-    Paths files{mesh};
-    const std::string suffix = mesh.extension();
-    if (suffix == ".node" || suffix == ".ele") {
-        files.push_back(
-            std::filesystem::path(mesh).replace_extension(suffix == ".node" ? ".ele" : ".node"));
-    }
-    return files;
-}
-
 Paths files_of(const Scene& scene) {
     Paths files{scene.file};
     if (!scene.colormap_file.empty()) files.push_back(scene.colormap_file);
-    if (!scene.volume_file.empty()) append(files, files_of_volume(scene.volume_file));
+    if (!scene.volume_file.empty())
+        append(files, files_of_volume(scene.volume_file, scene.volume_selection));
     if (!scene.mesh_file.empty()) append(files, files_of_mesh(scene.mesh_file));
     return files;
 }

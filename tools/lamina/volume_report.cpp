@@ -11,7 +11,7 @@
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"
-#include "volume/volume_file.h"
+#include "volume_files/volume_file.h"
 
 namespace lamina {
 namespace {
@@ -52,10 +52,11 @@ CodedImage picture_of(const Volume& volume, const ValueRange& range,
 
 }  // namespace
 
-nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png) {
+nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
+                                        const VolumeRequest& request) {
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
-    const Volume volume = read_volume(file);
+    const Volume volume = read_volume(file, request);
     const MinMaxBricks bricks = measure_bricks(volume);
     const ValueStatistics statistics = measure_values(volume, bricks.whole);
     if (picture) {

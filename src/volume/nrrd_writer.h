@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes NRRD files, from which read_nrrd() (volume_files/nrrd.h) gives back the same volume, bit
+// for bit.
+#pragma once
+
+#include "base/atomic_file.h"
+#include "lamina/volume.h"
+
+namespace lamina {
+
+// Writes an attached header. The caller must then write grid.sample_count() samples in native byte
+// order, x fastest.
+void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type);
+
+// Writes header and raw samples. Does not commit the file.
+void write_nrrd(AtomicFile& file, const Volume& volume);
+
+}  // namespace lamina

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/metaimage.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "base/error.h"
+#include "base/file_bytes.h"
+#include "volume_files/file_pattern.h"
+#include "volume_files/grid_check.h"
+#include "volume_files/metaimage_fields.h"
+#include "volume_files/plain_grid.h"
+#include "volume_files/stored_data.h"
+#include "volume_files/whole_number.h"
+
+namespace lamina {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::int64_t largest_size = std::int64_t{1} << 40;
+
+struct ElementType {
+    const char* word;
+    ValueType type;
+};
+
+// MetaIO's LONG has 32 bits on every machine.
+constexpr ElementType element_types[] = {
+    {"MET_CHAR", ValueType::int8},       {"MET_UCHAR", ValueType::uint8},
+    {"MET_SHORT", ValueType::int16},     {"MET_USHORT", ValueType::uint16},
+    {"MET_INT", ValueType::int32},       {"MET_UINT", ValueType::uint32},
+    {"MET_LONG", ValueType::int32},      {"MET_ULONG", ValueType::uint32},
+    {"MET_LONG_LONG", ValueType::int64}, {"MET_ULONG_LONG", ValueType::uint64},
+    {"MET_FLOAT", ValueType::float32},   {"MET_DOUBLE", ValueType::float64}};
+
+class MetaImage {
+  public:
+    explicit MetaImage(const Path& path)
+        : path_(path),
+          fields_(path),
+          dimensions_(static_cast<std::size_t>(fields_.whole("NDims", 3, 4))),
+          sizes_(fields_.wholes("DimSize", dimensions_, 1, largest_size)) {}
+
+    Grid grid() const {
+        Grid grid = plain_grid({sizes_[0], sizes_[1], sizes_[2]});
+        const std::vector<double> spacing = spacings();
+        const std::vector<double> rows = row_vectors();
+        const std::vector<double> origin = vector_of({"Offset", "Position", "Origin"}, 0);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!(spacing[axis] > 0)) fields_.reject("ElementSpacing", "numbers above 0");
+            const double* const row = &rows[axis * dimensions_];
+            grid.step[axis] = spacing[axis] * glm::dvec3(row[0], row[1], row[2]);
+            grid.origin[static_cast<int>(axis)] = origin[axis];
+        }
+        const std::string orientation = fields_.text("AnatomicalOrientation");
+        if (orientation.find_first_of("RLAPIS") != std::string::npos)
+            grid.axes = WorldAxes::left_posterior_superior;
+        check_grid(fields_.file(), grid, {"TransformMatrix", "Offset"});
+        return grid;
+    }
+
+    StoredData data(const VolumeRequest& request) const {
+        StoredData data;
+        data.path = path_;
+        data.type = type();
+        const std::int64_t channels = fields_.has("ElementNumberOfChannels")
+                                          ? fields_.whole("ElementNumberOfChannels", 1, 65536)
+                                          : 1;
+        data.axes = axes(channels, request);
+        if (!fields_.flag("BinaryData", true))
+            data.encoding = DataEncoding::ascii;
+        else if (fields_.flag("CompressedData", false))
+            data.encoding = DataEncoding::gzip;
+        const bool big_endian = fields_.flag("BinaryDataByteOrderMSB", false);
+        set_byte_order(data, fields_.flag("ElementByteOrderMSB", big_endian));
+        place(data, channels > 1);
+        return data;
+    }
+
+  private:
+    ValueType type() const {
+        std::string word = fields_.text("ElementType");
+        if (word.ends_with("_ARRAY")) word.resize(word.size() - 6);
+        const auto* const found = std::ranges::find(element_types, word, &ElementType::word);
+        if (found == std::end(element_types))
+            fields_.reject("ElementType", "a type of numbers, such as MET_UCHAR or MET_FLOAT");
+        return found->type;
+    }
+
+    // Channels lie beside each other; one channel is no axis.
+    std::vector<StoredAxis> axes(std::int64_t channels, const VolumeRequest& request) const {
+        std::vector<StoredAxis> axes;
+        const StoredAxis channel = taken_axis(fields_.file(), "channel", request.channel, channels);
+        if (channels > 1) axes.push_back(channel);
+        for (std::size_t axis = 0; axis < 3; ++axis) axes.emplace_back(sizes_[axis]);
+        const std::int64_t steps = dimensions_ == 4 ? sizes_[3] : 1;
+        const StoredAxis time = taken_axis(fields_.file(), "time", request.time, steps);
+        if (dimensions_ == 4) axes.push_back(time);
+        return axes;
+    }
+
+    // Says where the samples lie.
+    void place(StoredData& data, bool has_channels) const {
+        const std::string value = fields_.text("ElementDataFile");
+        std::int64_t skip = 0;
+        if (fields_.has("HeaderSize")) skip = fields_.whole("HeaderSize", -1, largest_size);
+        if (value == "LOCAL" || value == "Local" || value == "local") {
+            data.files = {path_};
+            data.offset = fields_.length();
+            if (data.offset < 0) fields_.reject("ElementDataFile", "data behind it");
+            return;
+        }
+        if (skip < 0)
+            data.byte_skip = skip;  // the data end the file
+        else
+            data.offset = skip;
+        std::istringstream stream(value);
+        std::vector<std::string> words;
+        for (std::string word; stream >> word;) words.push_back(word);
+        std::optional<std::size_t> each;  // axes in one file
+        const auto set_each = [&](std::size_t word) {
+            if (words.size() <= word) return;
+            const auto axes = whole_number(words[word]);
+            if (!axes || *axes < 1 || *axes > static_cast<std::int64_t>(dimensions_))
+                fields_.reject("ElementDataFile", "a number of axes in one file");
+            each = static_cast<std::size_t>(*axes) + (has_channels ? 1 : 0);
+        };
+        if (!words.empty() && words[0] == "LIST") {
+            set_each(1);
+            if (fields_.listed().empty())
+                fields_.reject("ElementDataFile", "the names of the files behind it, one a line");
+            set_data_files(data, fields_.listed(), each, "ElementDataFile");
+        } else if (value.find('%') != std::string::npos) {
+            set_each(4);
+            set_data_files(data, numbered(words), each, "ElementDataFile");
+        } else {
+            if (value.empty()) fields_.reject("ElementDataFile", "LOCAL or the name of a file");
+            set_data_files(data, {value}, each, "ElementDataFile");
+        }
+    }
+
+    std::vector<std::string> numbered(const std::vector<std::string>& words) const {
+        std::array<std::optional<std::int64_t>, 3> steps;
+        for (std::size_t i = 0; i < 3 && words.size() > i + 1; ++i)
+            steps[i] = whole_number(words[i + 1]);
+        const auto pattern = file_pattern(words[0]);
+        if (!pattern || !steps[0] || !steps[1] || !steps[2] || words.size() > 5) {
+            fields_.reject(
+                "ElementDataFile",
+                "a name with one %d or %03d in it, and first, last and step of its number");
+        }
+        const auto names = names_of(*pattern, *steps[0], *steps[1], *steps[2]);
+        if (!names)
+            fields_.reject("ElementDataFile", fmt::format("at most {} files", most_pattern_files));
+        return *names;
+    }
+
+    // The first of the keys that is there: one number a dimension.
+    std::vector<double> vector_of(std::initializer_list<const char*> keys, double otherwise) const {
+        for (const char* const key : keys)
+            if (fields_.has(key)) return fields_.numbers(key, dimensions_);
+        return std::vector<double>(dimensions_, otherwise);
+    }
+
+    // ElementSize, the voxel's size, counts where no spacing is said.
+    std::vector<double> spacings() const { return vector_of({"ElementSpacing", "ElementSize"}, 1); }
+
+    std::vector<double> row_vectors() const {
+        for (const char* const key : {"TransformMatrix", "Rotation", "Orientation"})
+            if (fields_.has(key)) return fields_.numbers(key, dimensions_ * dimensions_);
+        std::vector<double> rows(dimensions_ * dimensions_, 0);
+        for (std::size_t axis = 0; axis < dimensions_; ++axis) rows[axis * (dimensions_ + 1)] = 1;
+        return rows;
+    }
+
+    Path path_;
+    MetaImageFields fields_;
+    std::size_t dimensions_;
+    std::vector<std::int64_t> sizes_;
+};
+
+}  // namespace
+
+bool is_metaimage(const Path& path) {
+    const std::string beginning = file_beginning(path, 64);
+    std::istringstream stream(beginning);
+    std::string key, equals;
+    stream >> key >> equals;
+    if (!equals.starts_with("=") && key.find('=') == std::string::npos) return false;
+    key = key.substr(0, key.find('='));
+    return key == "ObjectType" || key == "NDims" || key == "Comment" || key == "ObjectSubType";
+}
+
+Volume read_metaimage(const Path& path, const VolumeRequest& request) {
+    const MetaImage image(path);
+    const Grid grid = image.grid();
+    return drawn_volume(grid, read_stored(image.data(request)));
+}
+
+std::vector<Path> files_of_metaimage(const Path& path) {
+    std::vector<Path> files{path};
+    for (const Path& file : MetaImage(path).data({}).files)
+        if (file != path) files.push_back(file);
+    return files;
+}
+
+}  // namespace lamina

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/stored_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/warning.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t chunk = std::int64_t{1} << 18;  // samples of one task
+
+// Calls part(begin, end) for all samples, on all cores.
+template <typename Part>
+void for_parts(std::int64_t count, const Part& part) {
+    parallel_for((count + chunk - 1) / chunk, 1,
+                 [&](std::int64_t i) { part(i * chunk, std::min(count, (i + 1) * chunk)); });
+}
+
+template <typename Word, typename Swap>
+void swap_words(void* samples, std::int64_t count, Swap swap) {
+    auto* const words = static_cast<Word*>(samples);
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) words[i] = swap(words[i]);
+    });
+}
+
+template <typename T>
+struct Range {
+    T lo, hi;
+};
+
+template <typename From>
+Range<From> range_of(const From* from, std::int64_t count) {
+    Range<From> all{from[0], from[0]};
+    std::mutex merging;
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        const auto [lo, hi] = std::minmax_element(from + begin, from + end);
+        const std::lock_guard lock(merging);
+        all = {std::min(all.lo, *lo), std::max(all.hi, *hi)};
+    });
+    return all;
+}
+
+template <typename T>
+bool is_within(T value, int least, int most) {
+    if constexpr (std::is_integral_v<T>)
+        return std::cmp_greater_equal(value, least) && std::cmp_less_equal(value, most);
+    else
+        return value >= least && value <= most;
+}
+
+// The first of the types that holds both and all between.
+template <typename T>
+SampleType type_for(T lo, T hi) {
+    const auto both = [&](int least, int most) {
+        return is_within(lo, least, most) && is_within(hi, least, most);
+    };
+    if (both(0, 255)) return SampleType::uint8;
+    if (both(-32768, 32767)) return SampleType::int16;
+    return both(0, 65535) ? SampleType::uint16 : SampleType::float32;
+}
+
+// What float32 cannot hold.
+struct Rounded {
+    std::int64_t inexact = 0, infinite = 0;
+    double largest_error = 0;
+};
+
+template <typename From>
+bool holds_exactly(float to, From from) {
+    if constexpr (std::is_integral_v<From>) {
+        // A float of 2^63 or more would overflow on its way back.
+        const auto above = std::ldexp(1.0F, std::numeric_limits<From>::digits);
+        return to < above && static_cast<From>(to) == from;
+    } else {
+        return static_cast<From>(to) == from || std::isnan(from);
+    }
+}
+
+template <typename From>
+Rounded round_samples(const From* from, std::int64_t count, float* to) {
+    Rounded all;
+    std::mutex merging;
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        Rounded part;
+        for (std::int64_t i = begin; i < end; ++i) {
+            to[i] = static_cast<float>(from[i]);
+            if (holds_exactly(to[i], from[i])) continue;
+            if (std::isinf(to[i])) {
+                ++part.infinite;
+                continue;
+            }
+            ++part.inexact;
+            const long double error =
+                static_cast<long double>(to[i]) - static_cast<long double>(from[i]);
+            part.largest_error = std::max(part.largest_error, static_cast<double>(std::abs(error)));
+        }
+        const std::lock_guard lock(merging);
+        all.inexact += part.inexact;
+        all.infinite += part.infinite;
+        all.largest_error = std::max(all.largest_error, part.largest_error);
+    });
+    return all;
+}
+
+void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t count) {
+    const char* const type = name_of(samples.type);
+    if (rounded.inexact > 0) {
+        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}",
+                         samples.file, rounded.inexact, count, type, rounded.largest_error));
+    }
+    if (rounded.infinite > 0) {
+        warn(fmt::format("{}: {} of {} {} samples are beyond float, and infinite", samples.file,
+                         rounded.infinite, count, type));
+    }
+}
+
+// Calls make(index) for each sample of the type, which is what `type` names.
+template <typename Make>
+std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Make& make) {
+    const std::shared_ptr<void> memory =
+        sample_memory(static_cast<std::size_t>(count) * bytes_of(type));
+    const auto fill = [&](auto* to) {
+        for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t i = begin; i < end; ++i)
+                to[i] = static_cast<std::remove_reference_t<decltype(*to)>>(make(i));
+        });
+    };
+    switch (type) {
+        case SampleType::uint8:
+            fill(static_cast<std::uint8_t*>(memory.get()));
+            break;
+        case SampleType::int16:
+            fill(static_cast<std::int16_t*>(memory.get()));
+            break;
+        case SampleType::uint16:
+            fill(static_cast<std::uint16_t*>(memory.get()));
+            break;
+        case SampleType::float32:
+            fill(static_cast<float*>(memory.get()));
+            break;
+    }
+    return memory;
+}
+
+template <typename From>
+Volume narrowed(const Grid& grid, const StoredSamples& samples) {
+    const auto* const from = static_cast<const From*>(samples.bytes.get());
+    const std::int64_t count = grid.sample_count();
+    if constexpr (std::is_integral_v<From>) {
+        const Range<From> range = range_of(from, count);
+        const SampleType type =
+            std::is_same_v<From, std::int8_t> ? SampleType::int16 : type_for(range.lo, range.hi);
+        if (type != SampleType::float32)
+            return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
+    }
+    const std::shared_ptr<void> memory =
+        sample_memory(static_cast<std::size_t>(count) * sizeof(float));
+    warn_of(round_samples(from, count, static_cast<float*>(memory.get())), samples, count);
+    return Volume(grid, SampleType::float32, memory);
+}
+
+bool is_whole(double number) {
+    return number == std::trunc(number);
+}
+
+template <typename From>
+Volume scaled(const Grid& grid, const StoredSamples& samples) {
+    const auto* const from = static_cast<const From*>(samples.bytes.get());
+    const double scale = samples.scale, offset = samples.offset;
+    const auto value = [&](std::int64_t i) {
+        return scale * static_cast<double>(from[i]) + offset;
+    };
+    SampleType type = SampleType::float32;
+    if (std::is_integral_v<From> && is_whole(scale) && is_whole(offset)) {
+        const Range<From> range = range_of(from, grid.sample_count());
+        const double ends[] = {scale * static_cast<double>(range.lo) + offset,
+                               scale * static_cast<double>(range.hi) + offset};
+        type = type_for(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
+    }
+    return Volume(grid, type, filled(type, grid.sample_count(), value));
+}
+
+}  // namespace
+
+std::shared_ptr<void> sample_memory(std::size_t bytes) {
+    std::shared_ptr<void> memory(std::malloc(bytes), &std::free);
+    if (!memory) throw std::bad_alloc();
+    return memory;
+}
+
+void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes) {
+    if (word_bytes == 2) {
+        swap_words<std::uint16_t>(words, count,
+                                  [](std::uint16_t w) { return __builtin_bswap16(w); });
+    } else if (word_bytes == 4) {
+        swap_words<std::uint32_t>(words, count,
+                                  [](std::uint32_t w) { return __builtin_bswap32(w); });
+    } else if (word_bytes == 8) {
+        swap_words<std::uint64_t>(words, count,
+                                  [](std::uint64_t w) { return __builtin_bswap64(w); });
+    }
+}
+
+Volume drawn_volume(const Grid& grid, const StoredSamples& samples) {
+    const bool plain = samples.scale == 1 && samples.offset == 0;
+    if (plain) {
+        switch (samples.type) {
+            case ValueType::uint8:
+                return Volume(grid, SampleType::uint8, samples.bytes);
+            case ValueType::int16:
+                return Volume(grid, SampleType::int16, samples.bytes);
+            case ValueType::uint16:
+                return Volume(grid, SampleType::uint16, samples.bytes);
+            case ValueType::float32:
+                return Volume(grid, SampleType::float32, samples.bytes);
+            default:
+                break;
+        }
+    }
+    return with_type(samples.type, [&](auto zero) {
+        using From = decltype(zero);
+        return plain ? narrowed<From>(grid, samples) : scaled<From>(grid, samples);
+    });
+}
+
+}  // namespace lamina

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "base/value_type.h"
+#include "lamina/volume.h"
+
+namespace lamina {
+
+// The samples that a reader has taken of a file, x fastest, in native byte order. What they mean is
+// scale * sample + offset, computed in double precision.
+struct StoredSamples {
+    std::string file;  // for messages
+    ValueType type = ValueType::uint8;
+    std::shared_ptr<void> bytes;
+    double scale = 1;  // finite, not 0
+    double offset = 0;
+};
+
+// Memory for so many bytes; malloc() does not zero it: gigabytes are filled right afterwards.
+// Throws std::bad_alloc.
+std::shared_ptr<void> sample_memory(std::size_t bytes);
+
+// Turns round the bytes of each of `count` words of 1, 2, 4 or 8 bytes.
+void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);
+
+// The volume that is drawn. uint8, int16, uint16 and float samples stay as they are, int8 become
+// int16. Other integers, and integers scaled by integers, become the first of uint8, int16, uint16
+// and float that holds all of them; all else becomes float. Values that float does not hold are
+// rounded to the nearest that it does, or infinite, and counted in one warning; those that `scale`
+// and `offset` make of integers are rounded without one.
+Volume drawn_volume(const Grid& grid, const StoredSamples& samples);
+
+}  // namespace lamina

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lamina/volume.h"
+
+namespace lamina::testing {
+
+// The samples of a volume whose type is T.
+template <typename T>
+std::vector<T> samples_of(const Volume& volume) {
+    const auto* const first = static_cast<const T*>(volume.data());
+    return std::vector<T>(first, first + volume.grid().sample_count());
+}
+
+}  // namespace lamina::testing

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// More data than the header speaks of: the volume is read, and one warning counts what is not used.
+#include <gtest/gtest.h>
+
+#include "base/warning.h"
+#include "nrrd_files.h"
+#include "volume_files/packed_reader.h"
+
+namespace lamina {
+namespace {
+
+using testing::bzip2;
+using testing::expect_says;
+using testing::gzip;
+using testing::samples_of;
+
+const std::string samples = "abcdefghijklmnopqrstuvwx";
+
+std::string header(const std::string& encoding, const std::string& more = "") {
+    return "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: " + encoding + "\n" +
+           more + "\n";
+}
+
+class NrrdSurplus : public testing::NrrdFiles {
+  protected:
+    NrrdSurplus() {
+        take_warnings([this](const std::string& text) { warnings_.push_back(text); });
+    }
+    ~NrrdSurplus() override { take_warnings({}); }
+
+    // Of reading a file with the usual samples.
+    std::vector<std::string> warnings_of(const std::filesystem::path& path) {
+        warnings_.clear();
+        const auto found = samples_of<std::uint8_t>(read_nrrd(path));
+        EXPECT_EQ(std::string(found.begin(), found.end()), samples);
+        return warnings_;
+    }
+
+    void expect_warning(const std::string& bytes, std::initializer_list<std::string> parts) {
+        const auto warnings = warnings_of(write("a.nrrd", bytes));
+        ASSERT_EQ(warnings.size(), 1u);
+        expect_says(warnings[0], {"a.nrrd: found ", "of the header: they are not used"});
+        expect_says(warnings[0], parts);
+    }
+
+  private:
+    std::vector<std::string> warnings_;
+};
+
+TEST_F(NrrdSurplus, NoneIsSilent) {
+    EXPECT_TRUE(warnings_of(write("a.nrrd", header("raw") + samples)).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", header("gzip") + gzip(samples))).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples))).empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", header("gzip") + gzip(samples.substr(0, 5)) +
+                                                gzip(samples.substr(5))))
+                    .empty());
+    EXPECT_TRUE(warnings_of(write("a.nrrd", header("bzip2") + bzip2(samples.substr(0, 5)) +
+                                                bzip2(samples.substr(5))))
+                    .empty());
+    // The header itself speaks of what is behind the data.
+    EXPECT_TRUE(
+        warnings_of(write("a.nrrd", header("raw", "byte skip: -4\n") + samples + "xyz")).empty());
+}
+
+TEST_F(NrrdSurplus, RawData) {
+    expect_warning(header("raw") + samples + "xyz",
+                   {"3 bytes more than the 4 x 3 x 2 uint8 samples"});
+    expect_warning(header("raw", "byte skip: 2\n") + "12" + samples + "\n", {"1 bytes more"});
+    write("data.raw", samples + "xy");
+    const auto warnings = warnings_of(write("a.nhdr", header("raw", "data file: data.raw\n")));
+    ASSERT_EQ(warnings.size(), 1u);
+    expect_says(warnings[0], {"data.raw: found 2 bytes more"});
+}
+
+TEST_F(NrrdSurplus, PackedData) {
+    expect_warning(header("gzip") + gzip(samples) + "junk!", {"5 bytes behind its gzip data"});
+    expect_warning(header("gzip") + gzip(samples + "12"), {"found 2 bytes of gzip data more"});
+    const std::string member = gzip("more");
+    expect_warning(header("gzip") + gzip(samples) + member,
+                   {fmt::format("{} bytes behind its gzip data", member.size())});
+    expect_warning(header("bzip2") + bzip2(samples) + "junk!", {"5 bytes behind its bzip2 data"});
+    expect_warning(header("bzip2") + bzip2(samples + "12"), {"found 2 bytes of bzip2 data more"});
+}
+
+// A bomb: one byte more than is counted.
+TEST_F(NrrdSurplus, IsCountedSoFar) {
+    const std::string bomb(PackedReader::most_unpacked + 1, '\0');
+    expect_warning(header("gzip") + gzip(samples + bomb), {"found at least 6"});
+}
+
+// The end of what is too much belongs to the checksum, too.
+TEST_F(NrrdSurplus, IsCheckedAsFarAsItIsCounted) {
+    const std::string packed = gzip(samples + "12");
+    expect_says(
+        testing::error_of(write("a.nrrd", header("gzip") + packed.substr(0, packed.size() - 1))),
+        {"truncated gzip data: the checksum is missing"});
+}
+
+TEST_F(NrrdSurplus, Text) {
+    std::string text = header("ascii");
+    for (const char sample : samples) text += std::to_string(sample) + " ";
+    EXPECT_TRUE(warnings_of(write("a.nrrd", text + "\n\n")).empty());
+    expect_warning(text + "7 8 end\n", {"found 3 numbers or other words more"});
+}
+
+}  // namespace
+}  // namespace lamina

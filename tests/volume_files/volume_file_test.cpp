@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/volume_file.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "nrrd_files.h"
+#include "support/expect_error.h"
+
+namespace lamina {
+namespace {
+
+using VolumeFiles = testing::NrrdFiles;
+using Paths = std::vector<std::filesystem::path>;
+
+const std::string header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n";
+const std::vector<std::uint8_t> samples = {7, 9};
+
+TEST_F(VolumeFiles, AreNrrdFilesOfAnyName) {
+    for (const char* name : {"a.nrrd", "a.NRRD", "a.nhdr", "a.dat", "a"}) {
+        const Volume volume = read_volume(write(name, header + "\n\x07\x09"));
+        EXPECT_EQ(testing::samples_of<std::uint8_t>(volume), samples) << name;
+    }
+}
+
+TEST_F(VolumeFiles, AreKnownByTheirExtensions) {
+    for (const char* name : {"a.nrrd", "b/a.NHDR", "a.b.Nrrd"})
+        EXPECT_TRUE(is_volume_file(name)) << name;
+    for (const char* name : {"a.vtu", "a", "nrrd", ".nrrd", "a.nrrd.gz"})
+        EXPECT_FALSE(is_volume_file(name)) << name;
+}
+
+TEST_F(VolumeFiles, OfNoFormatSayWhatIsExpected) {
+    const std::string nothing = "P5 1 1 255\n";
+    expect_error([&] { read_volume(write("a.nrrd", nothing)); }, {"a.nrrd: not a NRRD file"});
+    expect_error([&] { read_volume(write("a.dat", nothing)); },
+                 {"a.dat: unknown kind of volume: expected NRRD (.nrrd, .nhdr)"});
+    expect_error([&] { read_volume(folder() / "none.raw"); }, {"none.raw", "no such file"});
+}
+
+TEST_F(VolumeFiles, AreOneOrTwo) {
+    write("a.raw", "\x07\x09");
+    const auto detached = write("a.nhdr", header + "data file: a.raw\n");
+    EXPECT_EQ(files_of_volume(detached), (Paths{detached, folder() / "a.raw"}));
+    const auto bad = write("b.nrrd", "nothing");
+    EXPECT_EQ(files_of_volume(bad), Paths{bad});
+}
+
+}  // namespace
+}  // namespace lamina
