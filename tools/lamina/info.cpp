@@ -51,7 +51,7 @@ void run(const InfoOptions& options) {
     }
     const bool volume = is_volume_file(options.file);
     if (!volume && !is_mesh_file(options.file)) {
-        fail("{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .vtk, .node, .ele)",
+        fail("{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)",
              options.file, volume_format_names());
     }
     expect_different_files(volume ? files_of_volume(options.file) : files_of_mesh(options.file),
@@ -68,7 +68,7 @@ void add_info(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand("info", "What a file contains");
     const auto options = std::make_shared<InfoOptions>();
     verb->add_option("FILE", options->file,
-                     "volume (.nrrd, .nhdr) or mesh (.vtu, .vtk, .node, .ele)")
+                     "volume (.nrrd, .nhdr) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
     verb->add_flag("--json", options->json, "print JSON instead of a table");
     verb->add_option(

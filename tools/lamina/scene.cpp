@@ -48,7 +48,7 @@ void add_scene(CLI::App& app, int&) {
     CLI::App* const verb = app.add_subcommand(
         "scene", "Write the scene that render would draw of a file, to be edited");
     verb->add_option("FILE", options->scene.file,
-                     "Volume (NRRD), mesh (.vtu, .vtk, .node, .ele), or scene (JSON) that leaves "
+                     "Volume (NRRD), mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or scene (JSON) that leaves "
                      "something open")
         ->required();
     verb->add_option("-o,--output", options->output,

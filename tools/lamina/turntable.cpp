@@ -21,6 +21,7 @@ namespace lamina {
 namespace {
 
 constexpr const char* own_verb = "render --turntable";
+constexpr const char* record_word = "turntable";
 
 // A hash of all that the pictures depend on.
 std::string key_of(const OutputScene& of, const PictureAttributes& attributes, int views) {
@@ -63,13 +64,14 @@ Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
     expect_different_files(read, written);
     expect_own_folder(folder(), own_verb, names(), read, force_);
     // A folder that cannot be written fails at once.
-    if (std::filesystem::exists(folder())) const AtomicFile unused(path_of(names_.record_name()));
+    if (std::filesystem::exists(folder()))
+        const AtomicFile unused(path_of(names_.record_name(record_word)));
 }
 
 std::vector<std::string> Turntable::names() const {
     std::vector<std::string> names;
     for (int view = 0; view < views_; ++view) names.push_back(names_.name(view));
-    names.push_back(names_.record_name());
+    names.push_back(names_.record_name(record_word));
     return names;
 }
 
@@ -112,7 +114,8 @@ std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats
                             PictureAttributes attributes) {
     OwnFiles(folder(), own_verb).add(names());
     attributes["renderer"] = stats.renderer;
-    SeriesRecord record(path_of(names_.record_name()), key_of(scene_, attributes, views_));
+    SeriesRecord record(path_of(names_.record_name(record_word)),
+                        key_of(scene_, attributes, views_));
     const std::vector<int> views = missing(record);
     try {
         draw_missing(views, record, job, plan, stats, attributes);
