@@ -6,11 +6,22 @@
 namespace lamina::fuzz {
 
 std::span<const FuzzTarget> fuzz_targets() {
-    static constexpr FuzzTarget all[] = {
-        {"colormap", run_colormap}, {"exr", run_exr}, {"integrate", run_integrate},
-        {"node_ele", run_node_ele}, {"npy", run_npy}, {"nrrd", run_nrrd},
-        {"plan", run_plan},         {"png", run_png}, {"scene", run_scene},
-        {"study", run_study},       {"vtk", run_vtk}, {"vtu", run_vtu}};
+    static constexpr FuzzTarget all[] = {{"colormap", run_colormap},
+                                         {"dicom", run_dicom},
+                                         {"exr", run_exr},
+                                         {"hdf5", run_hdf5},
+                                         {"integrate", run_integrate},
+                                         {"node_ele", run_node_ele},
+                                         {"npy", run_npy},
+                                         {"nrrd", run_nrrd},
+                                         {"plan", run_plan},
+                                         {"png", run_png},
+                                         {"pvd", run_pvd},
+                                         {"scene", run_scene},
+                                         {"study", run_study},
+                                         {"vtk", run_vtk},
+                                         {"vtu", run_vtu},
+                                         {"zarr", run_zarr}};
     return all;
 }
 

@@ -5,16 +5,13 @@
 #include <cctype>
 
 #include "input_parts.h"
-#include "plan_check.h"
 #include "runs.h"
 #include "scratch_folder.h"
 #include "violation.h"
-#include "volume/min_max_bricks.h"
+#include "volume_check.h"
 
 namespace lamina::fuzz {
 namespace {
-
-constexpr std::int64_t most_planned = 4096;
 
 // Whether no line that may be the field `data file` names a path.
 bool data_file_stays_in_folder(std::string_view header) {
@@ -28,20 +25,6 @@ bool data_file_stays_in_folder(std::string_view header) {
         }
     }
     return true;
-}
-
-void check_volume(const Volume& volume) {
-    const MinMaxBricks bricks = measure_bricks(volume);
-    const Grid::Bounds bounds = volume.grid().bounds();
-    for (int axis = 0; axis < 3; ++axis) {
-        require_finite(bounds.min[axis], "the box's least corner");
-        require_finite(bounds.max[axis], "the box's largest corner");
-    }
-    if (bricks.whole.empty() || volume.grid().sample_count() > most_planned) return;
-    Scene scene =
-        scene_around({bounds.min, bounds.max}, bricks.whole.lo, bricks.whole.hi, Method::slice);
-    scene.nan = NanPolicy::transparent;
-    check_slice_plans(scene, volume);
 }
 
 }  // namespace

@@ -22,8 +22,8 @@
 namespace lamina {
 namespace {
 
-constexpr const char* own_verb = "render --time";
-constexpr const char* record_word = "series";
+constexpr const char* series_verb = "render --time";
+constexpr const char* series_word = "series";
 
 bool same_grid(const Grid& a, const Grid& b) {
     return a.size == b.size && a.centering == b.centering && a.origin == b.origin &&
@@ -50,10 +50,10 @@ TimeSeries::TimeSeries(const OutputOptions& options, const OutputScene& scene,
     }
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(inputs, written);
-    expect_own_folder(folder(), own_verb, names(), inputs, force_);
+    expect_own_folder(folder(), series_verb, names(), inputs, force_);
     // A folder that cannot be written fails at once.
     if (std::filesystem::exists(folder()))
-        const AtomicFile unused(path_of(names_.record_name(record_word)));
+        const AtomicFile unused(path_of(names_.record_name(series_word)));
 }
 
 void TimeSeries::prepare(const JobMaker& make_job, const SceneData& first, const Messages& say) {
@@ -65,7 +65,7 @@ void TimeSeries::prepare(const JobMaker& make_job, const SceneData& first, const
 std::vector<std::string> TimeSeries::names() const {
     std::vector<std::string> names;
     for (const std::int64_t step : series_.steps()) names.push_back(name_at(step));
-    names.push_back(names_.record_name(record_word));
+    names.push_back(names_.record_name(series_word));
     return names;
 }
 
@@ -174,10 +174,10 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
 
 std::string TimeSeries::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
                              PictureAttributes attributes) {
-    OwnFiles(folder(), own_verb).add(names());
+    OwnFiles(folder(), series_verb).add(names());
     attributes["renderer"] = stats.renderer;
     attributes["scene"] = json_text(scene_json(job.resolved_scene()), 2);
-    SeriesRecord record(path_of(names_.record_name(record_word)), key_of(attributes));
+    SeriesRecord record(path_of(names_.record_name(series_word)), key_of(attributes));
     const std::vector<std::int64_t> steps = missing(record);
     const auto all = static_cast<std::int64_t>(series_.steps().size());
     const std::int64_t kept = all - static_cast<std::int64_t>(steps.size());
