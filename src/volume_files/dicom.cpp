@@ -2,11 +2,10 @@
 #include "volume_files/dicom.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
 #include "base/interrupt.h"
+#include "volume_files/dicom_elements.h"
 #include "volume_files/dicom_series.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
@@ -14,16 +13,13 @@
 namespace lamina {
 namespace {
 
-bool has_dicom_mark(const std::filesystem::path& file) {
-    return file_beginning(file, 132).find("DICM", 128) == 128;
-}
-
 // Slices whose slope or intercept differ, as those of PET, are scaled one by one.
 class SliceReader {
   public:
     explicit SliceReader(const DicomSeries& series) : series_(series) {
         const DicomImage& first = series.slices.front();
         samples_.file = series.name;
+        type_ = first.type;
         scales_alike_ = std::ranges::all_of(series.slices, [&](const DicomImage& slice) {
             return slice.slope == first.slope && slice.intercept == first.intercept;
         });
@@ -34,41 +30,47 @@ class SliceReader {
     }
 
     StoredSamples read() {
+        expect_room();
+        const auto& size = series_.grid.size;
+        const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
+        samples_.type = scales_alike_ ? type_ : ValueType::float32;
+        samples_.bytes = sample_memory(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
         std::size_t done = 0;
         for (const DicomImage& slice : series_.slices) {
             check_interrupt();
-            const DicomPixels pixels(slice);
-            if (!type_) begin(pixels);
-            if (pixels.type() != *type_) {
+            if (slice.type != type_) {
                 fail("{}: found {} pixels, expected {}, as the other slices have",
-                     slice.file.string(), name_of(pixels.type()), name_of(*type_));
+                     slice.file.string(), name_of(slice.type), name_of(type_));
             }
             char* const to = static_cast<char*>(samples_.bytes.get());
             if (scales_alike_) {
-                pixels.read(to + done);
-                done += pixels.byte_count();
+                read_dicom_pixels(slice, to + done);
+                done += slice.byte_count();
             } else {
-                done = read_scaled(slice, pixels, to, done);
+                done = read_scaled(slice, to, done);
             }
         }
         return samples_;
     }
 
   private:
-    void begin(const DicomPixels& pixels) {
-        type_ = pixels.type();
-        samples_.type = scales_alike_ ? *type_ : ValueType::float32;
-        const auto& size = series_.grid.size;
-        const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
-        samples_.bytes = sample_memory(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
+    // Before memory is taken; the pixels of other images were found to be there.
+    void expect_room() const {
+        constexpr std::uint64_t most_expansion = 1 << 16;
+        for (const DicomImage& slice : series_.slices) {
+            const std::uint64_t there = std::filesystem::file_size(slice.file);
+            if (slice.compressed && slice.byte_count() / most_expansion > there) {
+                fail("{}: the header promises {} bytes of pixels, the file has {} in all",
+                     slice.file.string(), slice.byte_count(), there);
+            }
+        }
     }
 
-    std::size_t read_scaled(const DicomImage& slice, const DicomPixels& pixels, char* to,
-                            std::size_t done) const {
-        std::string raw(pixels.byte_count(), '\0');
-        pixels.read(raw.data());
-        const std::size_t count = raw.size() / bytes_of(*type_);
-        const auto values = values_from_bytes<double>(*type_, raw.data(), count, false);
+    std::size_t read_scaled(const DicomImage& slice, char* to, std::size_t done) const {
+        std::string raw(slice.byte_count(), '\0');
+        read_dicom_pixels(slice, raw.data());
+        const std::size_t count = raw.size() / bytes_of(type_);
+        const auto values = values_from_bytes<double>(type_, raw.data(), count, false);
         auto* const scaled = reinterpret_cast<float*>(to + done);
         for (std::size_t i = 0; i < count; ++i)
             scaled[i] = static_cast<float>(slice.slope * values[i] + slice.intercept);
@@ -78,7 +80,7 @@ class SliceReader {
     const DicomSeries& series_;
     StoredSamples samples_;
     bool scales_alike_ = true;
-    std::optional<ValueType> type_;
+    ValueType type_ = ValueType::uint8;
 };
 
 }  // namespace

@@ -1,189 +1,181 @@
 // SPDX-License-Identifier: Apache-2.0
-// DICOM PS3.3, C.7.6.2 (image plane), C.11.1 (rescale).
+// DICOM PS3.3, C.7.6.2 (image plane), C.7.6.3 (image pixel), C.11.1 (rescale).
 #include "volume_files/dicom_image.h"
 
-#include <gdcmAttribute.h>
-#include <gdcmImage.h>
-#include <gdcmImageReader.h>
-#include <gdcmReader.h>
-
-#include <charconv>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
+#include "volume_files/dicom_codec.h"
+#include "volume_files/dicom_elements.h"
+#include "volume_files/opened_file.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
 
-std::string text_in(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-    if (!set.FindDataElement(tag)) return "";
-    const gdcm::ByteValue* const value = set.GetDataElement(tag).GetByteValue();
-    if (value == nullptr) return "";
-    std::string text(value->GetPointer(), value->GetLength());
+constexpr DicomTag series_description = 0x0008103e, slice_thickness = 0x00180050,
+                   slice_spacing = 0x00180088, series_uid = 0x0020000e,
+                   instance_number = 0x00200013, image_position = 0x00200032,
+                   image_orientation = 0x00200037, samples_per_pixel = 0x00280002,
+                   frame_count = 0x00280008, row_count = 0x00280010, column_count = 0x00280011,
+                   pixel_spacing = 0x00280030, bits_allocated = 0x00280100,
+                   bits_stored = 0x00280101, highest_bit = 0x00280102, pixel_sign = 0x00280103,
+                   rescale_intercept = 0x00281052, rescale_slope = 0x00281053;
+
+std::optional<glm::dvec3> place_of(const std::vector<double>& numbers) {
+    if (numbers.size() != 3) return {};
+    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+}
+
+std::string trimmed(const std::string& text) {
     const std::size_t end = text.find_last_not_of(std::string(" \0", 2));
-    return end == std::string::npos ? "" : text.substr(0, end + 1);
+    return end == std::string::npos ? "" : one_line(text.substr(0, end + 1));
 }
 
-// The numbers of a text with backslashes between; empty where it is anything else.
-std::vector<double> numbers_in(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-    const std::string text = text_in(set, tag);
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at < end) {
-        while (at < end && (*at == ' ' || *at == '+')) ++at;
-        double number = 0;
-        const auto [stop, problem] = std::from_chars(at, end, number);
-        if (problem != std::errc{} || !std::isfinite(number)) return {};
-        numbers.push_back(number);
-        at = stop;
-        while (at < end && *at == ' ') ++at;
-        if (at == end) break;
-        if (*at++ != '\\') return {};
+void read_place(const DicomElements& elements, DicomImage& image) {
+    image.position = place_of(elements.numbers(image_position));
+    for (const std::string& text : elements.frame_positions) {
+        if (const auto place = place_of(dicom_numbers(text)))
+            image.frame_positions.push_back(*place);
     }
-    return numbers;
-}
-
-double number_in(const gdcm::DataSet& set, const gdcm::Tag& tag, double otherwise) {
-    const auto numbers = numbers_in(set, tag);
-    return numbers.size() == 1 ? numbers[0] : otherwise;
-}
-
-// An unsigned short.
-std::int64_t short_in(const gdcm::DataSet& set, const gdcm::Tag& tag) {
-    if (!set.FindDataElement(tag)) return 0;
-    const gdcm::ByteValue* const value = set.GetDataElement(tag).GetByteValue();
-    if (value == nullptr || value->GetLength() < sizeof(std::uint16_t)) return 0;
-    std::uint16_t number = 0;
-    std::memcpy(&number, value->GetPointer(), sizeof number);
-    return number;
-}
-
-const gdcm::Tag series_uid(0x0020, 0x000e), series_description(0x0008, 0x103e),
-    instance_number(0x0020, 0x0013), image_position(0x0020, 0x0032),
-    image_orientation(0x0020, 0x0037), pixel_spacing(0x0028, 0x0030), row_count(0x0028, 0x0010),
-    column_count(0x0028, 0x0011), frame_count(0x0028, 0x0008), rescale_intercept(0x0028, 0x1052),
-    rescale_slope(0x0028, 0x1053), slice_thickness(0x0018, 0x0050), pixel_data(0x7fe0, 0x0010);
-
-void read_orientation(const gdcm::DataSet& set, DicomImage& image) {
-    const auto values = numbers_in(set, image_orientation);
-    if (values.size() != 6) return;
-    image.along_row = {values[0], values[1], values[2]};
-    image.along_column = {values[3], values[4], values[5]};
-    for (const glm::dvec3& unit : {image.along_row, image.along_column}) {
-        if (!(std::abs(glm::length(unit) - 1) < 1e-2)) {
-            fail("{}: ImageOrientationPatient: found {}, expected two vectors of length 1",
-                 image.file.string(), one_line(text_in(set, image_orientation)));
-        }
+    if (!image.position && !image.frame_positions.empty())
+        image.position = image.frame_positions.front();
+    if (const auto v = elements.numbers(image_orientation); v.size() == 6) {
+        image.along_row = {v[0], v[1], v[2]};
+        image.along_column = {v[3], v[4], v[5]};
     }
-}
-
-void read_place(const gdcm::DataSet& set, DicomImage& image) {
-    if (const auto place = numbers_in(set, image_position); place.size() == 3)
-        image.position = glm::dvec3(place[0], place[1], place[2]);
-    read_orientation(set, image);
-    const auto spacing = numbers_in(set, pixel_spacing);  // between rows, then between columns
+    const double row_length = glm::length(image.along_row),
+                 column_length = glm::length(image.along_column),
+                 cosine = glm::dot(image.along_row, image.along_column);
+    if (!(std::abs(row_length - 1) < 1e-2 && std::abs(column_length - 1) < 1e-2 &&
+          std::abs(cosine) < 1e-2)) {
+        fail(
+            "{}: ImageOrientationPatient: found {}, expected two vectors of length 1 at a right "
+            "angle",
+            image.file.string(), trimmed(elements.text(image_orientation)));
+    }
+    const auto spacing = elements.numbers(pixel_spacing);  // between rows, then between columns
     if (spacing.size() == 2) image.spacing = {spacing[1], spacing[0], 1};
-    image.spacing.z = std::abs(number_in(set, slice_thickness, 1));
     if (!(image.spacing.x > 0 && image.spacing.y > 0)) {
         fail("{}: PixelSpacing: found {}, expected numbers above 0", image.file.string(),
-             one_line(text_in(set, pixel_spacing)));
+             trimmed(elements.text(pixel_spacing)));
     }
-    if (!(image.spacing.z > 0)) image.spacing.z = 1;
+    const double thickness = elements.number(slice_thickness, 1);
+    image.spacing.z = std::abs(elements.number(slice_spacing, thickness));
+    if (image.spacing.z == 0) image.spacing.z = 1;
 }
 
-std::optional<ValueType> type_of(const gdcm::PixelFormat& format) {
-    switch (format.GetScalarType()) {
-        case gdcm::PixelFormat::UINT8:
-            return ValueType::uint8;
-        case gdcm::PixelFormat::INT8:
-            return ValueType::int8;
-        case gdcm::PixelFormat::UINT16:
-            return ValueType::uint16;
-        case gdcm::PixelFormat::INT16:
-            return ValueType::int16;
-        case gdcm::PixelFormat::UINT32:
-            return ValueType::uint32;
-        case gdcm::PixelFormat::INT32:
-            return ValueType::int32;
-        case gdcm::PixelFormat::FLOAT32:
-            return ValueType::float32;
-        case gdcm::PixelFormat::FLOAT64:
-            return ValueType::float64;
-        default:
-            return {};
+void read_form(const DicomElements& elements, DicomImage& image) {
+    const std::string name = image.file.string();
+    if (const auto samples = elements.whole(samples_per_pixel); samples > 1) {
+        fail("{}: SamplesPerPixel: found {}, expected 1: pictures in colour are no volume", name,
+             samples);
     }
+    const std::int64_t allocated = elements.whole(bits_allocated);
+    const bool is_signed = elements.whole(pixel_sign) == 1;
+    if (allocated == 8) {
+        image.type = is_signed ? ValueType::int8 : ValueType::uint8;
+    } else if (allocated == 16) {
+        image.type = is_signed ? ValueType::int16 : ValueType::uint16;
+    } else if (allocated == 32) {
+        image.type = is_signed ? ValueType::int32 : ValueType::uint32;
+    } else {
+        fail("{}: BitsAllocated: found {}, expected 8, 16 or 32", name, allocated);
+    }
+    image.stored_bits = elements.whole(bits_stored);
+    image.high_bit = elements.whole(highest_bit);
+    if (image.stored_bits < 1 || image.stored_bits > allocated || image.high_bit >= allocated ||
+        image.high_bit + 1 < image.stored_bits) {
+        fail("{}: BitsStored and HighBit: found {} and {}, expected them within {} bits", name,
+             image.stored_bits, image.high_bit, allocated);
+    }
+    image.big_endian = elements.big_endian;
+    image.swapped_bytes = elements.big_endian && allocated == 8 && elements.pixel_form == "OW";
+    image.transfer_syntax = trimmed(elements.transfer_syntax);
+    image.compressed = elements.encapsulated;
+    image.pixels_begin = elements.pixels_begin;
+    image.pixel_bytes = elements.pixel_bytes;
+    const std::string& syntax = image.transfer_syntax;
+    const bool plain = syntax == "1.2.840.10008.1.2" || syntax == "1.2.840.10008.1.2.1" ||
+                       syntax == "1.2.840.10008.1.2.2";
+    if (plain == image.compressed) {
+        fail("{}: found pixels in {} piece with transfer syntax {}, expected {}", name,
+             image.compressed ? "more than one" : "one", syntax, plain ? "one" : "several");
+    }
+    if (!image.compressed && image.pixel_bytes < image.byte_count()) {
+        fail("{}: found {} bytes of pixels, expected {}", name, image.pixel_bytes,
+             image.byte_count());
+    }
+}
+
+// The bits that count, as a number: shifted down, and with their sign.
+template <typename Value>
+void take_bits(const DicomImage& image, char* pixels, std::size_t count) {
+    using Word = std::make_unsigned_t<Value>;
+    const auto bits = static_cast<int>(8 * sizeof(Value));
+    const int above = bits - 1 - static_cast<int>(image.high_bit);
+    const int unused = bits - static_cast<int>(image.stored_bits);
+    for (std::size_t i = 0; i < count; ++i) {
+        Word word;
+        std::memcpy(&word, pixels + i * sizeof(Word), sizeof(Word));
+        const auto high = static_cast<Value>(static_cast<Word>(word << above));
+        const auto value = static_cast<Value>(high >> unused);
+        std::memcpy(pixels + i * sizeof(Word), &value, sizeof(Value));
+    }
+}
+
+void normalize(const DicomImage& image, char* pixels, std::size_t count) {
+    const std::size_t bytes = bytes_of(image.type);
+    const bool big = std::endian::native == std::endian::big;
+    if (image.big_endian != big) swap_bytes(pixels, static_cast<std::int64_t>(count), bytes);
+    if (image.swapped_bytes) {
+        for (std::size_t i = 0; i + 1 < count; i += 2) std::swap(pixels[i], pixels[i + 1]);
+    }
+    if (image.stored_bits == static_cast<std::int64_t>(8 * bytes)) return;
+    with_type(image.type, [&](auto zero) {
+        if constexpr (std::is_integral_v<decltype(zero)>)
+            take_bits<decltype(zero)>(image, pixels, count);
+    });
 }
 
 }  // namespace
 
-std::optional<DicomImage> read_dicom_header(const std::filesystem::path& file) {
-    if (file_beginning(file, 132).find("DICM", 128) != 128) return {};
-    gdcm::Reader reader;
-    reader.SetFileName(file.c_str());
-    if (!reader.ReadUpToTag(pixel_data))
-        fail("{}: truncated or damaged DICOM header", file.string());
-    const gdcm::DataSet& set = reader.GetFile().GetDataSet();
+std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file) {
+    if (!has_dicom_mark(file)) return {};
+    const DicomElements elements = read_dicom_elements(file);
     DicomImage image;
     image.file = file;
-    image.series = text_in(set, series_uid);
-    image.rows = short_in(set, row_count);
-    image.columns = short_in(set, column_count);
-    if (image.series.empty() || image.rows == 0 || image.columns == 0) return {};  // a DICOMDIR
-    image.description = one_line(text_in(set, series_description));
-    image.instance = static_cast<std::int64_t>(number_in(set, instance_number, 0));
-    image.frames = static_cast<std::int64_t>(number_in(set, frame_count, 1));
-    if (image.frames < 1 || image.frames > (1 << 20))
-        fail("{}: NumberOfFrames: found {}", file.string(), image.frames);
-    image.slope = number_in(set, rescale_slope, 1);
-    image.intercept = number_in(set, rescale_intercept, 0);
+    image.series = trimmed(elements.text(series_uid));
+    image.description = trimmed(elements.text(series_description));
+    image.rows = elements.whole(row_count);
+    image.columns = elements.whole(column_count);
+    if (image.rows == 0 || image.columns == 0)
+        fail("{}: found {} x {} pixels, expected some", file.string(), image.columns, image.rows);
+    const double number = elements.number(instance_number, 0);
+    if (std::abs(number) < 1e15) image.instance = static_cast<std::int64_t>(number);
+    const double frames = elements.number(frame_count, 1);
+    if (!(frames >= 1 && frames <= (1 << 20)))
+        fail("{}: NumberOfFrames: found {}, expected 1 to {}", file.string(), frames, 1 << 20);
+    image.frames = static_cast<std::int64_t>(frames);
+    image.slope = elements.number(rescale_slope, 1);
+    image.intercept = elements.number(rescale_intercept, 0);
     if (image.slope == 0) fail("{}: RescaleSlope: found 0, expected another number", file.string());
-    read_place(set, image);
+    read_place(elements, image);
+    read_form(elements, image);
     return image;
 }
 
-struct DicomPixels::Reader {
-    gdcm::ImageReader reader;
-};
-
-DicomPixels::DicomPixels(const DicomImage& image)
-    : name_(image.file.string()), reader_(std::make_unique<Reader>()) {
-    constexpr std::uint64_t most_expansion = 1 << 16;
-    reader_->reader.SetFileName(image.file.c_str());
-    if (!reader_->reader.Read()) fail("{}: truncated or damaged DICOM image", name_);
-    const gdcm::Image& decoded = reader_->reader.GetImage();
-    const gdcm::PixelFormat& format = decoded.GetPixelFormat();
-    if (format.GetSamplesPerPixel() != 1) {
-        fail("{}: SamplesPerPixel: found {}, expected 1: pictures in colour are no volume", name_,
-             format.GetSamplesPerPixel());
-    }
-    const auto type = type_of(format);
-    if (!type) {
-        fail("{}: found pixels of type {}, expected 8, 16 or 32 bits", name_,
-             format.GetScalarTypeAsString());
-    }
-    type_ = *type;
-    const unsigned* const sizes = decoded.GetDimensions();
-    const std::int64_t frames = decoded.GetNumberOfDimensions() > 2 ? sizes[2] : 1;
-    if (sizes[0] != image.columns || sizes[1] != image.rows || frames != image.frames) {
-        fail("{}: found {} x {} x {} pixels, expected {} x {} x {}", name_, sizes[0], sizes[1],
-             frames, image.columns, image.rows, image.frames);
-    }
-    bytes_ = static_cast<std::size_t>(image.columns * image.rows * image.frames) * bytes_of(type_);
-    const std::uint64_t there = std::filesystem::file_size(image.file);
-    if (bytes_ / most_expansion > there || decoded.GetBufferLength() != bytes_) {
-        fail("{}: the header promises {} bytes of pixels, the file has {} in all", name_, bytes_,
-             there);
-    }
-}
-
-DicomPixels::~DicomPixels() = default;
-
-void DicomPixels::read(char* to) const {
-    if (!reader_->reader.GetImage().GetBuffer(to)) fail("{}: damaged pixels", name_);
+void read_dicom_pixels(const DicomImage& image, char* to) {
+    if (image.compressed) return decode_dicom(image, to);
+    const OpenedFile file = open_to_read(image.file, static_cast<std::int64_t>(image.pixels_begin));
+    const std::size_t bytes = image.byte_count();
+    const std::size_t found = std::fread(to, 1, bytes, file.get());
+    if (found != bytes)
+        fail("{}: found {} bytes of pixels, expected {}", image.file.string(), found, bytes);
+    normalize(image, to, bytes / bytes_of(image.type));
 }
 
 }  // namespace lamina

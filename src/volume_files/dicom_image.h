@@ -5,49 +5,45 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/value_type.h"
 
 namespace lamina {
 
-// What the header of a DICOM image says, without its pixels. World axes are DICOM's: x to the
-// patient's left, y to the back, z to the head; mm.
+// A DICOM image without its pixels. World axes are DICOM's: x to the patient's left, y to the back,
+// z to the head; mm.
 struct DicomImage {
     std::filesystem::path file;
     std::string series, description;  // SeriesInstanceUID, SeriesDescription
     std::int64_t instance = 0;        // InstanceNumber
     std::int64_t columns = 0, rows = 0, frames = 1;
     std::optional<glm::dvec3> position;                    // of the first pixel's centre
+    std::vector<glm::dvec3> frame_positions;               // of each frame, or none
     glm::dvec3 along_row{1, 0, 0}, along_column{0, 1, 0};  // unit vectors
     glm::dvec3 spacing{1};  // between columns, rows and, of several frames, these
     double slope = 1, intercept = 0;
+
+    // How the pixels are stored: in `allocated` bits, of which `stored` up to the bit `high` count.
+    ValueType type = ValueType::uint8;
+    std::int64_t stored_bits = 8, high_bit = 7;
+    bool big_endian = false, swapped_bytes = false;
+    std::string transfer_syntax;
+    bool compressed = false;
+    std::uint64_t pixels_begin = 0, pixel_bytes = 0;  // place in the file, unless compressed
+
+    std::size_t byte_count() const {
+        return static_cast<std::size_t>(columns * rows * frames) * bytes_of(type);
+    }
 };
 
-// Nothing where the file is no DICOM image. Throws Error where its header is damaged.
-std::optional<DicomImage> read_dicom_header(const std::filesystem::path& file);
+// Nothing where the file is no DICOM image. Throws Error where its header is damaged, or of an
+// image that is no volume.
+std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file);
 
-// The pixels of an image, decoded: columns x rows x frames of them, in native byte order. Throws
-// Error.
-class DicomPixels {
-  public:
-    explicit DicomPixels(const DicomImage& image);
-    ~DicomPixels();
-    DicomPixels(const DicomPixels&) = delete;
-    DicomPixels& operator=(const DicomPixels&) = delete;
-
-    ValueType type() const { return type_; }
-    std::size_t byte_count() const { return bytes_; }
-    void read(char* to) const;
-
-  private:
-    struct Reader;
-    std::string name_;
-    std::unique_ptr<Reader> reader_;
-    ValueType type_ = ValueType::uint8;
-    std::size_t bytes_ = 0;
-};
+// Writes byte_count() bytes of pixels in native byte order to `to`. Throws Error.
+void read_dicom_pixels(const DicomImage& image, char* to);
 
 }  // namespace lamina

@@ -37,7 +37,7 @@ std::map<std::string, Images> images_by_series(const Path& path) {
     std::size_t others = 0;
     for (const Path& file : files) {
         check_interrupt();
-        if (auto image = read_dicom_header(file)) {
+        if (auto image = read_dicom_image(file)) {
             series[image->series].push_back(std::move(*image));
         } else {
             ++others;
@@ -141,32 +141,50 @@ void order(Images& images, const glm::dvec3& normal, const std::string& name,
     for (Images& place : places) images.push_back(std::move(place[static_cast<std::size_t>(time)]));
 }
 
+// A place, and what to call it in messages.
+struct SlicePlace {
+    glm::dvec3 position;
+    std::string name;
+};
+
 // From slice to slice; they must lie on a line at equal distances.
-glm::dvec3 slice_step(const Images& images, const std::string& name) {
-    const std::size_t count = images.size();
+glm::dvec3 slice_step(const std::vector<SlicePlace>& slices, const std::string& name) {
+    const std::size_t count = slices.size();
     std::vector<double> distances;
     for (std::size_t i = 1; i < count; ++i)
-        distances.push_back(glm::length(*images[i].position - *images[i - 1].position));
+        distances.push_back(glm::length(slices[i].position - slices[i - 1].position));
     std::vector<double> sorted = distances;
     std::ranges::sort(sorted);
     const double usual = sorted[sorted.size() / 2];
     for (std::size_t i = 0; i < distances.size(); ++i) {
-        if (std::abs(distances[i] - usual) <= place_tolerance * usual) continue;
+        if (usual > 0 && std::abs(distances[i] - usual) <= place_tolerance * usual) continue;
         fail(
             "{}: found {:.6g} mm between {} and {}, expected {:.6g} as between most: slices are "
             "missing or not equally spaced",
-            name, distances[i], images[i].file.filename().string(),
-            images[i + 1].file.filename().string(), usual);
+            name, distances[i], slices[i].name, slices[i + 1].name, usual);
     }
     const glm::dvec3 step =
-        (*images.back().position - *images.front().position) / static_cast<double>(count - 1);
+        (slices.back().position - slices.front().position) / static_cast<double>(count - 1);
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3 place = *images.front().position + static_cast<double>(i) * step;
-        if (glm::length(*images[i].position - place) > 2 * place_tolerance * usual)
+        const glm::dvec3 place = slices.front().position + static_cast<double>(i) * step;
+        if (glm::length(slices[i].position - place) > 2 * place_tolerance * usual)
             fail("{}: ImagePositionPatient: {} does not lie on a line with the others", name,
-                 images[i].file.filename().string());
+                 slices[i].name);
     }
     return step;
+}
+
+// Of the files, or of the frames of one.
+std::vector<SlicePlace> places_of(const Images& images) {
+    std::vector<SlicePlace> places;
+    if (images.size() > 1) {
+        for (const DicomImage& image : images)
+            places.push_back({*image.position, image.file.filename().string()});
+    } else if (images[0].frames == std::ssize(images[0].frame_positions)) {
+        for (const glm::dvec3& position : images[0].frame_positions)
+            places.push_back({position, fmt::format("frame {}", places.size() + 1)});
+    }
+    return places;
 }
 
 // The slices of a tilted gantry are skewed.
@@ -193,10 +211,12 @@ DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request) {
     glm::dvec3 step = normal * first.spacing.z;
     if (series.slices.size() > 1) {
         order(series.slices, normal, series.name, request);
-        if (series.slices.size() > 1) step = slice_step(series.slices, series.name);
-        expect_straight(step, first, series.name);
     } else {
         taken_of(series.name, "time", request.time, 1);
+    }
+    if (const auto places = places_of(series.slices); places.size() > 1) {
+        step = slice_step(places, series.name);
+        expect_straight(step, first, series.name);
     }
     const auto slices = static_cast<std::int64_t>(series.slices.size());
     Grid& grid = series.grid;

@@ -23,8 +23,18 @@ constexpr VolumeFormat formats[] = {
 #ifdef LAMINA_HAS_HDF5
     {"HDF5", {".h5", ".hdf5", ".nc"}, is_hdf5, read_hdf5, files_of_hdf5, true, false, true, true},
 #endif
-#ifdef LAMINA_HAS_DICOM
+#ifdef LAMINA_HAS_GDCM
     {"DICOM", {".dcm"}, is_dicom, read_dicom, files_of_dicom, true, false, false, true},
+#else
+    {"DICOM without compression",
+     {".dcm"},
+     is_dicom,
+     read_dicom,
+     files_of_dicom,
+     true,
+     false,
+     false,
+     true},
 #endif
     {"MetaImage",
      {".mha", ".mhd"},

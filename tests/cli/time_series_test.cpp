@@ -29,7 +29,7 @@ std::string nrrd_of(const std::string& samples) {
     return "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 8 7\nencoding: raw\n\n" + samples;
 }
 
-class TimeSeriesRun : public testing::Test {
+class TimeSeriesRun : public ::testing::Test {
   protected:
     void SetUp() override {
         for (int step = 0; step < 4; ++step)

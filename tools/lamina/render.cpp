@@ -91,8 +91,8 @@ void run(const RenderOptions& options) {
     std::optional<DataSeries> series;
     SceneOptions named = options.scene;
     std::function<void(nlohmann::json&)> edit;
-    if (!options.output.time.empty()) {
-        series.emplace(named.file, time_range(options.output.time));
+    if (options.output.time) {
+        series.emplace(named.file, time_range(*options.output.time));
         named.file = series->first_file();
         edit = [&](nlohmann::json& of_scene) { series->begin(of_scene); };
     }
@@ -152,7 +152,8 @@ void add_render(CLI::App& app, int&) {
     verb->footer("The shortest: lamina render head.nrrd -o head.png");
     verb->add_option(
             "SCENE", options->scene.file,
-            "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .pvtu, .pvd, .vtk, .node, "
+            "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .pvtu, .pvd, "
+            ".vtk, .node, "
             ".ele); what a scene leaves open is chosen from the data. - reads a scene from stdin")
         ->required();
     add_output_options(*verb, options->output);

@@ -68,14 +68,14 @@ bool OutputOptions::piped() const {
 void OutputOptions::check() const {
     if (views > 0 && frames > 0) throw UsageError("--turntable and --frames: expected one of them");
     if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
-    if (!time.empty() && (views > 0 || frames > 0))
+    if (time && (views > 0 || frames > 0))
         throw UsageError("--time: expected neither --turntable nor --frames beside it");
-    if (force && views == 0 && time.empty())
+    if (force && views == 0 && !time)
         throw UsageError("--force: expected --turntable N or --time, too");
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
     if (views > 0) {
         Turntable::check(*this);
-    } else if (!output.empty() && !time.empty()) {
+    } else if (!output.empty() && time) {
         TimeSeries::check(*this);
     } else if (!output.empty()) {
         picture_format(output, format);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,12 @@ namespace lamina {
 
 // The options of `lamina render` that say what is written.
 struct OutputOptions {
-    std::string output;  // -o; empty: nothing, "-": stdout
-    std::string format;  // --format
-    int frames = 0;      // --frames; 0: none
-    int views = 0;       // --turntable; 0: none
-    std::string time;    // --time; empty: none
-    bool force = false;  // --force
+    std::string output;               // -o; empty: nothing, "-": stdout
+    std::string format;               // --format
+    int frames = 0;                   // --frames; 0: none
+    int views = 0;                    // --turntable; 0: none
+    std::optional<std::string> time;  // --time
+    bool force = false;               // --force
 
     bool piped() const;
     void check() const;  // throws UsageError where they contradict one another
