@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "volume_files/dicom_elements.h"
 #include "volume_files/dicom_series.h"
+#include "volume_files/isolated_read.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
 
@@ -35,6 +36,8 @@ class SliceReader {
         const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
         samples_.type = scales_alike_ ? type_ : ValueType::float32;
         samples_.bytes = sample_memory(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
+        if (std::ranges::any_of(series_.slices, &DicomImage::compressed))
+            allow_bytes(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
         std::size_t done = 0;
         for (const DicomImage& slice : series_.slices) {
             check_interrupt();
@@ -98,7 +101,13 @@ bool is_dicom(const std::filesystem::path& path) {
 
 Volume read_dicom(const std::filesystem::path& path, const VolumeRequest& request) {
     const DicomSeries series = read_dicom_series(path, request);
-    return drawn_volume(series.grid, SliceReader(series).read());
+    const auto compressed = [](const DicomImage& slice) { return slice.compressed; };
+    if (std::ranges::none_of(series.slices, compressed))
+        return drawn_volume(series.grid, SliceReader(series).read());
+    const ReadSamples found = read_isolated(series.name, "GDCM", [&] {
+        return ReadSamples{series.grid, SliceReader(series).read()};
+    });
+    return drawn_volume(series.grid, found.samples);
 }
 
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 // DICOM PS3.3, C.7.6.2 (image plane), C.7.6.3 (image pixel), C.11.1 (rescale).
 #include "volume_files/dicom_image.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -11,7 +12,6 @@
 #include "volume_files/dicom_codec.h"
 #include "volume_files/dicom_elements.h"
 #include "volume_files/opened_file.h"
-#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -130,7 +130,9 @@ void take_bits(const DicomImage& image, char* pixels, std::size_t count) {
 void normalize(const DicomImage& image, char* pixels, std::size_t count) {
     const std::size_t bytes = bytes_of(image.type);
     const bool big = std::endian::native == std::endian::big;
-    if (image.big_endian != big) swap_bytes(pixels, static_cast<std::int64_t>(count), bytes);
+    // Without threads, which a process of its own has none of (isolated_read.h).
+    for (std::size_t i = 0; i < count && image.big_endian != big; ++i)
+        std::reverse(pixels + i * bytes, pixels + (i + 1) * bytes);
     if (image.swapped_bytes) {
         for (std::size_t i = 0; i + 1 < count; i += 2) std::swap(pixels[i], pixels[i + 1]);
     }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "volume_files/isolated_read.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
 
@@ -222,6 +223,7 @@ std::shared_ptr<void> Hdf5Array::read(const std::vector<std::int64_t>& index,
              bytes, stored);
     }
     expect_filters();
+    allow_bytes(bytes);
     std::shared_ptr<void> samples = sample_memory(bytes);
     read_slabs(index, static_cast<char*>(samples.get()));
     return samples;

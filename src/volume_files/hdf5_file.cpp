@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <mutex>
 #include <string_view>
 
 #include "base/error.h"
@@ -12,6 +11,7 @@
 #include "base/warning.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/hdf5_array.h"
+#include "volume_files/isolated_read.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
 
@@ -140,24 +140,7 @@ void mark_missing(const Hdf5Array& array, StoredSamples& samples, std::int64_t c
     }
 }
 
-}  // namespace
-
-bool is_hdf5(const std::filesystem::path& path) {
-    constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
-    const std::filesystem::path file = array_path(path).file;
-    std::error_code unreadable;
-    if (std::filesystem::is_directory(file, unreadable)) return false;
-    const std::string beginning = file_beginning(file, 2048 + signature.size());
-    for (const std::size_t at : {0, 512, 1024, 2048}) {
-        if (beginning.size() > at && std::string_view(beginning).substr(at).starts_with(signature))
-            return true;
-    }
-    return false;
-}
-
-Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request) {
-    static std::mutex library;  // Debian's is not safe for threads
-    const std::lock_guard lock(library);
+ReadSamples read_samples(const std::filesystem::path& path, const VolumeRequest& request) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its errors become ours
     const ArrayPath named = array_path(path);
     const std::string file_name = named.file.string();
@@ -186,7 +169,28 @@ Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request
     samples.scale = attribute_or(array, "scale_factor", 1);
     if (samples.scale == 0) fail("{}: scale_factor: found 0, expected another number", name);
     samples.offset = attribute_or(array, "add_offset", 0);
-    return drawn_volume(grid, samples);
+    return {grid, samples};
+}
+
+}  // namespace
+
+bool is_hdf5(const std::filesystem::path& path) {
+    constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+    const std::filesystem::path file = array_path(path).file;
+    std::error_code unreadable;
+    if (std::filesystem::is_directory(file, unreadable)) return false;
+    const std::string beginning = file_beginning(file, 2048 + signature.size());
+    for (const std::size_t at : {0, 512, 1024, 2048}) {
+        if (beginning.size() > at && std::string_view(beginning).substr(at).starts_with(signature))
+            return true;
+    }
+    return false;
+}
+
+Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request) {
+    const ReadSamples found =
+        read_isolated(path.string(), "libhdf5", [&] { return read_samples(path, request); });
+    return drawn_volume(found.grid, found.samples);
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {

@@ -16,7 +16,8 @@ bool is_hdf5(const std::filesystem::path& path);
 // channel, and before that the time. The path names the array, or `request.array`; else it is the
 // only one of three dimensions and more. Distances and places come from dimension scales
 // (NetCDF's coordinate variables) or the attribute element_size_um; the attributes scale_factor and
-// add_offset count. Throws Error. Safe from any thread: one reads at a time.
+// add_offset count. Throws Error. libhdf5 runs in a process of
+// its own (volume_files/isolated_read.h).
 Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request);
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path);

@@ -20,13 +20,6 @@ std::filesystem::path scratch_in(const std::string& folder, const std::string& n
     return place;
 }
 
-// Compressed pixels are decoded by GDCM, whose assertions end the program where they are damaged
-// (docs/arrays.md).
-bool has_compressed_pixels(std::string_view input) {
-    return input.find("1.2.840.10008.1.2.4") != input.npos ||
-           input.find("1.2.840.10008.1.2.5") != input.npos;
-}
-
 }  // namespace
 
 void run_zarr(std::string_view input) {
@@ -48,7 +41,6 @@ void run_hdf5(std::string_view input) {
 }
 
 void run_dicom(std::string_view input) {
-    if (has_compressed_pixels(input)) return;
     const InputParts slices = parts_of(input);
     std::filesystem::remove_all(scratch_folder() / "slices");
     const auto folder = scratch_in("slices", "1", slices.first);

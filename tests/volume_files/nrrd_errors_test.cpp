@@ -87,7 +87,8 @@ TEST_F(NrrdErrors, LongLines) {
 TEST_F(NrrdErrors, TypesAndEncodingsThatAreNotSupported) {
     const std::string data(24 * 8, 'x');
     expect_says(
-        error_of(write("a.nrrd", with("type", "type: block\nblock size: 3\nendian: little\n") + "\n" + data)),
+        error_of(write("a.nrrd",
+                       with("type", "type: block\nblock size: 3\nendian: little\n") + "\n" + data)),
         {"'block'", "expected a type of numbers"});
     expect_says(error_of(write("a.nrrd", with("encoding", "encoding: hex\n") + "\n" + data)),
                 {"'hex'", "expected raw, gzip, bzip2 or ascii"});
