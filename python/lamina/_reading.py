@@ -2,16 +2,22 @@
 """Data from files."""
 from __future__ import annotations
 
+import json
 import pathlib
+from typing import Any
 
 from . import _lamina
 from ._errors import Error
 from ._mesh import Mesh
+from ._plain import plain
 from ._volume import Path, Volume
 
 
-def read(file: Path) -> Volume | Mesh:
+def read(file: Path, **selection: Any) -> Volume | Mesh:
     """The volume or the tetrahedral mesh in a file, of every kind that ``lamina render`` draws, known by its content.
+
+    Of a volume's file ``selection`` has the keys of a scene's volume object: ``array``, ``level``, ``channel``, ``time``,
+    ``spacing``, ``origin``; of a file without a header ``size``, ``type``, ``offset`` and ``endian``.
 
     World coordinates are the file's own. Raises ``lamina.Error`` for bad files, and for scenes: ``lamina.Scene.load``
     reads these.
@@ -21,10 +27,11 @@ def read(file: Path) -> Volume | Mesh:
     <lamina.Volume 4 x 3 x 2 int16, from (0, 0, 0) to (3, 2, 1)>
     """
     path = pathlib.Path(file)
-    kind = _lamina.kind_of_file(path)
+    kind = "volume" if selection else _lamina.kind_of_file(path)
     if kind == "scene":
         raise Error(f"{path}: holds a scene, expected a volume or a mesh; lamina.Scene.load reads scenes")
     absolute = path.absolute()
     if kind == "volume":
-        return Volume._of(_lamina.Volume.load(path), absolute)
+        source = {"path": str(absolute), **plain(selection)} if selection else str(absolute)
+        return Volume._of(_lamina.Volume.load(json.dumps({"version": 1, "volume": source})), absolute, source)
     return Mesh._of(_lamina.Mesh.load(path), absolute)

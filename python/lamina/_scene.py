@@ -79,12 +79,15 @@ class Scene(dict[str, Any]):
         path = pathlib.Path(file)
         document = dict(self)
         if isinstance(self.data, Volume):
-            document["volume"] = str(_kept(self.data, path.with_suffix(".nrrd")))
+            document["volume"] = self.data._source or str(_kept(self.data, path.with_suffix(".nrrd")))
         elif self.data is not None:
             document["mesh"] = str(_kept(self.data, path.with_suffix(".vtu")))
         for key in ("volume", "mesh"):
             if self.data is None and isinstance(document.get(key), str):
                 document[key] = self._absolute(document[key])
+        volume = document.get("volume")
+        if self.data is None and isinstance(volume, Mapping) and isinstance(volume.get("path"), str):
+            document["volume"] = {**volume, "path": self._absolute(volume["path"])}
         write_file(path, (json.dumps(document, indent=1) + "\n").encode())
 
     def _absolute(self, name: str) -> str:
@@ -136,7 +139,7 @@ def _plain_scene_of(data: Any) -> Scene:
     if isinstance(data, (str, os.PathLike)):
         return _file_scene(pathlib.Path(data))
     if isinstance(data, Volume):
-        return Scene({"version": 1, **({"volume": data.file} if data.file else {})}, data)
+        return Scene({"version": 1, **({"volume": data._source} if data._source else {})}, data)
     if isinstance(data, Mesh):
         document: dict[str, Any] = {"version": 1, **({"mesh": data.file} if data.file else {})}
         if not data._core.point_scalars:

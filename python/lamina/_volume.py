@@ -58,11 +58,14 @@ class Volume:
             warn(self._conversion, PrecisionWarning)
         self._core = _lamina.Volume.over(np.asarray(drawn), steps, place, words)
         self._file: pathlib.Path | None = None
+        self._source: str | dict[str, Any] | None = None
 
     @classmethod
-    def _of(cls, core: _lamina.Volume, file: pathlib.Path | None = None) -> Volume:
+    def _of(cls, core: _lamina.Volume, file: pathlib.Path | None = None,
+            source: str | dict[str, Any] | None = None) -> Volume:
+        """`source`: what scenes call the volume."""
         volume = cls.__new__(cls)
-        volume._core, volume._conversion, volume._file = core, "", file
+        volume._core, volume._conversion, volume._file, volume._source = core, "", file, source
         return volume
 
     @property

@@ -77,8 +77,9 @@ void bind_volume(py::module_& module) {
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
                     py::arg("centers"))
         .def_static(
-            "load", [](const std::filesystem::path& file) { return load_volume(file); },
-            py::arg("file"), py::call_guard<py::gil_scoped_release>())
+            "load",
+            [](const std::string& scene) { return load_volume(parse_scene(scene, "lamina.read")); },
+            py::arg("scene"), py::call_guard<py::gil_scoped_release>())
         .def(
             "save",
             [](const Volume& volume, const std::filesystem::path& file) {

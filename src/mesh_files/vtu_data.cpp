@@ -109,9 +109,8 @@ std::string read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding,
 
 }  // namespace
 
-template <typename To>
-std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                              std::int64_t count, const std::string& what) {
+std::string read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                           std::int64_t count, const std::string& what) {
     if (count == 0) return {};
     std::uint64_t expected = 0;
     if (__builtin_mul_overflow(static_cast<std::uint64_t>(count), bytes_of(type), &expected)) {
@@ -125,6 +124,14 @@ std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, Va
         values = read_compressed(bytes, encoding, expected, what);
     }
     source.text.remove_prefix(bytes.used());
+    return values;
+}
+
+template <typename To>
+std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                              std::int64_t count, const std::string& what) {
+    if (count == 0) return {};
+    const std::string values = read_vtu_bytes(source, encoding, type, count, what);
     return values_from_bytes<To>(type, values.data(), static_cast<std::size_t>(count),
                                  encoding.swap_bytes);
 }

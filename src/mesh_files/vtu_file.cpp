@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -49,9 +50,15 @@ void warn_of_surplus(const std::string& what, std::string_view text, const char*
                      surplus, behind));
 }
 
+void swap_words(ValueType type, std::string& bytes) {
+    const std::size_t word = bytes_of(type);
+    for (std::size_t i = 0; i < bytes.size(); i += word)
+        std::reverse(bytes.data() + i, bytes.data() + i + word);
+}
+
 }  // namespace
 
-VtuFile::VtuFile(const std::filesystem::path& path)
+VtuFile::VtuFile(const std::filesystem::path& path, const char* grid_type)
     : name_(path.string()), bytes_(read_file_bytes(path)), file_bytes_(bytes_.size()) {
     constexpr std::string_view last_tag = "</VTKFile>";
     const std::size_t end = bytes_.rfind(last_tag);
@@ -60,7 +67,7 @@ VtuFile::VtuFile(const std::filesystem::path& path)
                         "</VTKFile>");
     }
     cut_off_appended_data();
-    parse();
+    parse(grid_type);
 }
 
 // Raw appended data are not XML.
@@ -87,7 +94,7 @@ void VtuFile::cut_off_appended_data() {
     xml_ = bytes_.substr(0, tag_end + 1) + "</AppendedData></VTKFile>";
 }
 
-void VtuFile::parse() {
+void VtuFile::parse(const char* grid_type) {
     const std::ptrdiff_t marks =
         std::count_if(xml_.begin(), xml_.end(), [](char c) { return c == '<' || c == '='; });
     if (marks > most_marks) {
@@ -102,16 +109,16 @@ void VtuFile::parse() {
         fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml_.size(),
              result.description());
     }
-    read_root(document_.child("VTKFile"));
+    read_root(document_.child("VTKFile"), grid_type);
 }
 
-void VtuFile::read_root(pugi::xml_node root) {
+void VtuFile::read_root(pugi::xml_node root, const char* grid_type) {
     const std::string type = root.attribute("type").value();
-    if (type != "UnstructuredGrid") {
-        fail("{}: VTKFile type: found {}, expected 'UnstructuredGrid'", name_, said(type.c_str()));
+    if (type != grid_type) {
+        fail("{}: VTKFile type: found {}, expected '{}'", name_, said(type.c_str()), grid_type);
     }
-    grid_ = root.child("UnstructuredGrid");
-    if (!grid_) fail("{}: no <UnstructuredGrid> in it", name_);
+    grid_ = root.child(grid_type);
+    if (!grid_) fail("{}: no <{}> in it", name_, grid_type);
     const std::string order = root.attribute("byte_order").as_string("LittleEndian");
     if (order != "LittleEndian" && order != "BigEndian") {
         fail("{}: byte_order: found {}, expected 'LittleEndian' or 'BigEndian'", name_,
@@ -191,24 +198,24 @@ void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
     }
 }
 
-template <typename To>
-std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
-                                const std::string& what) const {
+std::int64_t VtuFile::value_count(std::int64_t tuples, std::int64_t components,
+                                  const std::string& what) const {
     std::int64_t count = 0;
     if (__builtin_mul_overflow(tuples, components, &count)) {
         fail("{}: the file promises {} tuples of {} values, more than any file holds", what, tuples,
              components);
     }
-    count_kept(count, what);
-    const ValueType type = type_of(array, what);
-    if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
-        fail("{}: type: found {}, expected an integer type", what, vtk_name_of(type));
-    }
+    return count;
+}
+
+template <typename Binary, typename Text>
+auto VtuFile::decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
+                      const Binary& binary, const Text& in_text) const {
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "appended") {
         VtuSource source = appended_at(array, what);
         const std::size_t from = source.text.size();
-        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        auto values = binary(source);
         count_appended(from - source.text.size(), what);
         return values;
     }
@@ -217,7 +224,7 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
     if (!joined.empty()) text = joined;
     if (format == "binary") {
         VtuSource source{text, true};
-        auto values = read_vtu_data<To>(source, encoding_, type, count, what);
+        auto values = binary(source);
         warn_of_surplus(what, source.text, "its base64 data");
         return values;
     }
@@ -226,11 +233,59 @@ std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::
              said(format.c_str()));
     }
     TextReader reader(text);
-    auto values = read_text_values<To>(reader, type, count, what);
+    auto values = in_text(reader);
     if (!reader.at_end()) {
         fail("{}: found more than the {} values expected: {}", what, count, next_word(reader));
     }
     return values;
+}
+
+template <typename To>
+std::vector<To> VtuFile::values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                                const std::string& what) const {
+    const std::int64_t count = value_count(tuples, components, what);
+    count_kept(count, what);
+    const ValueType type = type_of(array, what);
+    if (std::is_same_v<To, std::int64_t> && !is_integer(type)) {
+        fail("{}: type: found {}, expected an integer type", what, vtk_name_of(type));
+    }
+    return decoded(
+        array, count, what,
+        [&](VtuSource& source) { return read_vtu_data<To>(source, encoding_, type, count, what); },
+        [&](TextReader& reader) { return read_text_values<To>(reader, type, count, what); });
+}
+
+VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                                 const std::string& what) const {
+    const std::int64_t count = value_count(tuples, components, what);
+    const ValueType type = type_of(array, what);
+    const auto words = static_cast<std::size_t>(count);
+    return decoded(
+        array, count, what,
+        [&](VtuSource& source) {
+            VtuValues values{type, read_vtu_bytes(source, encoding_, type, count, what)};
+            if (encoding_.swap_bytes) swap_words(type, values.bytes);
+            return values;
+        },
+        [&](TextReader& reader) {
+            VtuValues values{type, {}};
+            const auto store = [&](const auto& numbers) {
+                values.bytes.resize(words * bytes_of(type));
+                with_type(type, [&](auto zero) {
+                    for (std::size_t i = 0; i < words; ++i) {
+                        const auto value = static_cast<decltype(zero)>(numbers[i]);
+                        std::memcpy(values.bytes.data() + i * sizeof value, &value, sizeof value);
+                    }
+                });
+            };
+            if (type == ValueType::uint64)
+                store(read_text_values<std::uint64_t>(reader, type, count, what));
+            else if (is_integer(type))
+                store(read_text_values<std::int64_t>(reader, type, count, what));
+            else
+                store(read_text_values<double>(reader, type, count, what));
+            return values;
+        });
 }
 
 template std::vector<double> VtuFile::values(pugi::xml_node, std::int64_t, std::int64_t,

@@ -13,13 +13,14 @@
 
 namespace lamina {
 
-// A VTK XML file of an unstructured grid: its elements, and the numbers of its DataArrays in any
+// A VTK XML file of one kind of grid: its elements, and the numbers of its DataArrays in any
 // encoding. Throws Error for anything invalid.
 class VtuFile {
   public:
-    explicit VtuFile(const std::filesystem::path& path);
+    explicit VtuFile(const std::filesystem::path& path, const char* grid_type = "UnstructuredGrid");
 
     const std::string& name() const { return name_; }
+    std::size_t byte_count() const { return file_bytes_; }
     pugi::xml_node grid() const { return grid_; }
 
     // A whole number >= 0 in an attribute.
@@ -32,11 +33,20 @@ class VtuFile {
     template <typename To>
     std::vector<To> values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
                            const std::string& what) const;
+    // The same in their own type and native byte order.
+    VtuValues stored_values(pugi::xml_node array, std::int64_t tuples, std::int64_t components,
+                            const std::string& what) const;
 
   private:
+    // Calls binary(source) or text(reader), whichever holds the values, for `count` of them.
+    template <typename Binary, typename Text>
+    auto decoded(pugi::xml_node array, std::int64_t count, const std::string& what,
+                 const Binary& binary, const Text& text) const;
+    std::int64_t value_count(std::int64_t tuples, std::int64_t components,
+                             const std::string& what) const;
     void cut_off_appended_data();
-    void parse();
-    void read_root(pugi::xml_node root);
+    void parse(const char* grid_type);
+    void read_root(pugi::xml_node root, const char* grid_type);
     ValueType type_of(pugi::xml_node array, const std::string& what) const;
     VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
     void count_appended(std::size_t bytes, const std::string& what) const;

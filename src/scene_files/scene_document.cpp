@@ -8,6 +8,7 @@
 #include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "mesh_files/mesh_file.h"
+#include "scene_files/volume_selection_json.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -27,13 +28,16 @@ FileKind kind_of_file(const std::filesystem::path& file) {
         file.string(), volume_format_names());
 }
 
-nlohmann::json scene_document(const std::filesystem::path& file) {
-    const FileKind kind = kind_of_file(file);
+nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request) {
+    const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
     if (kind == FileKind::scene) return load_json(file);
-    return {
-        {"version", 1},
-        {kind == FileKind::volume ? "volume" : "mesh", std::filesystem::absolute(file).string()},
-        {"nan", "transparent"}};
+    const std::string path = std::filesystem::absolute(file).string();
+    nlohmann::json document{{"version", 1}, {"nan", "transparent"}};
+    if (kind == FileKind::volume)
+        document["volume"] = volume_selection_json(path, request);
+    else
+        document["mesh"] = path;
+    return document;
 }
 
 }  // namespace lamina

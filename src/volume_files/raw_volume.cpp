@@ -16,7 +16,7 @@ Volume read_raw(const std::filesystem::path& path, const VolumeRequest& request)
     }
     StoredData data;
     data.path = path;
-    data.teller = "its size and type";
+    data.teller = "the layout";
     data.type = *type;
     for (const std::int64_t size : raw.size) {
         if (size < 1)

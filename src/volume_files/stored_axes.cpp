@@ -149,6 +149,10 @@ void read_taken(ByteReader& reader, Axes axes, std::size_t value_bytes, void* to
     TakenReader(reader, value_bytes, static_cast<char*>(to)).read(axes);
 }
 
+void take_of_memory(const char* from, Axes axes, std::size_t value_bytes, char* to) {
+    gather(from, axes, value_bytes, to);
+}
+
 StoredAxis taken_axis(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count) {
     if (wanted && (*wanted < 0 || *wanted >= count)) {

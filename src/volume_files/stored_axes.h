@@ -43,6 +43,10 @@ std::size_t taken_bytes(const std::string& file, std::span<const StoredAxis> axe
 void read_taken(ByteReader& reader, std::span<const StoredAxis> axes, std::size_t value_bytes,
                 void* to);
 
+// The same of an array in memory.
+void take_of_memory(const char* from, std::span<const StoredAxis> axes, std::size_t value_bytes,
+                    char* to);
+
 // Both at once: which one is taken.
 std::int64_t taken_of(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);

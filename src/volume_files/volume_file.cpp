@@ -16,6 +16,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
+constexpr VolumeFormat raw_format{"raw", {}, {}, read_raw, {}, false, false, false, false};
+
 const VolumeFormat& expected_format(const Path& path) {
     const VolumeFormat* const format = format_of(path);
     if (format != nullptr) return *format;
@@ -27,8 +29,8 @@ const VolumeFormat& expected_format(const Path& path) {
 void expect_known_keys(const Path& path, const VolumeFormat& format, const VolumeRequest& request) {
     const auto expect = [&](bool known, bool told, const char* key) {
         if (told && !known) {
-            fail("{}: {}: expected none: {} files have no several to choose from", path.string(),
-                 key, format.name);
+            fail("{}: {}: expected no such key: {} files hold only one", path.string(), key,
+                 format.name);
         }
     };
     expect(format.has_arrays, !request.array.empty(), "array");
@@ -57,7 +59,10 @@ bool is_volume_file(const Path& path) {
 }
 
 Volume read_volume(const Path& path, const VolumeRequest& request) {
-    if (request.raw) return placed(path, read_raw(path, request), request);
+    if (request.raw) {
+        expect_known_keys(path, raw_format, request);
+        return placed(path, read_raw(path, request), request);
+    }
     const VolumeFormat& format = expected_format(path);
     expect_known_keys(path, format, request);
     return placed(path, format.read(path, request), request);

@@ -8,7 +8,11 @@
 #include "volume_files/dicom.h"
 #include "volume_files/hdf5_file.h"
 #include "volume_files/metaimage.h"
+#include "volume_files/nifti.h"
+#include "volume_files/npy_volume.h"
 #include "volume_files/nrrd.h"
+#include "volume_files/tiff_stack.h"
+#include "volume_files/vti.h"
 #include "volume_files/zarr.h"
 
 namespace lamina {
@@ -44,7 +48,27 @@ constexpr VolumeFormat formats[] = {
      false,
      false,
      true,
-     true}};
+     true},
+    {"NIfTI",
+     {".nii", ".nii.gz", ".hdr", ".img"},
+     is_nifti,
+     read_nifti,
+     files_of_nifti,
+     false,
+     false,
+     true,
+     true},
+    {"VTK image data", {".vti"}, is_vti, read_vti, files_of_vti, true, false, true, false},
+    {"TIFF",
+     {".tif", ".tiff"},
+     is_tiff_stack,
+     read_tiff_stack,
+     files_of_tiff_stack,
+     false,
+     false,
+     true,
+     true},
+    {"NumPy", {".npy"}, is_npy, read_npy_volume, files_of_npy, false, false, false, false}};
 
 bool has_extension(const VolumeFormat& format, const Path& path) {
     std::string name = path.filename().string();

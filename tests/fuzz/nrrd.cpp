@@ -21,7 +21,11 @@ bool data_file_stays_in_folder(std::string_view header) {
     for (const char* const field : {"data file", "datafile"}) {
         for (std::size_t at = lower.find(field); at != lower.npos; at = lower.find(field, at + 1)) {
             const std::size_t end = std::min(lower.find('\n', at), lower.size());
-            if (!stays_in_folder(std::string_view(lower).substr(at, end - at))) return false;
+            // After LIST all lines are names.
+            const bool list =
+                std::string_view(lower).substr(at, end - at).find("list") != lower.npos;
+            const std::size_t length = list ? lower.npos : end - at;
+            if (!stays_in_folder(std::string_view(lower).substr(at, length))) return false;
         }
     }
     return true;

@@ -6,9 +6,13 @@
 #include "volume/min_max_bricks.h"
 
 namespace lamina::fuzz {
+namespace {
+
+constexpr std::int64_t most_planned = 4096;
+
+}  // namespace
 
 void check_volume(const Volume& volume) {
-    constexpr std::int64_t most_planned = 4096;
     const MinMaxBricks bricks = measure_bricks(volume);
     const Grid::Bounds bounds = volume.grid().bounds();
     for (int axis = 0; axis < 3; ++axis) {

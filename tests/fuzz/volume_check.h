@@ -5,7 +5,7 @@
 
 namespace lamina::fuzz {
 
-// Measures a volume that was read; a small one is planned for, too. Throws as check_slice_plans().
+// Measures a volume that was read, and plans its picture where it is small.
 void check_volume(const Volume& volume);
 
 }  // namespace lamina::fuzz

@@ -214,6 +214,21 @@ def test_volumes_come_back_from_files(blob, tmp_path):
         lamina.read(tmp_path / "nothing.nrrd")
 
 
+def test_what_a_file_does_not_say_is_told(function, tmp_path):
+    stored = np.arange(2 * 3 * 4, dtype=">u2").reshape(2, 3, 4)
+    (tmp_path / "a.bin").write_bytes(b"head" + stored.tobytes())
+    volume = lamina.read(tmp_path / "a.bin", size=(4, 3, 2), type="uint16", offset=4, endian="big", spacing=(1, 2, 3))
+    assert np.array_equal(volume.array, stored) and volume.spacing == (1, 2, 3)
+    scene = lamina.render(volume, function, size=(8, 6)).scene
+    assert scene["volume"]["path"] == str(tmp_path / "a.bin") and scene["volume"]["endian"] == "big"
+    scene.save(tmp_path / "a.json")
+    assert lamina.Scene.load(tmp_path / "a.json")["volume"] == scene["volume"]
+    with pytest.raises(lamina.Error, match="a.bin: channel: expected no such key: raw files hold only one"):
+        lamina.read(tmp_path / "a.bin", size=(4, 3, 2), type="uint16", channel=1)
+    with pytest.raises(lamina.Error, match="chanel.*channel"):
+        lamina.read(tmp_path / "a.bin", chanel=1)
+
+
 def test_bare_arrays_are_volumes(blob, function):
     picture = lamina.render(blob.array, function, size=(16, 12))
     assert picture.array.max() > 0

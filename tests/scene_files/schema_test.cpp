@@ -61,6 +61,8 @@ TEST(Schema, NamesTheKeysOfTheReader) {
     in_reader.merge(asked_for(with("/clip", {{"planes", {{{"point", place}, {"normal", place}}}},
                                              {"box", {{"min", place}, {"max", place}}}})));
     in_reader.merge(asked_for(with("/lighting", {{"lights", {{{"color", display}}}}})));
+    in_reader.merge(
+        asked_for(with("/volume", {{"path", "a.bin"}, {"size", {4, 3, 2}}, {"type", "uint8"}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
     EXPECT_EQ(in_schema, in_reader);

@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "mesh_files/mesh_file.h"
 #include "named_output.h"
-#include "scene_files/scene_document.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -52,7 +51,7 @@ DataSeries::DataSeries(std::string file, const TimeRange& range)
     : steps_(range.steps()), first_file_(std::move(file)) {
     if (first_file_ == standard_stream) return;
     file_ = take(first_file_, "SCENE");
-    if (file_ && kind_of_file(first_file_) == FileKind::scene) {
+    if (file_ && Path(first_file_).extension() == ".json") {
         throw UsageError(fmt::format(
             "--time: {}: found a scene, expected a data file, or a scene whose volume or mesh has "
             "the number in its path",

@@ -13,6 +13,7 @@
 #include "different_files.h"
 #include "file_report.h"
 #include "mesh_files/mesh_file.h"
+#include "raw_options.h"
 #include "scene_files.h"
 #include "statistics_report.h"
 #include "verbs.h"
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
     std::string file, png;
+    RawOptions raw;
     bool json = false;
 };
 
@@ -49,14 +51,18 @@ void run(const InfoOptions& options) {
     if (!options.png.empty() && std::filesystem::path(options.png).extension() != ".png") {
         throw UsageError(fmt::format("--png {}: expected a name that ends in .png", options.png));
     }
-    const bool volume = is_volume_file(options.file);
+    const VolumeRequest request = request_of(options.raw);
+    const bool volume = request.raw || is_volume_file(options.file);
     if (!volume && !is_mesh_file(options.file)) {
-        fail("{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)",
-             options.file, volume_format_names());
+        fail(
+            "{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
+            ".node, .ele)",
+            options.file, volume_format_names());
     }
-    expect_different_files(volume ? files_of_volume(options.file) : files_of_mesh(options.file),
-                           {options.png});
-    const Json info = volume ? report_on_volume(options.file, options.png)
+    expect_different_files(
+        volume ? files_of_volume(options.file, request) : files_of_mesh(options.file),
+        {options.png});
+    const Json info = volume ? report_on_volume(options.file, options.png, request)
                              : report_on_mesh(options.file, options.png);
     write_result(options.json ? json_text(info, 2) + "\n" : table_text(info));
 }
@@ -68,8 +74,9 @@ void add_info(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand("info", "What a file contains");
     const auto options = std::make_shared<InfoOptions>();
     verb->add_option("FILE", options->file,
-                     "volume (.nrrd, .nhdr) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
+                     "volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
+    add_raw_options(*verb, options->raw);
     verb->add_flag("--json", options->json, "print JSON instead of a table");
     verb->add_option(
         "--png", options->png,

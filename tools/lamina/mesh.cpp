@@ -17,6 +17,7 @@
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
+#include "raw_options.h"
 #include "scene_data.h"
 #include "scene_files.h"
 #include "scene_files/scene_document.h"
@@ -34,6 +35,7 @@ struct MeshOptions {
     std::optional<double> tolerance;
     std::optional<std::int64_t> max_tets;
     bool kuhn = false, quiet = false;
+    RawOptions raw;
 };
 
 // The data that a mesh is made from, and the settings.
@@ -92,12 +94,13 @@ void check(const MeshOptions& options) {
 }
 
 MeshTask load(const MeshOptions& options, const MeshOutput& output) {
-    const FileKind kind = kind_of_file(options.input);
+    const VolumeRequest request = request_of(options.raw);
+    const FileKind kind = request.raw ? FileKind::volume : kind_of_file(options.input);
     if (kind == FileKind::mesh)
-        fail("{}: is a mesh already, expected a volume (NRRD) or a scene (JSON)", options.input);
+        fail("{}: is a mesh already, expected a volume or a scene (JSON)", options.input);
     if (kind == FileKind::volume) {
-        expect_different_files(files_of_volume(options.input), output.paths());
-        return {read_volume(options.input), {}, {}};
+        expect_different_files(files_of_volume(options.input, request), output.paths());
+        return {read_volume(options.input, request), {}, {}};
     }
     Scene scene = load_scene(options.input);
     expect_different_files(files_of(scene), output.paths());
@@ -167,11 +170,12 @@ void add_mesh(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MeshOptions>();
     const MeshSettings defaults;
     verb->add_option("INPUT", options->input,
-                     "volume (NRRD), or scene (JSON): its volume and mesh settings, and "
+                     "volume (as for render), or scene (JSON): its volume and mesh settings, and "
                      "coarse where its transfer function shows nothing")
         ->required();
     verb->add_option("-o,--output", options->output, "mesh to write (.vtu, or .node with its .ele)")
         ->required();
+    add_raw_options(*verb, options->raw);
     verb->add_option("--tolerance", options->tolerance,
                      fmt::format("largest difference between mesh and volume, as a fraction of "
                                  "the range of values ({})",

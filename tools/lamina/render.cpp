@@ -152,9 +152,10 @@ void add_render(CLI::App& app, int&) {
     verb->footer("The shortest: lamina render head.nrrd -o head.png");
     verb->add_option(
             "SCENE", options->scene.file,
-            "Scene file (JSON), or a data file: a volume (NRRD) or a mesh (.vtu, .pvtu, .pvd, "
-            ".vtk, .node, "
-            ".ele); what a scene leaves open is chosen from the data. - reads a scene from stdin")
+            "Scene file (JSON), or a data file: a volume (lamina --version lists the formats; a "
+            "folder of slices, FILE.h5:/PATH, or with --raw) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
+            ".node, .ele); what a scene leaves open is chosen from the data. - reads a scene from "
+            "stdin")
         ->required();
     add_output_options(*verb, options->output);
     verb->add_option("--method", options->scene.method,
@@ -163,6 +164,7 @@ void add_render(CLI::App& app, int&) {
                      "Set a key of the scene, as in render.slice.samples=512")
         ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
+    add_raw_options(*verb, options->scene.raw);
     add_view_options(*verb, options->view);
     verb->add_option("--stats", options->stats,
                      "Write times, counts and the plan to this JSON file; - is stdout")

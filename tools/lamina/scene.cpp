@@ -48,7 +48,8 @@ void add_scene(CLI::App& app, int&) {
     CLI::App* const verb = app.add_subcommand(
         "scene", "Write the scene that render would draw of a file, to be edited");
     verb->add_option("FILE", options->scene.file,
-                     "Volume (NRRD), mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or scene (JSON) that leaves "
+                     "Volume (as for render), mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or "
+                     "scene (JSON) that leaves "
                      "something open")
         ->required();
     verb->add_option("-o,--output", options->output,
@@ -61,6 +62,7 @@ void add_scene(CLI::App& app, int&) {
                      "Set a key of the scene, as in render.slice.samples=512")
         ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
+    add_raw_options(*verb, options->scene.raw);
     add_view_options(*verb, options->view);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {

@@ -19,9 +19,15 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
                  nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit) {
     const bool piped = options.file == standard_stream;
     const std::string file = piped ? stdin_name : options.file;
-    document = piped ? load_json_from_stdin() : scene_document(file);
+    const VolumeRequest request = request_of(options.raw);
+    if (piped && request.raw) throw UsageError("--raw: found -, expected a volume's file");
+    document = piped ? load_json_from_stdin() : scene_document(file, request);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
+        // A volume of which more than its path is told is an object.
+        const bool of_volume = key.starts_with("volume.") && document.contains("volume");
+        if (of_volume && document["volume"].is_string())
+            document["volume"] = {{"path", document["volume"]}};
         set_key(document, key, value);
         keys.push_back(key);
     };

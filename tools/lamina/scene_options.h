@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lamina/scene.h"
+#include "raw_options.h"
 
 namespace lamina {
 
@@ -15,6 +16,7 @@ struct SceneOptions {
     std::string file;                   // "-": stdin
     std::vector<std::string> settings;  // --set KEY=VALUE
     std::string method;                 // --method; may be empty
+    RawOptions raw;                     // --raw, of a volume without a header
 };
 
 // The scene that a file is, or the one that draws a data file (scene_files/scene_document.h).

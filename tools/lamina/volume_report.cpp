@@ -52,10 +52,11 @@ CodedImage picture_of(const Volume& volume, const ValueRange& range,
 
 }  // namespace
 
-nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png) {
+nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
+                                        const VolumeRequest& request) {
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
-    const Volume volume = read_volume(file);
+    const Volume volume = read_volume(file, request);
     const MinMaxBricks bricks = measure_bricks(volume);
     const ValueStatistics statistics = measure_values(volume, bricks.whole);
     if (picture) {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiffio.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/value_type.h"
+
+namespace lamina {
+
+// What a page of a TIFF file holds.
+struct TiffPage {
+    std::int64_t width = 0, height = 0;
+    std::int64_t samples = 1;  // of a pixel
+    bool planar = false;       // each of these in a plane of its own
+    ValueType type = ValueType::uint8;
+
+    bool operator==(const TiffPage&) const = default;
+};
+
+// A TIFF file, page by page, through libtiff. Everything throws Error with libtiff's reason.
+class TiffFile {
+  public:
+    explicit TiffFile(const std::filesystem::path& path);
+
+    const std::string& name() const { return name_; }
+    // The first page is there at first.
+    bool next_page();
+    void go_to_page(std::uint32_t number);
+
+    bool is_reduced() const;  // a smaller copy of another page, or a mask
+    TiffPage page() const;
+    std::string description() const;  // of the page; empty: none
+    // Pixels a unit along x and y, whichever unit that is; 0: not said.
+    double resolution(int axis) const;
+
+    // Reads one of the samples of all pixels of the page, row by row, native byte order, into
+    // width * height values.
+    void read(const TiffPage& page, std::int64_t sample, char* to);
+
+  private:
+    void read_strips(const TiffPage& page, std::int64_t sample, char* to);
+    void read_tiles(const TiffPage& page, std::int64_t sample, char* to);
+    void check_capacity(const TiffPage& page) const;
+    [[noreturn]] void fail_with_reason(const char* doing) const;
+    template <typename T>
+    T field(ttag_t tag, T otherwise) const;
+
+    static int keep_message(TIFF* tiff, void* file, const char* module, const char* format,
+                            va_list arguments);
+
+    std::string name_;
+    std::string message_;  // libtiff's first since the last call
+    std::uint64_t file_bytes_ = 0;
+    std::uint32_t number_ = 0;  // of the page, from 0
+    std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// metaimage, nifti, npy_volume, tiff, vti: volumes, measured and planned.
+#include <algorithm>
+
+#include "input_parts.h"
+#include "runs.h"
+#include "scratch_folder.h"
+#include "violation.h"
+#include "volume_check.h"
+#include "volume_files/metaimage.h"
+#include "volume_files/nifti.h"
+#include "volume_files/npy_volume.h"
+#include "volume_files/tiff_stack.h"
+#include "volume_files/vti.h"
+
+namespace lamina::fuzz {
+namespace {
+
+// Whether no line that may be the field ElementDataFile names a path; after LIST all lines are
+// names.
+bool data_file_stays_in_folder(std::string_view header) {
+    constexpr std::string_view field = "ElementDataFile";
+    for (std::size_t at = header.find(field); at != header.npos; at = header.find(field, at + 1)) {
+        const std::size_t end = std::min(header.find('\n', at), header.size());
+        const std::string_view line = header.substr(at, end - at);
+        const bool list = line.find("LIST") != line.npos;
+        if (!stays_in_folder(list ? header.substr(at) : line)) return false;
+    }
+    return true;
+}
+
+void run_reader(std::string_view input, const char* name,
+                Volume (*read)(const std::filesystem::path&, const VolumeRequest&)) {
+    const auto file = scratch_file(name, input);
+    may_fail([&] { check_volume(read(file, {})); });
+}
+
+}  // namespace
+
+void run_metaimage(std::string_view input) {
+    const InputParts parts = parts_of(input);
+    if (!data_file_stays_in_folder(parts.first)) return;
+    scratch_file("data", parts.second);
+    run_reader(parts.first, "volume.mhd", read_metaimage);
+}
+
+void run_nifti(std::string_view input) {
+    const InputParts parts = parts_of(input);
+    scratch_file("volume.img", parts.second);
+    run_reader(parts.first, "volume.hdr", read_nifti);
+}
+
+void run_npy_volume(std::string_view input) {
+    run_reader(input, "volume.npy", read_npy_volume);
+}
+
+void run_tiff(std::string_view input) {
+    run_reader(input, "volume.tif", read_tiff_stack);
+}
+
+void run_vti(std::string_view input) {
+    run_reader(input, "volume.vti", read_vti);
+}
+
+}  // namespace lamina::fuzz
