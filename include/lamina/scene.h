@@ -36,6 +36,7 @@ struct Scene {
     VolumeRequest volume_selection;                  // what of that file
     std::optional<GeneratorRequest> volume_request;  // {"generate": ...}
     std::filesystem::path mesh_file;                 // or
+    std::int64_t mesh_time = 0;                      // its step, from 0 (.pvd)
     std::optional<MeshSettings> mesh_request;        // made from the volume
     std::filesystem::path colormap_file;             // of the transfer function; empty: none
     std::string scalar;  // of the mesh file; empty: its first point array

@@ -78,6 +78,7 @@ Scene Session::Parts::chosen() {
     // The mesh may be one that an earlier scene made from the volume.
     if (!mesh_given && scene.mesh_file.empty()) mesh.reset();
     scene.mesh_file = asked.mesh_file;
+    scene.mesh_time = asked.mesh_time;
     return choose(asked, MeshField(mesh_data()));
 }
 

@@ -25,6 +25,9 @@ bool is_mesh_file(const std::filesystem::path& path);
 // was expected. Takes no memory for data that the file cannot hold.
 MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
 
+// The extensions of mesh files, for people.
+inline constexpr const char* mesh_format_list = ".vtu, .pvtu, .pvd, .vtk, .node, .ele";
+
 // The number of steps of a mesh file: 1, but of a .pvd. Throws Error.
 std::int64_t steps_of_mesh(const std::filesystem::path& path);
 

@@ -98,7 +98,7 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
 SceneMesh load_mesh(const Scene& scene) {
     if (!scene.mesh_file.empty()) {
         Stage reading("read file");
-        MeshData data = read_mesh(scene.mesh_file);
+        MeshData data = read_mesh(scene.mesh_file, scene.mesh_time);
         reading.end();
         return scene_mesh(scene, std::move(data));
     }

@@ -12,6 +12,8 @@
 namespace lamina {
 namespace {
 
+constexpr std::int64_t most_steps = 1'000'000'000;
+
 constexpr std::int64_t most_tets = 500000000;
 
 GeneratorRequest read_generator(JsonReader reader) {
@@ -73,7 +75,14 @@ void read_mesh_source(JsonReader& reader, Scene& scene, bool has_volume) {
         scene.mesh_file = reader.path_of("mesh");
         return;
     }
-    scene.mesh_request = read_mesh_settings(reader.object("mesh"));
+    JsonReader mesh = reader.object("mesh");
+    if (mesh.has("path")) {
+        scene.mesh_file = mesh.path_of("path");
+        if (mesh.has("time")) scene.mesh_time = mesh.whole("time", 0, most_steps);
+        mesh.close();
+        return;
+    }
+    scene.mesh_request = read_mesh_settings(mesh);
     if (!has_volume) reader.reject("volume", "a volume, which \"mesh\" is made from");
 }
 

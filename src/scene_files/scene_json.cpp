@@ -32,7 +32,10 @@ Json volume_json(const Scene& scene) {
 }
 
 Json mesh_json(const Scene& scene) {
-    if (!scene.mesh_request) return path_text(scene.mesh_file);
+    if (!scene.mesh_request) {
+        if (scene.mesh_time == 0) return path_text(scene.mesh_file);
+        return {{"path", path_text(scene.mesh_file)}, {"time", scene.mesh_time}};
+    }
     const MeshSettings& settings = *scene.mesh_request;
     return {{"tolerance", settings.tolerance},
             {"max_tets", settings.max_tets},

@@ -28,7 +28,8 @@ std::string volume_name(const Scene& scene) {
 // nothing.
 std::string mesh_name(const Scene& scene) {
     if (!scene.mesh_request) {
-        const std::string file = scene.mesh_file.string();
+        std::string file = scene.mesh_file.string();
+        if (scene.mesh_time != 0) file += fmt::format(" {}", scene.mesh_time);
         return scene.scalar.empty() ? file : file + " " + scene.scalar;
     }
     const MeshSettings& settings = *scene.mesh_request;

@@ -5,12 +5,15 @@
 #include <cctype>
 #include <string>
 
+#include "volume_files/dicom.h"
+#include "volume_files/hdf5_file.h"
 #include "volume_files/metaimage.h"
 #include "volume_files/nifti.h"
 #include "volume_files/npy_volume.h"
 #include "volume_files/nrrd.h"
 #include "volume_files/tiff_stack.h"
 #include "volume_files/vti.h"
+#include "volume_files/zarr.h"
 
 namespace lamina {
 namespace {
@@ -20,6 +23,23 @@ using Path = std::filesystem::path;
 // Content decides, in this order.
 constexpr VolumeFormat formats[] = {
     {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, read_nrrd, files_of_nrrd, false, false, true, true},
+    {"Zarr", {".zarr"}, is_zarr, read_zarr, files_of_zarr, true, true, true, true},
+#ifdef LAMINA_HAS_HDF5
+    {"HDF5", {".h5", ".hdf5", ".nc"}, is_hdf5, read_hdf5, files_of_hdf5, true, false, true, true},
+#endif
+#ifdef LAMINA_HAS_GDCM
+    {"DICOM", {".dcm"}, is_dicom, read_dicom, files_of_dicom, true, false, false, true},
+#else
+    {"DICOM without compression",
+     {".dcm"},
+     is_dicom,
+     read_dicom,
+     files_of_dicom,
+     true,
+     false,
+     false,
+     true},
+#endif
     {"MetaImage",
      {".mha", ".mhd"},
      is_metaimage,

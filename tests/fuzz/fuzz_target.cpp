@@ -7,7 +7,9 @@ namespace lamina::fuzz {
 
 std::span<const FuzzTarget> fuzz_targets() {
     static constexpr FuzzTarget all[] = {{"colormap", run_colormap},
+                                         {"dicom", run_dicom},
                                          {"exr", run_exr},
+                                         {"hdf5", run_hdf5},
                                          {"integrate", run_integrate},
                                          {"metaimage", run_metaimage},
                                          {"nifti", run_nifti},
@@ -19,10 +21,12 @@ std::span<const FuzzTarget> fuzz_targets() {
                                          {"nrrd", run_nrrd},
                                          {"plan", run_plan},
                                          {"png", run_png},
+                                         {"pvd", run_pvd},
                                          {"scene", run_scene},
                                          {"study", run_study},
                                          {"vtk", run_vtk},
-                                         {"vtu", run_vtu}};
+                                         {"vtu", run_vtu},
+                                         {"zarr", run_zarr}};
     return all;
 }
 

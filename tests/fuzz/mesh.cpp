@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// node_ele, vtk, vtu: meshes, put in visibility order and planned.
+// node_ele, pvd, vtk, vtu: meshes, put in visibility order and planned.
 #include <algorithm>
 #include <set>
 
@@ -64,6 +64,19 @@ void check_mesh(MeshData data) {
     check_project_plans(scene, mesh);
 }
 
+// Whether no file that an index names lies elsewhere.
+bool names_stay_in_folder(std::string_view index) {
+    for (const char* const attribute : {"file=\"", "Source=\"", "file='", "Source='"}) {
+        for (std::size_t at = index.find(attribute); at != index.npos;
+             at = index.find(attribute, at + 1)) {
+            const std::size_t from = index.find_first_of("\"'", at) + 1;
+            const std::size_t end = std::min(index.find_first_of("\"'", from), index.size());
+            if (!stays_in_folder(index.substr(from, end - from))) return false;
+        }
+    }
+    return index.find("&#") == index.npos;  // another way to write a slash
+}
+
 void run_mesh(const char* name, std::string_view input) {
     const auto file = scratch_file(name, input);
     may_fail([&] { check_mesh(read_mesh(file)); });
@@ -75,6 +88,13 @@ void run_node_ele(std::string_view input) {
     const InputParts parts = parts_of(input);
     scratch_file("mesh.ele", parts.second);
     run_mesh("mesh.node", parts.first);
+}
+
+void run_pvd(std::string_view input) {
+    const InputParts parts = parts_of(input);
+    if (!names_stay_in_folder(parts.first)) return;
+    scratch_file("mesh.vtu", parts.second);
+    run_mesh("mesh.pvd", parts.first);
 }
 
 void run_vtk(std::string_view input) {

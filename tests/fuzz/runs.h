@@ -7,8 +7,10 @@
 
 namespace lamina::fuzz {
 
-void run_colormap(std::string_view input);   // a ParaView preset
-void run_exr(std::string_view input);        // pictures, as `lamina compare` reads them
+void run_colormap(std::string_view input);  // a ParaView preset
+void run_dicom(std::string_view input);     // a slice, another slice
+void run_exr(std::string_view input);       // pictures, as `lamina compare` reads them
+void run_hdf5(std::string_view input);
 void run_integrate(std::string_view input);  // cases of `lamina integrate`
 void run_metaimage(std::string_view input);  // the file, its data file
 void run_nifti(std::string_view input);      // the file, the .img of a pair
@@ -20,9 +22,11 @@ void run_plan(std::string_view input);   // a scene; its volume is replaced by a
 void run_png(std::string_view input);    // see run_exr
 void run_scene(std::string_view input);  // a scene, its colour map
 void run_study(std::string_view input);  // a study, its scene
+void run_pvd(std::string_view input);    // a .pvd or .pvtu, the .vtu that it may name ("mesh.vtu")
 void run_tiff(std::string_view input);
 void run_vti(std::string_view input);
 void run_vtk(std::string_view input);
 void run_vtu(std::string_view input);
+void run_zarr(std::string_view input);  // .zarray, .zattrs (or none), a chunk: parts of parts
 
 }  // namespace lamina::fuzz

@@ -8,9 +8,13 @@
 
 namespace lamina::fuzz {
 
-std::filesystem::path scratch_file(const std::string& name, std::string_view bytes) {
+std::filesystem::path scratch_folder() {
     static const TemporaryFolder folder;
-    const std::filesystem::path path = folder / name;
+    return folder.path();
+}
+
+std::filesystem::path scratch_file(const std::string& name, std::string_view bytes) {
+    const std::filesystem::path path = scratch_folder() / name;
     std::ofstream stream(path, std::ios::binary);
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream.close();

@@ -11,6 +11,8 @@ namespace lamina::fuzz {
 // memory) which goes when the process ends. The readers take paths.
 std::filesystem::path scratch_file(const std::string& name, std::string_view bytes);
 
+std::filesystem::path scratch_folder();
+
 // Whether a file name in an input leads nowhere but into the scratch folder: fuzzing must not read
 // other files.
 inline bool stays_in_folder(std::string_view name) {

@@ -129,9 +129,8 @@ void add_crosscheck(CLI::App& app, int&) {
     const auto options = std::make_shared<CrosscheckOptions>();
     CLI::App* const verb = app.add_subcommand(
         crosscheck_name, "Slice a volume and project its mesh, and say where they differ, and why");
-    verb->add_option(
-            "SCENE", options->scene.file,
-            "Scene file (JSON) with a volume, or a volume; - reads a scene from stdin")
+    verb->add_option("SCENE", options->scene.file,
+                     "Scene file (JSON) with a volume, or a volume; - reads a scene from stdin")
         ->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
         ->required();

@@ -29,6 +29,7 @@ class FrameJob : public RenderJob {
     FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> method);
 
     Plan plan(RenderStats& stats) override;
+    Scene resolved_scene() override { return frames_->resolved_scene(); }
     std::string explanation(const Plan& plan) const override;
     void draw(const Plan& plan, RenderStats& stats) override;
     void draw_frame(const Camera& camera) override;

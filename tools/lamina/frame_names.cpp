@@ -64,10 +64,8 @@ std::string FrameNames::name(int frame) const {
     return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
 }
 
-std::string FrameNames::record_name() const {
-    return std::filesystem::path(before_ + "turntable" + after_)
-        .replace_extension(".json")
-        .string();
+std::string FrameNames::record_name(const char* series) const {
+    return std::filesystem::path(before_ + series + after_).replace_extension(".json").string();
 }
 
 }  // namespace lamina

@@ -15,7 +15,8 @@ class FrameNames {
     const std::filesystem::path& folder() const { return folder_; }
     // In the folder: of a frame, and of what is recorded of the series.
     std::string name(int frame) const;
-    std::string record_name() const;
+    // `series`: a word for what the series is.
+    std::string record_name(const char* series) const;
 
   private:
     std::filesystem::path folder_;

@@ -54,8 +54,10 @@ void run(const InfoOptions& options) {
     const VolumeRequest request = request_of(options.raw);
     const bool volume = request.raw || is_volume_file(options.file);
     if (!volume && !is_mesh_file(options.file)) {
-        fail("{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .vtk, .node, .ele)",
-             options.file, volume_format_names());
+        fail(
+            "{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
+            ".node, .ele)",
+            options.file, volume_format_names());
     }
     expect_different_files(
         volume ? files_of_volume(options.file, request) : files_of_mesh(options.file),
@@ -72,7 +74,7 @@ void add_info(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand("info", "What a file contains");
     const auto options = std::make_shared<InfoOptions>();
     verb->add_option("FILE", options->file,
-                     "volume (as for render) or mesh (.vtu, .vtk, .node, .ele)")
+                     "volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
     add_raw_options(*verb, options->raw);
     verb->add_flag("--json", options->json, "print JSON instead of a table");

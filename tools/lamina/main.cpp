@@ -6,6 +6,7 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <string>
 #include <system_error>
 
 #include "base/client.h"
@@ -16,7 +17,9 @@
 #include "base/standard_streams.h"
 #include "base/warning.h"
 #include "command_line.h"
+#include "mesh_files/mesh_file.h"
 #include "verbs.h"
+#include "volume_files/volume_file.h"
 
 namespace {
 
@@ -32,7 +35,11 @@ void print_warning(const std::string& text) {
     lamina::print_message("lamina: warning: {}\n", text);
 }
 
-constexpr const char* version = "lamina " LAMINA_VERSION;
+// With the formats that this build reads: some depend on libraries that need not be there.
+std::string version_text() {
+    return fmt::format("lamina " LAMINA_VERSION "\nvolumes: {}\nmeshes: {}",
+                       lamina::volume_format_names(), lamina::mesh_format_list);
+}
 
 // Names an unknown verb. CLI11 would only say that a subcommand is missing.
 void check_verb(const CLI::App& app, int argc, char** argv) {
@@ -49,6 +56,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
 int run(int argc, char** argv) {
     int exit_code = 0;
     CLI::App app("lamina: volume rendering by slicing, with the error of each picture", "lamina");
+    const std::string version = version_text();
     app.set_version_flag("--version", version);
     app.footer(
         "A first picture: lamina render head.nrrd -o head.png\n"

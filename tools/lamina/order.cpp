@@ -74,7 +74,10 @@ Input load(const std::string& file) {
     const FileKind kind = kind_of_file(file);
     if (kind == FileKind::mesh) return {TetMesh(read_mesh(file), file), {}};
     if (kind == FileKind::volume)
-        fail("{}: is a volume, expected a mesh (.vtu, .vtk, .node, .ele) or a scene (JSON)", file);
+        fail(
+            "{}: is a volume, expected a mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele) or a scene "
+            "(JSON)",
+            file);
     Scene scene = load_scene(file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
     scene.method = Method::project;
@@ -247,7 +250,8 @@ void add_order(CLI::App& app, int& exit_code) {
         "order", "How fast and how right a mesh's tets are put in order for drawing");
     const auto options = std::make_shared<OrderOptions>();
     verb->add_option("INPUT", options->input,
-                     "mesh (.vtu, .vtk, .node, .ele), or scene (.json), whose camera is the first")
+                     "mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or scene (.json), whose camera "
+                     "is the first")
         ->required();
     verb->add_option(
             "--eyes", options->eyes,

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
+#include "data_series.h"
 #include "named_output.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
@@ -86,7 +88,16 @@ void run(const RenderOptions& options) {
     const Stopwatch watch;
     Stage reading("scene");
     nlohmann::json document;
-    Scene scene = load_scene(options.scene, settings_of(options.view), document);
+    std::optional<DataSeries> series;
+    SceneOptions named = options.scene;
+    std::function<void(nlohmann::json&)> edit;
+    if (options.output.time) {
+        series.emplace(named.file, time_range(*options.output.time));
+        named.file = series->first_file();
+        edit = [&](nlohmann::json& of_scene) { series->begin(of_scene); };
+    }
+    Scene scene = load_scene(named, settings_of(options.view), document, edit);
+    if (series) series->check(scene);
     Wishes wishes = wishes_of(options.view, scene.color_space);
     wishes.all_around = options.output.views > 1;
     reading.end();
@@ -94,8 +105,8 @@ void run(const RenderOptions& options) {
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
     restrict_instructions_as_asked();
-    const auto output =
-        open_output(options.output, {scene, omissions, watch}, {options.stats, options.profile});
+    const auto output = open_output(options.output, {scene, omissions, watch},
+                                    series ? &*series : nullptr, {options.stats, options.profile});
     std::unique_ptr<OutputFile> stats_file;
     if (!options.stats.empty()) stats_file = open_named(options.stats);
 
@@ -107,8 +118,11 @@ void run(const RenderOptions& options) {
         json_text(changed ? nlohmann::json(document_of(scene, document)) : document, 2);
     for (const std::string& chosen : scene.chosen) say(chosen);
     const bool many_frames = options.output.frames > 0 || options.output.views > 0;
-    const auto job =
-        make_job({scene, data, omissions, context, !options.stats.empty(), many_frames, say});
+    const auto job_of = [&](const Scene& drawn, const SceneData& its) {
+        return make_job({drawn, its, omissions, context, !options.stats.empty(), many_frames, say});
+    };
+    const auto job = job_of(scene, data);
+    if (output) output->prepare(job_of, data, say);
     const Plan plan = job->plan(stats);
     const std::string explanation = chosen_text(scene) + job->explanation(plan);
     if (options.explain) print_explanation(options, explanation);
@@ -138,9 +152,10 @@ void add_render(CLI::App& app, int&) {
     verb->footer("The shortest: lamina render head.nrrd -o head.png");
     verb->add_option(
             "SCENE", options->scene.file,
-            "Scene file (JSON), or a data file: a volume (NRRD, MetaImage, NIfTI, .vti, .npy, TIFF "
-            "or a folder of TIFF slices, or with --raw) or a mesh (.vtu, .vtk, .node, .ele); what "
-            "a scene leaves open is chosen from the data. - reads a scene from stdin")
+            "Scene file (JSON), or a data file: a volume (lamina --version lists the formats; a "
+            "folder of slices, FILE.h5:/PATH, or with --raw) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
+            ".node, .ele); what a scene leaves open is chosen from the data. - reads a scene from "
+            "stdin")
         ->required();
     add_output_options(*verb, options->output);
     verb->add_option("--method", options->scene.method,

@@ -33,6 +33,8 @@ class RenderJob {
     virtual ~RenderJob() = default;
     // Loads what the method needs, measures it and plans.
     virtual Plan plan(RenderStats& stats) = 0;
+    // The scene with all that was chosen for it, from plan() on; what other data may be drawn with.
+    virtual Scene resolved_scene() = 0;
     // The plan as a text for people.
     virtual std::string explanation(const Plan& plan) const = 0;
     // The scene's own frame, with progress; its time goes into stats.frames_ms.

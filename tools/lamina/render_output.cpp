@@ -8,6 +8,7 @@
 #include "different_files.h"
 #include "named_output.h"
 #include "scene_files.h"
+#include "time_series.h"
 #include "turntable.h"
 
 namespace lamina {
@@ -67,10 +68,18 @@ bool OutputOptions::piped() const {
 void OutputOptions::check() const {
     if (views > 0 && frames > 0) throw UsageError("--turntable and --frames: expected one of them");
     if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
-    if (force && views == 0) throw UsageError("--force: expected --turntable N, too");
+    if (time && (views > 0 || frames > 0))
+        throw UsageError("--time: expected neither --turntable nor --frames beside it");
+    if (force && views == 0 && !time)
+        throw UsageError("--force: expected --turntable N or --time, too");
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
-    if (!output.empty() && views == 0) picture_format(output, format);
-    if (views > 0) Turntable::check(*this);
+    if (views > 0) {
+        Turntable::check(*this);
+    } else if (!output.empty() && time) {
+        TimeSeries::check(*this);
+    } else if (!output.empty()) {
+        picture_format(output, format);
+    }
 }
 
 void add_output_options(CLI::App& verb, OutputOptions& options) {
@@ -89,15 +98,24 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                     "that are there from an earlier run of the same scene are kept")
         ->check(CLI::Range(1, most_views))
         ->option_text("N");
+    verb.add_option(
+            "--time", options.time,
+            "Write a picture of each of these steps, as out_%04d.png: of files with a number "
+            "in their name (head_%04d.nrrd), of a .pvd, or of a file with several times; all "
+            "look as the first does, and those that are there from an earlier run are kept")
+        ->option_text("FIRST:LAST[:STEP]");
     verb.add_flag("--force", options.force,
-                  "With --turntable: draw views that are there, too, and replace files that it did "
-                  "not write, but never one that it reads");
+                  "With --turntable and --time: draw pictures that are there, too, and replace "
+                  "files that it did not write, but never one that it reads");
 }
 
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
+                                          const DataSeries* series,
                                           std::vector<std::filesystem::path> others) {
     const std::vector<std::filesystem::path> read = files_of(scene.scene);
     if (options.views > 0) return std::make_unique<Turntable>(options, scene, read, others);
+    if (series != nullptr && !options.output.empty())
+        return std::make_unique<TimeSeries>(options, scene, *series, read, others);
     others.emplace_back(options.output);
     expect_different_files(read, others);
     if (options.output.empty()) return nullptr;

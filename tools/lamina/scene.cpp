@@ -47,10 +47,10 @@ void add_scene(CLI::App& app, int&) {
     const auto options = std::make_shared<SceneVerbOptions>();
     CLI::App* const verb = app.add_subcommand(
         "scene", "Write the scene that render would draw of a file, to be edited");
-    verb->add_option(
-            "FILE", options->scene.file,
-            "Volume (as for render), mesh (.vtu, .vtk, .node, .ele), or scene (JSON) that leaves "
-            "something open")
+    verb->add_option("FILE", options->scene.file,
+                     "Volume (as for render), mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or "
+                     "scene (JSON) that leaves "
+                     "something open")
         ->required();
     verb->add_option("-o,--output", options->output,
                      "Scene file to write (JSON); - writes to stdout")

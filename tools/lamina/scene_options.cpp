@@ -16,7 +16,7 @@
 namespace lamina {
 
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
-                 nlohmann::json& document) {
+                 nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit) {
     const bool piped = options.file == standard_stream;
     const std::string file = piped ? stdin_name : options.file;
     const VolumeRequest request = request_of(options.raw);
@@ -42,6 +42,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         apply(setting.substr(0, equals), setting.substr(equals + 1));
     }
     if (!options.method.empty()) apply("render.method", options.method);
+    if (edit) edit(document);
     try {
         return read_scene(document, file);
     } catch (const KeyError& error) {

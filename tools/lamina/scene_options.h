@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct SceneOptions {
 // `more`: settings that other options stand for. `document`: becomes the scene's JSON with all
 // settings. A mistake in --set, --method or one of `more` is one of usage (UsageError, exit 2), one
 // in the file is not.
+// `edit`: changes the document before it is read.
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
-                 nlohmann::json& document);
+                 nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit = {});
 
 }  // namespace lamina

@@ -43,16 +43,25 @@ SeriesRecord::SeriesRecord(std::filesystem::path file, std::string key)
     }
 }
 
-bool SeriesRecord::has(const std::string& name) const {
+namespace {
+
+std::string entry(const std::string& hash, const std::string& input) {
+    return input.empty() ? hash : hash + " " + input;
+}
+
+}  // namespace
+
+bool SeriesRecord::has(const std::string& name, const std::string& input) const {
     const auto found = hashes_.find(name);
     if (found == hashes_.end()) return false;
     const std::filesystem::path path = file_.parent_path() / name;
-    return std::filesystem::is_regular_file(path) && hash_of_file(path) == found->second;
+    return std::filesystem::is_regular_file(path) &&
+           entry(hash_of_file(path), input) == found->second;
 }
 
-void SeriesRecord::add(const std::string& name) {
+void SeriesRecord::add(const std::string& name, const std::string& input) {
     const ClientScope scope(finishing_client());
-    hashes_[name] = hash_of_file(file_.parent_path() / name);
+    hashes_[name] = entry(hash_of_file(file_.parent_path() / name), input);
     if (since_written_.seconds() > 1) write();
 }
 

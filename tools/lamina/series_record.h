@@ -21,16 +21,17 @@ class SeriesRecord {
     // forgotten, as is one that cannot be read.
     SeriesRecord(std::filesystem::path file, std::string key);
 
-    // Whether the file is in the record's folder as it was written.
-    bool has(const std::string& name) const;
-    // Adds a file that is complete. The record itself is written once a second, and by write().
-    void add(const std::string& name);
+    // Whether the file is in the record's folder as it was written, from this input.
+    bool has(const std::string& name, const std::string& input = "") const;
+    // Adds a file that is complete. `input`: a hash of what it alone depends on, beside the key.
+    // The record itself is written once a second, and by write().
+    void add(const std::string& name, const std::string& input = "");
     void write();
 
   private:
     std::filesystem::path file_;
     std::string key_;
-    std::map<std::string, std::string> hashes_;
+    std::map<std::string, std::string> hashes_;  // of each file, and of its input behind a blank
     Stopwatch since_written_;
 };
 

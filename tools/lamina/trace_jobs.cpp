@@ -33,6 +33,8 @@ class VolumeTraceJob : public RenderJob {
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
+    Scene resolved_scene() override { return request_.scene; }
+
     std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 
     void draw(const Plan& plan, RenderStats& stats) override {
@@ -82,6 +84,8 @@ class MeshTraceJob : public RenderJob {
         stats.stages_ms["boundary_tree"] = building.end();
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
+
+    Scene resolved_scene() override { return request_.scene; }
 
     std::string explanation(const Plan& plan) const override { return explain(plan, facts_, {}); }
 

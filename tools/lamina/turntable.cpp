@@ -20,7 +20,8 @@
 namespace lamina {
 namespace {
 
-constexpr const char* own_verb = "render --turntable";
+constexpr const char* turntable_verb = "render --turntable";
+constexpr const char* turntable_word = "turntable";
 
 // A hash of all that the pictures depend on.
 std::string key_of(const OutputScene& of, const PictureAttributes& attributes, int views) {
@@ -61,15 +62,16 @@ Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
     std::vector<std::filesystem::path> written = others;
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(read, written);
-    expect_own_folder(folder(), own_verb, names(), read, force_);
+    expect_own_folder(folder(), turntable_verb, names(), read, force_);
     // A folder that cannot be written fails at once.
-    if (std::filesystem::exists(folder())) const AtomicFile unused(path_of(names_.record_name()));
+    if (std::filesystem::exists(folder()))
+        const AtomicFile unused(path_of(names_.record_name(turntable_word)));
 }
 
 std::vector<std::string> Turntable::names() const {
     std::vector<std::string> names;
     for (int view = 0; view < views_; ++view) names.push_back(names_.name(view));
-    names.push_back(names_.record_name());
+    names.push_back(names_.record_name(turntable_word));
     return names;
 }
 
@@ -110,9 +112,10 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
 
 std::string Turntable::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
                             PictureAttributes attributes) {
-    OwnFiles(folder(), own_verb).add(names());
+    OwnFiles(folder(), turntable_verb).add(names());
     attributes["renderer"] = stats.renderer;
-    SeriesRecord record(path_of(names_.record_name()), key_of(scene_, attributes, views_));
+    SeriesRecord record(path_of(names_.record_name(turntable_word)),
+                        key_of(scene_, attributes, views_));
     const std::vector<int> views = missing(record);
     try {
         draw_missing(views, record, job, plan, stats, attributes);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/value_type.h"
+
+namespace lamina {
+
+// A DICOM image without its pixels. World axes are DICOM's: x to the patient's left, y to the back,
+// z to the head; mm.
+struct DicomImage {
+    std::filesystem::path file;
+    std::string series, description;  // SeriesInstanceUID, SeriesDescription
+    std::int64_t instance = 0;        // InstanceNumber
+    std::int64_t columns = 0, rows = 0, frames = 1;
+    std::optional<glm::dvec3> position;                    // of the first pixel's centre
+    std::vector<glm::dvec3> frame_positions;               // of each frame, or none
+    glm::dvec3 along_row{1, 0, 0}, along_column{0, 1, 0};  // unit vectors
+    glm::dvec3 spacing{1};  // between columns, rows and, of several frames, these
+    double slope = 1, intercept = 0;
+
+    // How the pixels are stored: in `allocated` bits, of which `stored` up to the bit `high` count.
+    ValueType type = ValueType::uint8;
+    std::int64_t stored_bits = 8, high_bit = 7;
+    bool big_endian = false, swapped_bytes = false;
+    std::string transfer_syntax;
+    bool compressed = false;
+    std::uint64_t pixels_begin = 0, pixel_bytes = 0;  // place in the file, unless compressed
+
+    std::size_t byte_count() const {
+        return static_cast<std::size_t>(columns * rows * frames) * bytes_of(type);
+    }
+};
+
+// Nothing where the file is no DICOM image. Throws Error where its header is damaged, or of an
+// image that is no volume.
+std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file);
+
+// Writes byte_count() bytes of pixels in native byte order to `to`. Throws Error.
+void read_dicom_pixels(const DicomImage& image, char* to);
+
+}  // namespace lamina

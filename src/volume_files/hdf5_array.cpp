@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/hdf5_array.h"
+
+#include <hdf5_hl.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "volume_files/isolated_read.h"
+#include "volume_files/stored_axes.h"
+#include "volume_files/stored_samples.h"
+
+namespace lamina {
+namespace {
+
+constexpr int most_rank = 5;
+
+// A byte of a packed data set stands for at most so many bytes: deflate's 1032, twice over.
+constexpr std::uint64_t most_hdf5_expansion = 1 << 20;
+
+hid_t memory_type(ValueType type) {
+    switch (type) {
+        case ValueType::int8:
+            return H5T_NATIVE_INT8;
+        case ValueType::uint8:
+            return H5T_NATIVE_UINT8;
+        case ValueType::int16:
+            return H5T_NATIVE_INT16;
+        case ValueType::uint16:
+            return H5T_NATIVE_UINT16;
+        case ValueType::int32:
+            return H5T_NATIVE_INT32;
+        case ValueType::uint32:
+            return H5T_NATIVE_UINT32;
+        case ValueType::int64:
+            return H5T_NATIVE_INT64;
+        case ValueType::uint64:
+            return H5T_NATIVE_UINT64;
+        case ValueType::float32:
+            return H5T_NATIVE_FLOAT;
+        case ValueType::float64:
+            break;
+    }
+    return H5T_NATIVE_DOUBLE;
+}
+
+// Nothing where samples of that type are no numbers that can be drawn.
+std::optional<ValueType> value_type_of(hid_t type) {
+    const std::size_t bytes = H5Tget_size(type);
+    switch (H5Tget_class(type)) {
+        case H5T_INTEGER: {
+            const bool is_signed = H5Tget_sign(type) == H5T_SGN_2;
+            for (const ValueType word : value_types) {
+                if (is_integer(word) && bytes_of(word) == bytes &&
+                    (std::string_view(name_of(word)).front() == 'i') == is_signed)
+                    return word;
+            }
+            return {};
+        }
+        case H5T_FLOAT:
+            if (bytes == 8) return ValueType::float64;
+            if (bytes == 4 || bytes == 2) return ValueType::float32;
+            return {};
+        default:
+            return {};
+    }
+}
+
+// The numbers of a small data space.
+template <typename Read>
+std::vector<double> numbers_of(hid_t space, std::size_t most, const Read& read) {
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    if (count < 1 || static_cast<std::size_t>(count) > most) return {};
+    std::vector<double> numbers(static_cast<std::size_t>(count));
+    if (read(numbers.data()) < 0) return {};
+    return numbers;
+}
+
+bool has_numbers(hid_t type) {
+    const H5T_class_t kind = H5Tget_class(type);
+    return kind == H5T_INTEGER || kind == H5T_FLOAT;
+}
+
+struct ScaleFound {
+    std::size_t length;
+    std::vector<double> numbers;
+};
+
+// H5DSiterate_scales calls it for each scale of an axis.
+herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
+    auto& found = *static_cast<ScaleFound*>(data);
+    const Hdf5Handle space(H5Dget_space(scale), H5Sclose);
+    const Hdf5Handle type(H5Dget_type(scale), H5Tclose);
+    if (!space.valid() || !type.valid() || !has_numbers(type.id())) return 0;
+    if (H5Dget_storage_size(scale) == 0) return 0;  // a dimension of NetCDF without coordinates
+    auto numbers = numbers_of(space.id(), found.length, [&](double* to) {
+        return H5Dread(scale, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+    });
+    if (numbers.size() != found.length) return 0;
+    found.numbers = std::move(numbers);
+    return 1;  // no further one
+}
+
+}  // namespace
+
+Hdf5Array::Hdf5Array(hid_t file, const std::string& path, std::string name)
+    : name_(std::move(name)), set_(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose) {
+    if (!set_.valid()) fail("{}: found no data set of this name", name_);
+    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
+    const int rank = H5Sget_simple_extent_ndims(space.id());
+    if (rank < 2 || rank > most_rank)
+        fail("{}: found {} dimensions, expected 2 to {}", name_, rank, most_rank);
+    hsize_t sizes[most_rank] = {};
+    H5Sget_simple_extent_dims(space.id(), sizes, nullptr);
+    for (int axis = 0; axis < rank; ++axis) {
+        if (sizes[axis] < 1 || sizes[axis] > (hsize_t{1} << 40))
+            fail("{}: dimension {}: found {} samples", name_, axis, sizes[axis]);
+        shape_.push_back(static_cast<std::int64_t>(sizes[axis]));
+    }
+    const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);
+    const auto type = value_type_of(stored.id());
+    if (!type)
+        fail("{}: found a type that is none of numbers of 1, 2, 4 or 8 bytes, expected one", name_);
+    type_ = *type;
+}
+
+std::vector<double> Hdf5Array::attribute(const char* key) const {
+    constexpr std::size_t most_numbers = 16;
+    if (H5Aexists(set_.id(), key) <= 0) return {};
+    const Hdf5Handle found(H5Aopen(set_.id(), key, H5P_DEFAULT), H5Aclose);
+    if (!found.valid()) return {};
+    const Hdf5Handle space(H5Aget_space(found.id()), H5Sclose);
+    const Hdf5Handle type(H5Aget_type(found.id()), H5Tclose);
+    if (!space.valid() || !type.valid() || !has_numbers(type.id())) return {};
+    return numbers_of(space.id(), most_numbers,
+                      [&](double* to) { return H5Aread(found.id(), H5T_NATIVE_DOUBLE, to); });
+}
+
+std::vector<double> Hdf5Array::scale_of(std::size_t axis) const {
+    constexpr std::int64_t most_coordinates = 1 << 20;
+    if (shape_[axis] > most_coordinates) return {};
+    ScaleFound found{static_cast<std::size_t>(shape_[axis]), {}};
+    const auto number = static_cast<unsigned>(axis);
+    if (H5DSget_num_scales(set_.id(), number) < 1) return {};
+    if (H5DSiterate_scales(set_.id(), number, nullptr, read_scale, &found) < 0) return {};
+    return found.numbers;
+}
+
+// Packed by a filter that this machine's library does not have.
+void Hdf5Array::expect_filters() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    const int count = properties.valid() ? H5Pget_nfilters(properties.id()) : 0;
+    for (int i = 0; i < count; ++i) {
+        unsigned flags = 0, config = 0;
+        std::size_t values = 0;
+        char word[64] = {};
+        const H5Z_filter_t filter =
+            H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags, &values, nullptr,
+                           sizeof word, word, &config);
+        if (filter >= 0 && H5Zfilter_avail(filter) <= 0) {
+            fail("{}: found the filter {} ({}), expected one that HDF5 has here", name_, filter,
+                 one_line(word));
+        }
+    }
+}
+
+// Slabs of whole chunks, of some 64 MiB.
+std::int64_t Hdf5Array::slab_thickness(std::size_t axis, std::size_t slice_bytes) const {
+    constexpr std::size_t wanted_bytes = std::size_t{1} << 26;
+    std::int64_t chunk = 1;
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    if (properties.valid() && H5Pget_layout(properties.id()) == H5D_CHUNKED) {
+        hsize_t edges[most_rank] = {};
+        if (H5Pget_chunk(properties.id(), most_rank, edges) > static_cast<int>(axis))
+            chunk = static_cast<std::int64_t>(std::clamp<hsize_t>(edges[axis], 1, 1 << 20));
+    }
+    const auto slices =
+        static_cast<std::int64_t>(wanted_bytes / std::max<std::size_t>(1, slice_bytes));
+    return std::max<std::int64_t>(1, slices / chunk) * chunk;
+}
+
+void Hdf5Array::read_slabs(const std::vector<std::int64_t>& index, char* to) const {
+    const std::size_t rank = shape_.size(), cut = index.size();
+    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
+    std::vector<hsize_t> begin(rank, 0), count(rank, 1);
+    std::size_t slice_bytes = bytes_of(type_);
+    for (std::size_t axis = 0; axis < rank; ++axis) {
+        if (axis < cut) begin[axis] = static_cast<hsize_t>(index[axis]);
+        if (axis > cut) {
+            count[axis] = static_cast<hsize_t>(shape_[axis]);
+            slice_bytes *= static_cast<std::size_t>(shape_[axis]);
+        }
+    }
+    const std::int64_t thickness = slab_thickness(cut, slice_bytes);
+    for (std::int64_t at = 0; at < shape_[cut]; at += thickness) {
+        check_interrupt();
+        const std::int64_t slices = std::min(thickness, shape_[cut] - at);
+        begin[cut] = static_cast<hsize_t>(at);
+        count[cut] = static_cast<hsize_t>(slices);
+        H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(),
+                            nullptr);
+        const Hdf5Handle memory(H5Screate_simple(static_cast<int>(rank), count.data(), nullptr),
+                                H5Sclose);
+        if (H5Dread(set_.id(), memory_type(type_), memory.id(), space.id(), H5P_DEFAULT,
+                    to + static_cast<std::size_t>(at) * slice_bytes) < 0)
+            fail("{}: damaged data: HDF5 cannot read the samples {} to {} of dimension {}", name_,
+                 at, at + slices - 1, cut);
+    }
+}
+
+std::shared_ptr<void> Hdf5Array::read(const std::vector<std::int64_t>& index,
+                                      std::uint64_t file_bytes) const {
+    std::vector<StoredAxis> axes;
+    for (std::size_t axis = shape_.size(); axis > index.size(); --axis)
+        axes.push_back({shape_[axis - 1], {}});
+    const std::size_t bytes = stored_bytes(name_, axes, bytes_of(type_));
+    const std::uint64_t stored =
+        std::min<std::uint64_t>(H5Dget_storage_size(set_.id()), file_bytes);
+    if (stored == 0) fail("{}: found no samples in it, expected {} bytes", name_, bytes);
+    if (bytes / most_hdf5_expansion > stored) {
+        fail("{}: the array promises {} bytes, the file has {}, which cannot hold them", name_,
+             bytes, stored);
+    }
+    expect_filters();
+    allow_bytes(bytes);
+    std::shared_ptr<void> samples = sample_memory(bytes);
+    read_slabs(index, static_cast<char*>(samples.get()));
+    return samples;
+}
+
+}  // namespace lamina

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/isolated_read.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/warning.h"
+
+namespace lamina {
+namespace {
+
+constexpr rlim_t seconds_for_headers = 5;
+
+// What the other process sends: one of these letters, a length, and so many bytes.
+enum Message : char { warning = 'W', refusal = 'E', result = 'R', samples_follow = 'S' };
+
+// Of fixed size, between processes of one program.
+struct ResultHead {
+    Grid grid;
+    ValueType type;
+    double scale, offset;
+};
+
+// In the process of its own: writes all or ends it.
+void send_all(int to, const void* bytes, std::size_t count) {
+    const char* at = static_cast<const char*>(bytes);
+    while (count > 0) {
+        const ssize_t sent = write(to, at, count);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) _exit(1);  // nobody listens any more
+        at += sent;
+        count -= static_cast<std::size_t>(sent);
+    }
+}
+
+void send_message(int to, char kind, const void* bytes, std::size_t count) {
+    send_all(to, &kind, 1);
+    send_all(to, &count, sizeof count);
+    send_all(to, bytes, count);
+}
+
+void send_text(int to, char kind, const std::string& text) {
+    send_message(to, kind, text.data(), text.size());
+}
+
+[[noreturn]] void run_child(int to, const std::function<ReadSamples()>& read) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT}) signal(number, SIG_DFL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    allow_bytes(0);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);  // what libraries print of their assertions
+    const WarningTaker taker = [&](const std::string& text) { send_text(to, warning, text); };
+    try {
+        const ClientScope scope({{}, &taker, nullptr});
+        const ReadSamples found = read();
+        const ResultHead head{found.grid, found.samples.type, found.samples.scale,
+                              found.samples.offset};
+        send_message(to, result, &head, sizeof head);
+        send_message(
+            to, samples_follow, found.samples.bytes.get(),
+            static_cast<std::size_t>(found.grid.sample_count()) * bytes_of(found.samples.type));
+    } catch (const std::bad_alloc&) {
+        send_text(to, refusal, "out of memory");
+    } catch (const std::exception& error) {
+        send_text(to, refusal, error.what());
+    }
+    _exit(0);
+}
+
+// The process that reads, and what it sends.
+class Child {
+  public:
+    Child(std::string name, const char* library, const std::function<ReadSamples()>& read)
+        : name_(std::move(name)), library_(library) {
+        int ends[2] = {-1, -1};
+        if (pipe2(ends, O_CLOEXEC) != 0)
+            fail("{}: cannot be read: no pipe: {}", name_, std::strerror(errno));
+        process_ = fork();
+        if (process_ == 0) {
+            close(ends[0]);
+            run_child(ends[1], read);
+        }
+        close(ends[1]);
+        from_ = ends[0];
+        if (process_ > 0) return;
+        close(from_);
+        fail("{}: cannot be read: no process: {}", name_, std::strerror(errno));
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    ~Child() {
+        close(from_);
+        if (!ended_) {
+            kill(process_, SIGKILL);
+            wait_for();
+        }
+    }
+
+    ReadSamples receive() {
+        std::optional<ReadSamples> found;
+        for (char kind = 0; receive_all(&kind, 1);) {
+            std::size_t count = 0;
+            expect_all(&count, sizeof count);
+            if (kind == samples_follow && found) {
+                found->samples.bytes = sample_memory(count);
+                expect_all(found->samples.bytes.get(), count);
+                return std::move(*found);
+            }
+            if (kind == result) {
+                ResultHead head;
+                expect_all(&head, sizeof head);
+                found = ReadSamples{head.grid, {name_, head.type, {}, head.scale, head.offset}};
+                continue;
+            }
+            constexpr std::size_t most_text = 1 << 16;
+            std::string text(std::min(count, most_text), '\0');
+            expect_all(text.data(), text.size());
+            if (kind == refusal) throw Error(text);
+            warn(text);
+        }
+        fail_as_ended();
+    }
+
+  private:
+    // False at the end.
+    bool receive_all(void* bytes, std::size_t count) {
+        char* at = static_cast<char*>(bytes);
+        while (count > 0) {
+            pollfd waiting{from_, POLLIN, 0};
+            constexpr int milliseconds = 100;  // between looks for a requested stop
+            if (poll(&waiting, 1, milliseconds) <= 0) {
+                check_interrupt();
+                continue;
+            }
+            const ssize_t got = read(from_, at, std::min<std::size_t>(count, 1 << 26));
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) return false;
+            at += got;
+            count -= static_cast<std::size_t>(got);
+            check_interrupt();
+        }
+        return true;
+    }
+
+    void expect_all(void* bytes, std::size_t count) {
+        if (!receive_all(bytes, count)) fail_as_ended();
+    }
+
+    int wait_for() {
+        int status = 0;
+        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        ended_ = true;
+        return status;
+    }
+
+    [[noreturn]] void fail_as_ended() {
+        const int status = wait_for();
+        if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+            fail("{}: damaged: {} does not come to an end with it", name_, library_);
+        fail("{}: damaged: {} ended with signal {} ({})", name_, library_,
+             WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+             WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "none");
+    }
+
+    std::string name_;
+    const char* library_;
+    pid_t process_ = -1;
+    int from_ = -1;
+    bool ended_ = false;
+};
+
+}  // namespace
+
+void allow_bytes(std::size_t bytes) {
+    constexpr std::size_t slowest = 1 << 20;  // bytes a second, decompressed
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    rlimit limit{};
+    getrlimit(RLIMIT_CPU, &limit);
+    limit.rlim_cur =
+        std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(used.ru_utime.tv_sec) +
+                                             static_cast<rlim_t>(used.ru_stime.tv_sec) +
+                                             seconds_for_headers + bytes / slowest);
+    setrlimit(RLIMIT_CPU, &limit);
+}
+
+ReadSamples read_isolated(const std::string& name, const char* library,
+                          const std::function<ReadSamples()>& read) {
+    return Child(name, library, read).receive();
+}
+
+}  // namespace lamina

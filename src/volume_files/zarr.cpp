@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/zarr.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "volume_files/grid_check.h"
+#include "volume_files/ome_zarr.h"
+#include "volume_files/stored_axes.h"
+#include "volume_files/stored_samples.h"
+#include "volume_files/zarr_array.h"
+
+namespace lamina {
+namespace {
+
+using Path = std::filesystem::path;
+
+bool has_file(const Path& folder, const char* name) {
+    std::error_code unreadable;
+    return std::filesystem::exists(folder / name, unreadable);
+}
+
+// Arrays and images of a group, by their paths in it.
+void find_arrays(const Path& root, const Path& folder, int depth, std::vector<std::string>& found) {
+    constexpr int most_depth = 8;
+    constexpr std::size_t most_entries = 1000;
+    check_interrupt();
+    if (found.size() >= most_entries || depth > most_depth) return;
+    if (depth > 0 && (has_file(folder, ".zarray") || is_ome_zarr(zarr_attributes(folder)))) {
+        found.push_back(folder.lexically_relative(root).string());
+        return;
+    }
+    std::vector<Path> folders;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.is_directory() && folders.size() < most_entries) folders.push_back(entry.path());
+    }
+    std::ranges::sort(folders);
+    for (const Path& inner : folders) find_arrays(root, inner, depth + 1, found);
+}
+
+std::vector<std::string> plain_axes(const ZarrArray& array) {
+    static const std::vector<std::string> all{"t", "c", "z", "y", "x"};
+    if (array.shape.size() > all.size()) {
+        fail("{}: shape: found {} axes, expected at most {}", (array.folder / ".zarray").string(),
+             array.shape.size(), all.size());
+    }
+    return {all.end() - static_cast<std::ptrdiff_t>(array.shape.size()), all.end()};
+}
+
+ZarrImage image_in(const Path& path, const VolumeRequest& request) {
+    const Path folder = request.array.empty() ? path : path / request.array;
+    if (has_file(folder, ".zarray")) return {folder, {}, {}, {}};
+    const nlohmann::json attributes = zarr_attributes(folder);
+    if (is_ome_zarr(attributes)) return ome_zarr_level(folder, attributes, request.level);
+    if (has_file(folder, "zarr.json"))
+        fail("{}: found Zarr version 3, expected version 2", folder.string());
+    if (!request.array.empty())
+        fail("{}: array: found \"{}\", expected an array of it", path.string(), request.array);
+    std::vector<std::string> arrays;
+    find_arrays(path, path, 0, arrays);
+    if (arrays.empty()) fail("{}: found no array in it", path.string());
+    if (arrays.size() > 1) {
+        fail("{}: found the arrays {}, expected one, as in {}", path.string(),
+             fmt::join(arrays, ", "), (path / arrays.front()).string());
+    }
+    VolumeRequest inner = request;
+    inner.array = arrays.front();
+    return image_in(path, inner);
+}
+
+struct PlacedArray {
+    ZarrSelection selection;
+    Grid grid;
+};
+
+PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRequest& request) {
+    const std::string name = image.folder.string();
+    PlacedArray placed;
+    placed.selection.index.assign(array.shape.size(), 0);
+    bool channels = false, times = false;
+    for (std::size_t i = 0; i < array.shape.size(); ++i) {
+        if (image.axes[i] == "t") {
+            placed.selection.index[i] = taken_of(name, "time", request.time, array.shape[i]);
+            times = true;
+        } else if (image.axes[i] == "c") {
+            placed.selection.index[i] = taken_of(name, "channel", request.channel, array.shape[i]);
+            channels = true;
+        } else {
+            const auto axis = static_cast<std::size_t>('z' - image.axes[i][0]);  // z, y, x
+            if (placed.selection.axes[axis] >= 0)
+                fail("{}: axes: found two \"{}\", expected one", name, image.axes[i]);
+            placed.selection.axes[axis] = static_cast<int>(i);
+            const std::size_t in_grid = 2 - axis;
+            placed.grid.size[in_grid] = array.shape[i];
+            placed.grid.step[in_grid] *= image.scale[i];
+            placed.grid.origin[static_cast<int>(in_grid)] = image.translation[i];
+        }
+    }
+    if (!channels) taken_of(name, "channel", request.channel, 1);
+    if (!times) taken_of(name, "time", request.time, 1);
+    if (placed.selection.axes[1] < 0 || placed.selection.axes[2] < 0)
+        fail("{}: axes: found no \"y\" and \"x\", expected both", name);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        placed.grid.centering[axis] =
+            placed.grid.size[axis] > 1 ? Centering::node : Centering::cell;
+    }
+    check_grid(name, placed.grid, {"scale", "translation"});
+    return placed;
+}
+
+}  // namespace
+
+bool is_zarr(const Path& path) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_directory(path, unreadable)) return false;
+    return has_file(path, ".zarray") || has_file(path, ".zgroup") || has_file(path, ".zattrs") ||
+           has_file(path, "zarr.json");
+}
+
+Volume read_zarr(const Path& path, const VolumeRequest& request) {
+    ZarrImage image = image_in(path, request);
+    const ZarrArray array = read_zarray(image.folder);
+    if (image.axes.empty()) {
+        if (request.level) taken_of(path.string(), "level", request.level, 1);
+        image.axes = plain_axes(array);
+        image.scale.assign(image.axes.size(), 1);
+        image.translation.assign(image.axes.size(), 0);
+    }
+    if (image.axes.size() != array.shape.size()) {
+        fail("{}: shape: found {} axes, expected {}, as the image has",
+             (image.folder / ".zarray").string(), array.shape.size(), image.axes.size());
+    }
+    const PlacedArray placed = place(array, image, request);
+    StoredSamples samples;
+    samples.file = image.folder.string();
+    samples.type = array.type;
+    samples.bytes = read_zarr_samples(array, placed.selection);
+    return drawn_volume(placed.grid, samples);
+}
+
+std::vector<Path> files_of_zarr(const Path& path) {
+    std::vector<Path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
+        check_interrupt();
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+}  // namespace lamina

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "lamina/volume.h"
+#include "lamina/volume_request.h"
+
+namespace lamina {
+
+// Whether the path is a folder with a Zarr array, group or image.
+bool is_zarr(const std::filesystem::path& path);
+
+// Reads an array of Zarr version 2, or a level of an OME-Zarr image. A plain array has the axes z,
+// y, x, before these the channel, before that the time; its samples are 1 apart. Of a group the
+// only array or image is read; `request.array` names one of several. Throws Error.
+Volume read_zarr(const std::filesystem::path& path, const VolumeRequest& request);
+
+// All files of the folder.
+std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
+
+}  // namespace lamina

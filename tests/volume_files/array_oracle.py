@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""array_oracle.py FOLDER: writes Zarr arrays and OME-Zarr images, HDF5 files and folders of DICOM slices to
+FOLDER with their own libraries (zarr, h5py, pydicom), and to FOLDER/cases.json a list of what should be read:
+path, request, size, origin, steps, and the values as FOLDER/NAME.values (float64, x fastest). A case with "error"
+should be refused with those words. Exits with 77 where a library is not installed.
+"""
+import json
+import os
+import sys
+
+try:
+    import h5py
+    import numcodecs
+    import numpy as np
+    import pydicom  # noqa: F401
+    import zarr
+    from pydicom.dataset import Dataset, FileMetaDataset
+    from pydicom.uid import (ExplicitVRBigEndian, ExplicitVRLittleEndian, ImplicitVRLittleEndian, RLELossless,
+                             generate_uid)
+except ImportError:
+    sys.exit(77)
+
+FOLDER = sys.argv[1]
+CASES = []
+RNG = np.random.default_rng(3)
+UNIT = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+
+
+def case(name, path, values, steps=None, origin=(0, 0, 0), **request):
+    """`values`: what should be read, in the order z, y, x."""
+    values = np.asarray(values)
+    values.astype("<f8").tofile(f"{FOLDER}/{name}.values")
+    CASES.append({"name": name, "path": path, "size": list(values.shape[::-1]), "origin": [float(v) for v in origin],
+                  "steps": [[float(v) for v in step] for step in (steps or UNIT)], "request": request})
+
+
+def bad(name, path, *words, **request):
+    CASES.append({"name": name, "path": path, "error": list(words), "request": request})
+
+
+def samples(dtype, shape=(5, 6, 7)):
+    dtype = np.dtype(dtype)
+    if dtype.kind == "f":
+        return RNG.normal(size=shape).astype("f4").astype(dtype)
+    if dtype.kind == "b":
+        return RNG.integers(0, 2, shape).astype(dtype)
+    info = np.iinfo(dtype)
+    # What float32 holds, in all bits of the type.
+    return (RNG.integers(max(info.min, -2**20), min(info.max, 2**20), shape, endpoint=True)).astype(dtype)
+
+
+def save_zarr(name, array, **how):
+    how.setdefault("chunks", (2, 4, 3))
+    stored = zarr.open(f"{FOLDER}/{name}.zarr", mode="w", shape=array.shape, dtype=array.dtype, **how)
+    stored[...] = array
+    return f"{name}.zarr"
+
+
+def zarr_cases():
+    for dtype in ("|b1", "|u1", "|i1", "<u2", ">u2", "<i2", ">i2", "<u4", ">u4", "<i4", ">i4", "<u8", ">u8", "<i8",
+                  ">i8", "<f4", ">f4", "<f8", ">f8"):
+        array = samples(dtype)
+        name = "type_" + dtype.replace("|", "n").replace("<", "l").replace(">", "b")
+        case(name, save_zarr(name, array), array)
+    codecs = {"none": None, "zlib": numcodecs.Zlib(5), "gzip": numcodecs.GZip(5), "zstd": numcodecs.Zstd(3),
+              "lz4": numcodecs.LZ4()}
+    for inner in ("blosclz", "lz4", "lz4hc", "zlib", "zstd"):
+        for shuffle in (0, 1, 2):
+            codecs[f"blosc_{inner}_{shuffle}"] = numcodecs.Blosc(cname=inner, clevel=5, shuffle=shuffle)
+    ramp = np.arange(40 * 30 * 20, dtype="<u2").reshape(20, 30, 40)
+    for word, codec in codecs.items():
+        for order in "CF":
+            name = f"codec_{word}_{order}"
+            case(name, save_zarr(name, ramp, compressor=codec, order=order, chunks=(8, 16, 32)), ramp)
+    name = "slashes"
+    case(name, save_zarr(name, ramp, chunks=(20, 7, 40), dimension_separator="/"), ramp)
+    # Chunks that were never written have the fill value.
+    for fill, dtype in ((7, "<i2"), (-1.5, ">f4"), (0, "|u1")):
+        name = f"fill_{dtype[1:]}"
+        stored = zarr.open(f"{FOLDER}/{name}.zarr", mode="w", shape=(6, 7, 8), dtype=dtype, chunks=(4, 4, 4),
+                           fill_value=fill)
+        stored[:3, :3, :5] = samples(dtype, (3, 3, 5))
+        case(name, name + ".zarr", stored[...])
+    flat = samples("<u2", (6, 7))
+    case("flat", save_zarr("flat", flat, chunks=(4, 4)), flat[None])
+    five = samples("<i2", (3, 2, 4, 5, 6))
+    path = save_zarr("five", five, chunks=(2, 2, 3, 3, 3))
+    case("five", path, five[0, 0])
+    case("five_told", path, five[2, 1], time=2, channel=1)
+    bad("five_beyond", path, "time", "found 3", "0 to 2", time=3)
+    four = samples("<i2", (3, 4, 5, 6))
+    case("four", save_zarr("four", four, chunks=(1, 4, 5, 6)), four[1], channel=1)
+
+    group = zarr.open_group(f"{FOLDER}/group.zarr", mode="w")
+    group.create_dataset("a/one", data=ramp[:5, :5, :5], chunks=(2, 2, 2))
+    alone = zarr.open_group(f"{FOLDER}/alone.zarr", mode="w")
+    alone.create_dataset("a/one", data=ramp[:5, :5, :5], chunks=(2, 2, 2))
+    case("group", "alone.zarr", ramp[:5, :5, :5])
+    case("group_path", "group.zarr/a/one", ramp[:5, :5, :5])
+    group.create_dataset("a/two", data=ramp[:3, :3, :3], chunks=(2, 2, 2))
+    case("group_told", "group.zarr", ramp[:3, :3, :3], array="a/two")
+    bad("group_several", "group.zarr", "a/one, a/two", "expected one")
+    bad("group_none", "group.zarr", "b/one", array="b/one")
+    save_zarr("delta", ramp, filters=[numcodecs.Delta("<u2")])
+    bad("delta", "delta.zarr", "filters", "delta")
+    save_zarr("bz2", ramp, compressor=numcodecs.BZ2())
+    bad("bz2", "bz2.zarr", "compressor", "bz2", "blosc")
+    save_zarr("half", ramp.astype("f2"))
+    bad("half", "half.zarr", "dtype", "<f2")
+    os.mkdir(f"{FOLDER}/v3.zarr")
+    with open(f"{FOLDER}/v3.zarr/zarr.json", "w") as out:
+        out.write("{}")
+    bad("v3", "v3.zarr", "version 3")
+
+    image = zarr.open_group(f"{FOLDER}/image.zarr", mode="w")
+    fine = samples("<u2", (2, 3, 4, 8, 10))
+    image.create_dataset("0", data=fine, chunks=(1, 1, 2, 8, 8), dimension_separator="/")
+    image.create_dataset("1", data=fine[..., ::2, ::2], chunks=(1, 1, 4, 4, 4), dimension_separator="/")
+    axes = [{"name": "t", "type": "time"}, {"name": "c", "type": "channel"}] + [
+        {"name": n, "type": "space", "unit": "micrometer"} for n in "zyx"]
+    image.attrs["multiscales"] = [{"version": "0.4", "axes": axes, "datasets": [
+        {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 2, .5, .25]}]},
+        {"path": "1", "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 2, 1, .5]},
+                                                    {"type": "translation", "translation": [0, 0, 3, 4, 5]}]}],
+        "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 10, 10, 10]}]}]
+    case("image", "image.zarr", fine[0, 0], [[2.5, 0, 0], [0, 5, 0], [0, 0, 20]])
+    case("image_level", "image.zarr", fine[1, 2, :, ::2, ::2], [[5, 0, 0], [0, 10, 0], [0, 0, 20]],
+         (50, 40, 30), level=1, time=1, channel=2)
+    bad("image_beyond", "image.zarr", "level", "found 2", "0 to 1", level=2)
+    zyx = zarr.open_group(f"{FOLDER}/zyx.zarr", mode="w")
+    zyx.create_dataset("s0", data=ramp, chunks=(10, 10, 10))
+    zyx.attrs["multiscales"] = [{"version": "0.3", "axes": ["z", "y", "x"], "datasets": [{"path": "s0"}]}]
+    case("zyx", "zyx.zarr", ramp)
+
+
+def hdf5_cases():
+    with h5py.File(f"{FOLDER}/types.h5", "w") as file:
+        for i, dtype in enumerate(("u1", "i1", "<u2", ">u2", "<i2", ">i2", "<u4", ">i4", "<u8", ">i8", "<f2", "<f4",
+                                   ">f4", "<f8", ">f8")):
+            array = samples(dtype)
+            name = "set_" + dtype.replace("<", "l").replace(">", "b")
+            how = [{}, {"chunks": (2, 3, 4)}, {"chunks": (2, 3, 4), "compression": "gzip", "shuffle": True},
+                   {"chunks": True, "fletcher32": True}][i % 4]
+            file.create_dataset("group/" + name, data=array, **how)
+            case("h5_" + name, f"types.h5:/group/{name}", array)
+        case("h5_array", "types.h5", file["group/set_u1"][...], array="/group/set_u1")
+    bad("h5_several", "types.h5", "/group/set_bf4", "expected one")
+    bad("h5_none", "types.h5:/group/none", "no data set")
+    with h5py.File(f"{FOLDER}/one.nc", "w") as file:
+        array = samples(">i2", (3, 4, 5, 6))
+        one = file.create_dataset("temperature", data=array, chunks=(1, 2, 5, 6), compression="gzip")
+        one.attrs["scale_factor"] = .5
+        one.attrs["add_offset"] = 10.
+        for axis, (word, numbers) in enumerate((("time", [0, 1, 2]), ("level", [5, 3, 1, -1]),
+                                                ("lat", [10, 20, 30, 40, 50]), ("lon", [0, .1, .2, .3, .4, .5]))):
+            file.create_dataset(word, data=np.array(numbers, "f4"))
+            file[word].make_scale(word)
+            one.dims[axis].attach_scale(file[word])
+        file.create_dataset("flat", data=np.zeros((4, 5)))
+        steps = [[float(np.float32(.5)) / 5, 0, 0], [0, 10, 0], [0, 0, -2]]
+        case("nc", "one.nc", array[0] * .5 + 10, steps, (0, 10, 5))
+        case("nc_time", "one.nc", array[2] * .5 + 10, steps, (0, 10, 5), time=2)
+        case("nc_flat", "one.nc:/flat", np.zeros((1, 4, 5)))
+    with h5py.File(f"{FOLDER}/fill.nc", "w") as file:
+        array = samples("<f4", (3, 4, 5))
+        array[1, 2, 3] = -9999
+        file.create_dataset("v", data=array).attrs["_FillValue"] = np.float32(-9999)
+        file["v"].attrs["element_size_um"] = [4, 2, 1]
+        array[1, 2, 3] = np.nan
+        case("nc_fill", "fill.nc", array, [[1, 0, 0], [0, 2, 0], [0, 0, 4]])
+    with h5py.File(f"{FOLDER}/empty.h5", "w") as file:
+        file.create_dataset("v", shape=(1000, 1000, 1000), chunks=(100, 100, 100), dtype="f8")
+        file.create_dataset("lzf", data=samples("<u2"), compression="lzf")
+        file.create_dataset("words", data=np.full((2, 2, 2), b"word"))
+    bad("h5_empty", "empty.h5:/v", "no samples", "8000000000")
+    bad("h5_lzf", "empty.h5:/lzf", "filter", "lzf")
+    bad("h5_words", "empty.h5:/words", "type")
+
+
+def slice_of(array, series, number, position, orientation, spacing, syntax=ExplicitVRLittleEndian, slope=None,
+             intercept=None):
+    data = Dataset()
+    data.file_meta = FileMetaDataset()
+    data.file_meta.TransferSyntaxUID = syntax
+    data.file_meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.2"
+    data.SOPClassUID = data.file_meta.MediaStorageSOPClassUID
+    data.SOPInstanceUID = data.file_meta.MediaStorageSOPInstanceUID = generate_uid()
+    data.is_little_endian = syntax != ExplicitVRBigEndian
+    data.is_implicit_VR = syntax == ImplicitVRLittleEndian
+    data.Modality = "CT"
+    data.SeriesInstanceUID, data.SeriesDescription = series, "series " + series[-1]
+    data.InstanceNumber = number
+    data.Rows, data.Columns = array.shape[-2:]
+    if array.ndim == 3:
+        data.NumberOfFrames = array.shape[0]
+    data.ImagePositionPatient = [f"{v:.10g}" for v in position]
+    data.ImageOrientationPatient = [f"{v:.10g}" for v in orientation]
+    data.PixelSpacing = [spacing[1], spacing[0]]  # between rows first
+    data.SliceThickness = spacing[2]
+    data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
+    data.BitsAllocated = data.BitsStored = 8 * array.dtype.itemsize
+    data.HighBit = data.BitsStored - 1
+    data.PixelRepresentation = int(array.dtype.kind == "i")
+    if slope is not None:
+        data.RescaleSlope, data.RescaleIntercept = slope, intercept
+    if syntax == RLELossless:
+        data.PixelData = array.tobytes()
+        data.file_meta.TransferSyntaxUID = ExplicitVRLittleEndian
+        data.compress(RLELossless)
+    else:
+        data.PixelData = array.astype(array.dtype.newbyteorder(">")).tobytes() if not data.is_little_endian \
+            else array.tobytes()
+        data["PixelData"].VR = "OB" if array.dtype.itemsize == 1 else "OW"
+    return data
+
+
+def save_slices(name, slices):
+    os.makedirs(f"{FOLDER}/{name}", exist_ok=True)
+    order = RNG.permutation(len(slices))
+    for place, data in zip(order, slices):
+        data.save_as(f"{FOLDER}/{name}/IM{place:03}-{len(os.listdir(FOLDER + '/' + name))}", write_like_original=False)
+
+
+def stack(array, series, along_row, along_column, spacing, origin, rescale=lambda i: (None, None), **how):
+    normal = np.cross(along_row, along_column)
+    return [slice_of(image, series, i + 1, np.asarray(origin) + i * spacing[2] * normal,
+                     [*along_row, *along_column], spacing, slope=rescale(i)[0], intercept=rescale(i)[1], **how)
+            for i, image in enumerate(array)]
+
+
+def dicom_cases():
+    axial = ([1, 0, 0], [0, 1, 0])
+    oblique = (np.array([2, 1, 2]) / 3, np.array([-2, 2, 1]) / 3)
+    spacing, origin = (.5, .75, 2), (-10, 20, 30.5)
+
+    def steps(axes):
+        return [np.asarray(axes[0]) * spacing[0], np.asarray(axes[1]) * spacing[1],
+                np.cross(*axes) * spacing[2]]
+
+    for dtype in ("u1", "<u2", "<i2"):
+        for word, syntax in (("explicit", ExplicitVRLittleEndian), ("implicit", ImplicitVRLittleEndian),
+                             ("big", ExplicitVRBigEndian), ("rle", RLELossless)):
+            for where, axes in (("axial", axial), ("oblique", oblique)):
+                array = samples(dtype, (5, 6, 8))
+                name = f"dcm_{dtype.strip('<')}_{word}_{where}"
+                save_slices(name, stack(array, "1.2.1", *axes, spacing, origin, syntax=syntax))
+                case(name, name, array, steps(axes), origin)
+    array = samples("<u2", (4, 6, 8)) % 4096
+    save_slices("dcm_ct", stack(array, "1.2.1", *axial, spacing, origin, lambda i: (1, -1024)))
+    case("dcm_ct", "dcm_ct", array.astype("i4") - 1024, steps(axial), origin)
+    save_slices("dcm_pet", stack(array, "1.2.1", *axial, spacing, origin, lambda i: (.5 + i, 0)))
+    case("dcm_pet", "dcm_pet", array * (.5 + np.arange(4))[:, None, None], steps(axial), origin)
+    # From feet to head or from head to feet: the same volume.
+    save_slices("dcm_down", stack(array, "1.2.1", *axial, spacing, origin)[::-1])
+    case("dcm_down", "dcm_down", array, steps(axial), origin)
+
+    save_slices("dcm_two", stack(array, "1.2.1", *axial, spacing, origin))
+    save_slices("dcm_two", stack(array[:2] + 1, "1.2.2", *axial, spacing, origin))
+    with open(f"{FOLDER}/dcm_two/notes.txt", "w") as out:
+        out.write("no image")
+    case("dcm_two", "dcm_two", array, steps(axial), origin)
+    case("dcm_two_uid", "dcm_two", array[:2] + 1, steps(axial), origin, array="1.2.2")
+    case("dcm_two_word", "dcm_two", array[:2] + 1, steps(axial), origin, array="series 2")
+    bad("dcm_two_none", "dcm_two", "array", "series 3", "series 1", array="series 3")
+
+    later = stack(array + 5, "1.2.1", *axial, spacing, origin)
+    for data in later:
+        data.InstanceNumber += 100
+    save_slices("dcm_time", stack(array, "1.2.1", *axial, spacing, origin) + later)
+    case("dcm_time", "dcm_time", array, steps(axial), origin)
+    case("dcm_time_1", "dcm_time", array + 5, steps(axial), origin, time=1)
+
+    frames = slice_of(array, "1.2.1", 1, origin, [1, 0, 0, 0, 1, 0], spacing)
+    save_slices("dcm_frames", [frames])
+    case("dcm_frames", "dcm_frames", array, steps(axial), origin)
+
+    gap = stack(samples("u1", (6, 4, 4)), "1.2.1", *axial, spacing, origin)
+    save_slices("dcm_gap", gap[:2] + gap[3:])
+    bad("dcm_gap", "dcm_gap", "found 4 mm", "expected 2", "missing")
+    turned = stack(samples("u1", (3, 4, 4)), "1.2.1", *axial, spacing, origin)
+    turned[1].ImageOrientationPatient = [0, 1, 0, 1, 0, 0]
+    save_slices("dcm_turned", turned)
+    bad("dcm_turned", "dcm_turned", "ImageOrientationPatient", "another")
+    tilted = stack(samples("u1", (3, 4, 4)), "1.2.1", *axial, spacing, origin)
+    for i, data in enumerate(tilted):
+        data.ImagePositionPatient[1] = str(float(origin[1]) + i)
+    save_slices("dcm_tilted", tilted)
+    bad("dcm_tilted", "dcm_tilted", "tilted gantry")
+    mixed = stack(samples("u1", (3, 4, 4)), "1.2.1", *axial, spacing, origin)
+    mixed[2] = slice_of(samples("u1", (4, 5)), "1.2.1", 3, (-10, 20, 34.5), [1, 0, 0, 0, 1, 0], spacing)
+    save_slices("dcm_mixed", mixed)
+    bad("dcm_mixed", "dcm_mixed", "4 x 4", "5 x 4")
+
+
+if __name__ == "__main__":
+    zarr_cases()
+    hdf5_cases()
+    dicom_cases()
+    with open(FOLDER + "/cases.json", "w") as list_file:
+        json.dump(CASES, list_file)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Zarr arrays, HDF5 files and DICOM slices that zarr, h5py and pydicom wrote.
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "base/json_text.h"
+#include "nrrd_files.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+VolumeRequest request_of(const nlohmann::json& keys) {
+    VolumeRequest request;
+    request.array = keys.value("array", "");
+    const auto number = [&](const char* key, std::optional<std::int64_t>& to) {
+        if (keys.contains(key)) to = keys[key].get<std::int64_t>();
+    };
+    number("level", request.level);
+    number("channel", request.channel);
+    number("time", request.time);
+    return request;
+}
+
+std::vector<double> values_of(const Volume& volume) {
+    const auto count = static_cast<std::size_t>(volume.grid().sample_count());
+    std::vector<double> values(count);
+    const auto copy = [&](const auto* from) { std::copy(from, from + count, values.begin()); };
+    switch (volume.type()) {
+        case SampleType::uint8:
+            copy(static_cast<const std::uint8_t*>(volume.data()));
+            break;
+        case SampleType::int16:
+            copy(static_cast<const std::int16_t*>(volume.data()));
+            break;
+        case SampleType::uint16:
+            copy(static_cast<const std::uint16_t*>(volume.data()));
+            break;
+        case SampleType::float32:
+            copy(static_cast<const float*>(volume.data()));
+            break;
+    }
+    return values;
+}
+
+std::vector<double> expected_values(const std::filesystem::path& file) {
+    const std::string bytes = read_bytes_of(file);
+    std::vector<double> values(bytes.size() / sizeof(double));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+}
+
+// Each step is off by less than 1e-6 of itself: headers have 10 digits, coordinates are float32.
+void expect_place(const Grid& grid, const nlohmann::json& expected) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(grid.size[axis], expected["size"][axis].get<std::int64_t>());
+        const int i = static_cast<int>(axis);
+        EXPECT_NEAR(grid.origin[i], expected["origin"][axis].get<double>(), 1e-5);
+        for (int component = 0; component < 3; ++component) {
+            const double step =
+                expected["steps"][axis][static_cast<std::size_t>(component)].get<double>();
+            if (grid.size[axis] == 1) continue;  // any step will do
+            EXPECT_NEAR(grid.step[axis][component], step, 2e-6 * (1 + std::abs(step)));
+        }
+    }
+}
+
+TEST(ArrayOracle, ReadsWhatOthersWrite) {
+    const TemporaryFolder folder;
+    const std::string script =
+        std::string(LAMINA_SOURCE_DIR) + "/tests/volume_files/array_oracle.py";
+    const int status =
+        std::system(("/usr/bin/python3 '" + script + "' '" + folder.path().string() + "'").c_str());
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-zarr, -h5py or -pydicom is missing";
+    ASSERT_EQ(status, 0);
+    const nlohmann::json cases = load_json(folder / "cases.json");
+    EXPECT_GT(cases.size(), 100u);
+    const std::string formats = volume_format_names();
+    for (const nlohmann::json& one : cases) {
+        const auto name = one["name"].get<std::string>();
+        SCOPED_TRACE(name);
+        const auto is_of = [&](const char* words) { return name.starts_with(words); };
+        const bool hdf5 = is_of("h5_") || is_of("nc");
+        if (hdf5 && formats.find("HDF5") == std::string::npos) continue;
+        if (is_of("dcm") && formats.find("DICOM") == std::string::npos) continue;
+        const auto path = folder / one["path"].get<std::string>();
+        const VolumeRequest request = request_of(one["request"]);
+        if (one.contains("error")) {
+            const std::string message = error_of([&] { read_volume(path, request); });
+            for (const auto& word : one["error"])
+                EXPECT_NE(message.find(word.get<std::string>()), std::string::npos) << message;
+            continue;
+        }
+        EXPECT_TRUE(is_volume_file(path));
+        std::optional<Volume> volume;
+        try {
+            volume.emplace(read_volume(path, request));
+        } catch (const Error& error) {
+            ADD_FAILURE() << error.what();
+            continue;
+        }
+        expect_place(volume->grid(), one);
+        const std::vector<double> values = values_of(*volume),
+                                  expected = expected_values(folder / (name + ".values"));
+        ASSERT_EQ(values.size(), expected.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (std::isnan(expected[i]) && std::isnan(values[i])) continue;
+            // What is drawn is float32 at most.
+            ASSERT_EQ(values[i], static_cast<double>(static_cast<float>(expected[i]))) << i;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina

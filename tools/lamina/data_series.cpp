@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_series.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "mesh_files/mesh_file.h"
+#include "named_output.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+using Path = std::filesystem::path;
+
+std::string name_at(const FilePattern& pattern, std::int64_t step) {
+    return names_of(pattern, step, step, 1).value().front();
+}
+
+// The text of a path in a scene's document: "volume": PATH or "volume": {"path": PATH}.
+std::string* path_in(nlohmann::json& document, const char* key) {
+    const auto found = document.is_object() ? document.find(key) : document.end();
+    if (found == document.end()) return nullptr;
+    nlohmann::json* value = &*found;
+    if (value->is_object()) {
+        const auto path = value->find("path");
+        if (path == value->end()) return nullptr;
+        value = &*path;
+    }
+    return value->is_string() ? value->get_ptr<std::string*>() : nullptr;
+}
+
+}  // namespace
+
+// A '%' of a folder's name is no number.
+std::optional<FilePattern> DataSeries::take(std::string& path, const std::string& what) const {
+    const std::size_t name = path.rfind('/') + 1;  // 0 where there is no folder
+    if (path.find('%', name) == std::string::npos) return {};
+    const auto pattern = file_pattern(path.substr(name));
+    if (!pattern) {
+        throw UsageError(fmt::format(
+            "--time: {}: found {}, expected one number, as in head_%04d.nrrd", what, path));
+    }
+    path = path.substr(0, name) + name_at(*pattern, steps_.front());
+    return pattern;
+}
+
+DataSeries::DataSeries(std::string file, const TimeRange& range)
+    : steps_(range.steps()), first_file_(std::move(file)) {
+    if (first_file_ == standard_stream) return;
+    file_ = take(first_file_, "SCENE");
+    if (file_ && Path(first_file_).extension() == ".json") {
+        throw UsageError(fmt::format(
+            "--time: {}: found a scene, expected a data file, or a scene whose volume or mesh has "
+            "the number in its path",
+            first_file_));
+    }
+}
+
+void DataSeries::begin(nlohmann::json& document) {
+    for (const auto& [key, pattern] : {std::pair{"volume", &volume_}, std::pair{"mesh", &mesh_}}) {
+        std::string* const path = path_in(document, key);
+        if (path == nullptr) continue;
+        *pattern = file_ ? file_ : take(*path, key);
+    }
+}
+
+Scene DataSeries::at(Scene scene, std::int64_t step) const {
+    if (volume_) scene.volume_file.replace_filename(name_at(*volume_, step));
+    if (mesh_) scene.mesh_file.replace_filename(name_at(*mesh_, step));
+    if (volume_ || mesh_) return scene;
+    if (scene.mesh_file.empty()) {
+        scene.volume_selection.time = step;
+    } else {
+        scene.mesh_time = step;
+    }
+    return scene;
+}
+
+std::vector<Path> DataSeries::files_of_step(const Scene& scene, std::int64_t step) const {
+    const Scene there = at(scene, step);
+    std::vector<Path> files;
+    if (volume_) files = files_of_volume(there.volume_file, there.volume_selection);
+    if (mesh_) {
+        for (const Path& file : files_of_mesh(there.mesh_file)) files.push_back(file);
+    }
+    return files;
+}
+
+void DataSeries::check(const Scene& scene) const {
+    for (const std::int64_t step : steps_) {
+        const Scene there = at(scene, step);
+        for (const auto& [pattern, file] :
+             {std::pair{&volume_, &there.volume_file}, std::pair{&mesh_, &there.mesh_file}}) {
+            if (*pattern && !std::filesystem::exists(*file)) {
+                fail("{}: step {} of --time is not there, expected steps {} to {}", file->string(),
+                     step, steps_.front(), steps_.back());
+            }
+        }
+    }
+    if (volume_ || mesh_) return;
+    if (scene.mesh_file.empty()) {
+        if (scene.volume_file.empty()) {
+            throw UsageError("--time: the scene's volume is generated, expected files");
+        }
+        load_volume(at(scene, steps_.back()));  // how many steps it has is known once it is read
+        return;
+    }
+    const std::int64_t there = steps_of_mesh(scene.mesh_file);
+    if (steps_.back() >= there) {
+        fail("{}: --time: found step {}, expected 0 to {}: the file has {}",
+             scene.mesh_file.string(), steps_.back(), there - 1, there);
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamina/scene.h"
+#include "time_range.h"
+#include "volume_files/file_pattern.h"
+
+namespace lamina {
+
+// The data of a scene that changes with time: files that a number tells apart, "head_%04d.nrrd";
+// the steps of a .pvd; or the time axis of a volume's file.
+class DataSeries {
+  public:
+    // `file`: as the command line names it: a scene, a data file, or a pattern of data files.
+    // Throws UsageError for a pattern that is none.
+    DataSeries(std::string file, const TimeRange& range);
+
+    // What the first step's scene is read from, where `file` is a pattern: its first file.
+    const std::string& first_file() const { return first_file_; }
+    // Puts the first step in place of the patterns in a scene's document.
+    void begin(nlohmann::json& document);
+
+    const std::vector<std::int64_t>& steps() const { return steps_; }
+    // The scene with the data of another step.
+    Scene at(Scene scene, std::int64_t step) const;
+    // The files that are this step's alone.
+    std::vector<std::filesystem::path> files_of_step(const Scene& scene, std::int64_t step) const;
+    // Throws Error where a step of the scene is missing, UsageError where its data have no steps.
+    void check(const Scene& scene) const;
+
+  private:
+    std::optional<FilePattern> take(std::string& path, const std::string& what) const;
+
+    std::vector<std::int64_t> steps_;
+    std::string first_file_;
+    std::optional<FilePattern> file_, volume_, mesh_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "time_series.h"
+
+#include <future>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/atomic_file.h"
+#include "base/content_hash.h"
+#include "base/error.h"
+#include "base/file_hash.h"
+#include "base/interrupt.h"
+#include "base/json_text.h"
+#include "base/own_files.h"
+#include "base/progress.h"
+#include "different_files.h"
+#include "git_commit.h"
+#include "output_folder.h"
+#include "scene_files.h"
+#include "scene_files/scene_json.h"
+
+namespace lamina {
+namespace {
+
+constexpr const char* series_verb = "render --time";
+constexpr const char* series_word = "series";
+
+bool same_grid(const Grid& a, const Grid& b) {
+    return a.size == b.size && a.centering == b.centering && a.origin == b.origin &&
+           a.step == b.step;
+}
+
+}  // namespace
+
+void TimeSeries::check(const OutputOptions& options) {
+    picture_format(FrameNames(options.output).name(0), options.format);
+}
+
+TimeSeries::TimeSeries(const OutputOptions& options, const OutputScene& scene,
+                       const DataSeries& series, const std::vector<std::filesystem::path>& read,
+                       const std::vector<std::filesystem::path>& others)
+    : names_(options.output),
+      format_(picture_format(names_.name(0), options.format)),
+      force_(options.force),
+      scene_(scene),
+      series_(series) {
+    std::vector<std::filesystem::path> inputs = read, written = others;
+    for (const std::int64_t step : series.steps()) {
+        for (const auto& file : series.files_of_step(scene.scene, step)) inputs.push_back(file);
+    }
+    for (const std::string& name : names()) written.push_back(path_of(name));
+    expect_different_files(inputs, written);
+    expect_own_folder(folder(), series_verb, names(), inputs, force_);
+    // A folder that cannot be written fails at once.
+    if (std::filesystem::exists(folder()))
+        const AtomicFile unused(path_of(names_.record_name(series_word)));
+}
+
+void TimeSeries::prepare(const JobMaker& make_job, const SceneData& first, const Messages& say) {
+    make_job_ = make_job;
+    first_ = &first;
+    say_ = say;
+}
+
+std::vector<std::string> TimeSeries::names() const {
+    std::vector<std::string> names;
+    for (const std::int64_t step : series_.steps()) names.push_back(name_at(step));
+    names.push_back(names_.record_name(series_word));
+    return names;
+}
+
+// A hash of all that every picture depends on.
+std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
+    ContentHash hash;
+    for (const auto& [name, text] : attributes) hash.add(text);
+    const auto of_first = series_.files_of_step(scene_.scene, series_.steps().front());
+    for (const std::filesystem::path& file : files_of(scene_.scene)) {
+        // The scene's own text is among the attributes, with what --set changed in it.
+        if (file != scene_.scene.file && std::ranges::count(of_first, file) == 0)
+            hash.add(hash_of_file(file));
+    }
+    hash.add(scene_.omissions.none ? 1.0 : 0.0);
+    for (const std::string& name : scene_.omissions.kept) hash.add(name);
+    hash.add(std::string_view(git_commit));
+    return hash.hex();
+}
+
+// A hash of what is one step's alone.
+std::string TimeSeries::input_of(std::int64_t step) const {
+    ContentHash hash;
+    hash.add(static_cast<double>(step));
+    for (const auto& file : series_.files_of_step(scene_.scene, step)) hash.add(hash_of_file(file));
+    return hash.hex();
+}
+
+std::vector<std::int64_t> TimeSeries::missing(const SeriesRecord& record) const {
+    std::vector<std::int64_t> steps;
+    for (const std::int64_t step : series_.steps()) {
+        check_interrupt();
+        // Input is hashed where there may be something to keep.
+        const bool there = !force_ && std::filesystem::exists(path_of(name_at(step)));
+        if (!there || !record.has(name_at(step), input_of(step))) steps.push_back(step);
+    }
+    return steps;
+}
+
+TimeSeries::Loaded TimeSeries::load(const Scene& resolved, std::int64_t step) const {
+    Loaded loaded{series_.at(resolved, step), {}, input_of(step)};
+    RenderStats unused;
+    loaded.data = load_data(loaded.scene, {}, unused);
+    return loaded;
+}
+
+void TimeSeries::say_of_grid(const SceneData& data, std::int64_t step) const {
+    if (!data.volume || !first_->volume) return;
+    if (same_grid(data.volume->volume.grid(), first_->volume->volume.grid())) return;
+    say_(fmt::format(
+        "step {}: its grid is not that of step {}, whose camera and settings it is drawn with",
+        step, series_.steps().front()));
+}
+
+void TimeSeries::draw_step(RenderJob& job, const Plan& plan, const Scene& scene, std::int64_t step,
+                           RenderStats& stats, PictureAttributes& attributes) const {
+    PictureFile picture(path_of(name_at(step)), format_);
+    job.draw_view(scene.camera, plan, stats);
+    attributes["scene"] = json_text(scene_json(scene), 2);
+    attributes["renderer"] = stats.renderer;
+    stats.counts["clamped_pixels"] += static_cast<std::int64_t>(job.write(picture, attributes));
+}
+
+void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record,
+                              RenderJob& job, const Plan& plan, RenderStats& stats,
+                              PictureAttributes& attributes) const {
+    Progress progress("drawing steps", static_cast<std::int64_t>(steps.size()));
+    const Scene resolved = job.resolved_scene();
+    const std::int64_t first = series_.steps().front();
+    std::future<Loaded> next;
+    const auto read_ahead = [&](std::size_t i) {
+        if (i >= steps.size() || steps[i] == first) return;
+        next = std::async(std::launch::async,
+                          [this, &resolved, step = steps[i], client = ClientScope::current()] {
+                              const ClientScope scope(client);
+                              return load(resolved, step);
+                          });
+    };
+    read_ahead(0);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        check_interrupt();
+        const std::int64_t step = steps[i];
+        std::string input;
+        if (step == first) {
+            read_ahead(i + 1);
+            input = input_of(step);
+            draw_step(job, plan, resolved, step, stats, attributes);
+            stats.first_picture_ms = scene_.watch.milliseconds();
+        } else {
+            const Loaded loaded = next.get();
+            read_ahead(i + 1);
+            say_of_grid(loaded.data, step);
+            const auto job_of_step = make_job_(loaded.scene, loaded.data);
+            RenderStats of_step;
+            const Plan plan_of_step = job_of_step->plan(of_step);
+            draw_step(*job_of_step, plan_of_step, loaded.scene, step, of_step, attributes);
+            stats.frames_ms.insert(stats.frames_ms.end(), of_step.frames_ms.begin(),
+                                   of_step.frames_ms.end());
+            keep_largest(of_step.counts, stats.counts);
+            if (stats.renderer.empty()) stats.renderer = of_step.renderer;
+            input = loaded.input;
+        }
+        record.add(name_at(step), input);
+        progress.advance();
+    }
+}
+
+std::string TimeSeries::draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                             PictureAttributes attributes) {
+    OwnFiles(folder(), series_verb).add(names());
+    attributes["renderer"] = stats.renderer;
+    attributes["scene"] = json_text(scene_json(job.resolved_scene()), 2);
+    SeriesRecord record(path_of(names_.record_name(series_word)), key_of(attributes));
+    const std::vector<std::int64_t> steps = missing(record);
+    const auto all = static_cast<std::int64_t>(series_.steps().size());
+    const std::int64_t kept = all - static_cast<std::int64_t>(steps.size());
+    if (all > 1 && !steps.empty()) {
+        say_(fmt::format(
+            "transfer function, camera and what is automatic are those of step {}, for all steps",
+            series_.steps().front()));
+    }
+    try {
+        draw_missing(steps, record, job, plan, stats, attributes);
+    } catch (const Interrupted&) {
+        const ClientScope scope(finishing_client());
+        record.write();
+        throw Interrupted(
+            fmt::format("interrupted: {} of {} steps are there; the same command goes on",
+                        all - static_cast<std::int64_t>(missing(record).size()), all));
+    }
+    record.write();
+    stats.counts["kept_views"] = kept;
+    const std::string last = all > 1 ? " .. " + name_at(series_.steps().back()) : "";
+    return fmt::format("{} of {} steps as {}{}{}", steps.size(), all,
+                       path_of(name_at(series_.steps().front())).string(), last,
+                       kept > 0 ? fmt::format("; {} were there and are kept", kept) : "");
+}
+
+}  // namespace lamina

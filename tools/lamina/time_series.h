@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "data_series.h"
+#include "frame_names.h"
+#include "render_output.h"
+#include "series_record.h"
+
+namespace lamina {
+
+// The pictures of `render --time`: one of each step of the data, all with the transfer function,
+// the camera and the settings that are the first step's. The next step is read while one is drawn.
+// Pictures that an earlier run wrote of the same scene and data are kept.
+class TimeSeries : public RenderOutput {
+  public:
+    // Throws UsageError where the names or the format of the files cannot be had.
+    static void check(const OutputOptions& options);
+
+    // Throws as Turntable does.
+    TimeSeries(const OutputOptions& options, const OutputScene& scene, const DataSeries& series,
+               const std::vector<std::filesystem::path>& read,
+               const std::vector<std::filesystem::path>& others);
+
+    void prepare(const JobMaker& make_job, const SceneData& first, const Messages& say) override;
+
+    std::string draw(RenderJob& job, const Plan& plan, RenderStats& stats,
+                     PictureAttributes attributes) override;
+
+  private:
+    // A step's data, read ahead.
+    struct Loaded {
+        Scene scene;
+        SceneData data;
+        std::string input;
+    };
+
+    std::vector<std::string> names() const;  // in the folder, the record last
+    std::string name_at(std::int64_t step) const { return names_.name(static_cast<int>(step)); }
+    std::filesystem::path folder() const { return names_.folder().empty() ? "." : names_.folder(); }
+    std::filesystem::path path_of(const std::string& name) const { return names_.folder() / name; }
+    std::string key_of(const PictureAttributes& attributes) const;
+    std::string input_of(std::int64_t step) const;
+    std::vector<std::int64_t> missing(const SeriesRecord& record) const;
+    Loaded load(const Scene& resolved, std::int64_t step) const;
+    void draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record, RenderJob& job,
+                      const Plan& plan, RenderStats& stats, PictureAttributes& attributes) const;
+    void draw_step(RenderJob& job, const Plan& plan, const Scene& scene, std::int64_t step,
+                   RenderStats& stats, PictureAttributes& attributes) const;
+    void say_of_grid(const SceneData& data, std::int64_t step) const;
+
+    FrameNames names_;
+    PictureFormat format_;
+    bool force_;
+    OutputScene scene_;
+    const DataSeries& series_;
+    JobMaker make_job_;
+    const SceneData* first_ = nullptr;
+    Messages say_;
+};
+
+}  // namespace lamina
