@@ -24,7 +24,7 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t header_limit = std::size_t{1} << 20;
+constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 // The longest line of a field: teem prints lines that are wrong into buffers of some 1000 bytes.
 constexpr std::size_t line_limit = 512;
 
@@ -37,7 +37,7 @@ struct HeaderText {
     bool ended = false;            // by an empty line, not by the end of the file
 };
 
-std::string trimmed(const std::string& text) {
+std::string trimmed_field(const std::string& text) {
     const auto first = text.find_first_not_of(" \t");
     if (first == std::string::npos) return {};
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
@@ -51,14 +51,14 @@ void check_regular_file(const std::filesystem::path& path, const std::string& ro
         fail("{}: {}not a regular file", path.string(), role);
 }
 
-// Reads the beginning of a file, at most header_limit bytes.
+// Reads the beginning of a file, at most most_header_bytes bytes.
 std::string read_beginning(const std::filesystem::path& path) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot read: permission denied", path.string());
     std::error_code error;
     const std::uintmax_t length = std::filesystem::file_size(path, error);
     if (error) fail("{}: cannot read: {}", path.string(), error.message());
-    std::string bytes(std::min<std::uintmax_t>(length, header_limit), '\0');
+    std::string bytes(std::min<std::uintmax_t>(length, most_header_bytes), '\0');
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;
@@ -86,10 +86,10 @@ bool is_remark(const std::string& line) {
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || is_remark(line)) return {};
-    std::string name = trimmed(line.substr(0, colon));
+    std::string name = trimmed_field(line.substr(0, colon));
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return Field{name, trimmed(line.substr(colon + 1))};
+    return Field{name, trimmed_field(line.substr(colon + 1))};
 }
 
 [[noreturn]] void fail_at(const std::string& path, int line, const Field& field,
@@ -186,8 +186,8 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
         }
     }
     header.length = static_cast<std::int64_t>(position);
-    if (!header.ended && position == header_limit) {
-        fail("{}: the NRRD header does not end within {} bytes", path, header_limit);
+    if (!header.ended && position == most_header_bytes) {
+        fail("{}: the NRRD header does not end within {} bytes", path, most_header_bytes);
     }
     if (header.text.empty()) fail("{}: not a NRRD file (it is empty)", path);
     if (!header.ended && !header.data_files) {
@@ -207,7 +207,7 @@ std::string teem_message() {
         std::string line = text.substr(at, end - at);
         if (line.starts_with("[nrrd] ")) line.erase(0, 7);
         if (const auto colon = line.find(':'); colon != std::string::npos) line.erase(0, colon + 1);
-        if (line = trimmed(line); !line.empty()) messages.push_back(line);
+        if (line = trimmed_field(line); !line.empty()) messages.push_back(line);
         at = end + 1;
     }
     if (messages.empty()) return "teem gives no reason";

@@ -24,8 +24,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::size_t most_expansion = 32768;  // of any compressor, LZMA's is some 7000
-constexpr std::size_t most_pieces = 4096;      // each is compared with each
+constexpr std::size_t most_vti_expansion = 32768;  // of any compressor, LZMA's is some 7000
+constexpr std::size_t most_pieces = 4096;          // each is compared with each
 
 // The first and the last point along each axis.
 struct Extent {
@@ -191,7 +191,7 @@ class ImageFile {
         const std::array<std::int64_t, 3> size = size_of(whole_);
         const StoredAxis axes[] = {size[0], size[1], size[2]};
         const std::size_t samples = stored_bytes(file_.name(), axes, 1);
-        if (samples / most_expansion <= file_.byte_count()) return;
+        if (samples / most_vti_expansion <= file_.byte_count()) return;
         fail("{}: WholeExtent: found {} x {} x {} samples, more than the file's {} bytes can hold",
              file_.name(), size[0], size[1], size[2], file_.byte_count());
     }
