@@ -172,6 +172,17 @@ class Crosschecker {
             made_.pictures.projected = each.picture;
             made_.pictures.traced_mesh = each.traced;
         }
+        if (scene_.lighting) trace_unlit();
+    }
+
+    // What light adds to the difference of mesh and volume is told for the pictures that are shown.
+    void trace_unlit() {
+        check_interrupt();
+        Scene unlit = projection_scene(scene_, made_.tolerance);
+        unlit.lighting.reset();
+        made_.pictures.unlit_volume =
+            to_float(references_.get(unlit, TraceOf::volume, data_).image);
+        made_.pictures.unlit_mesh = to_float(references_.get(unlit, TraceOf::mesh, data_).image);
     }
 
     const Scene& scene_;

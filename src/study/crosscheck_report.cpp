@@ -15,6 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Of the ladder, where gradients count as the mesh's.
 constexpr const char* part_keys[] = {"mesh", "slicing", "projection"};
 
 Json error_json(const ImageError& error) {
@@ -173,23 +174,22 @@ Json ladder_json(const Crosscheck& crosscheck) {
 nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                    const CrosscheckSubject& subject) {
     Json parts;
-    for (std::size_t i = 0; i < budget.parts.size(); ++i) {
-        parts[part_keys[i]] = error_json(budget.parts[i].error);
-        parts[part_keys[i]]["share"] = budget.parts[i].share;
+    for (const ErrorBudget::Part& part : budget.parts) {
+        parts[part.key] = error_json(part.error);
+        parts[part.key]["share"] = part.share;
     }
-    return {
-        {"scene", subject.name},
-        {"samples", crosscheck.samples},
-        {"tolerance", crosscheck.tolerance},
-        {"reference_error", crosscheck.reference_error},
-        {"wanted", subject.wanted},
-        {"parts", parts},
-        {"raw", error_json(budget.raw_error)},
-        {"residual", budget.residual},
-        {"dominant", part_keys[static_cast<std::size_t>(&budget.dominant() - budget.parts.data())]},
-        {"findings", crosscheck_findings(crosscheck, budget, subject)},
-        {"environment", subject.environment},
-        {"ladder", ladder_json(crosscheck)}};
+    return {{"scene", subject.name},
+            {"samples", crosscheck.samples},
+            {"tolerance", crosscheck.tolerance},
+            {"reference_error", crosscheck.reference_error},
+            {"wanted", subject.wanted},
+            {"parts", parts},
+            {"raw", error_json(budget.raw_error)},
+            {"residual", budget.residual},
+            {"dominant", budget.dominant().key},
+            {"findings", crosscheck_findings(crosscheck, budget, subject)},
+            {"environment", subject.environment},
+            {"ladder", ladder_json(crosscheck)}};
 }
 
 nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const ErrorBudget& budget,

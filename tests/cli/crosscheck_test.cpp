@@ -146,6 +146,19 @@ TEST_F(Crosschecks, WritesIntoItsFolderAlone) {
                                             "traced_volume.exr"}));
 }
 
+TEST_F(Crosschecks, LitScenesNameTheGradients) {
+    EXPECT_FALSE(run_well({}, ".2", "8")["parts"].contains("gradients"));
+    scene["lighting"] = json::object();
+    const json parts = run_well({}, ".2", "8")["parts"];
+    ASSERT_EQ(parts.size(), 4u);
+    // A mesh of tolerance .2 has gradients of its own; what light adds shows in the picture.
+    EXPECT_GT(parts["gradients"]["linf"], .5);
+    double shares = 0;
+    for (const json& part : parts) shares += part["share"].get<double>();
+    EXPECT_NEAR(shares, 1, 1e-9);
+    EXPECT_NE(out.find(", gradients "), std::string::npos) << out;
+}
+
 TEST_F(Crosschecks, TheFourPicturesAreThoseOfRender) {
     run_well();
     const auto expect_picture = [&](const char* name, const std::vector<std::string>& options) {

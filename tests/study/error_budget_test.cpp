@@ -44,6 +44,39 @@ TEST(ErrorBudget, PartsAddUpInEveryPixel) {
     EXPECT_NEAR(budget.parts[0].share + budget.parts[1].share + budget.parts[2].share, 1, 1e-12);
 }
 
+// Pixel by pixel, with the tolerances above and two more differences.
+TEST(ErrorBudget, TellsGradientsOfLitScenesFromTheMesh) {
+    FourPictures pictures{noise(1), noise(2), noise(3), noise(4)};
+    pictures.unlit_volume = noise(5);
+    pictures.unlit_mesh = noise(6);
+    const ErrorBudget budget = error_budget(pictures);
+    ASSERT_EQ(budget.parts.size(), 4u);
+    EXPECT_EQ(budget.parts[3].key, "gradients");
+    const ErrorBudget unlit = error_budget({noise(5), noise(6), noise(3), noise(4)});
+    EXPECT_EQ(budget.parts[0].e.e, unlit.parts[0].e.e);
+    for (std::size_t i = 0; i < budget.raw.e.size(); ++i) {
+        const double sum = budget.parts[0].e.e[i] - budget.parts[1].e.e[i] +
+                           budget.parts[2].e.e[i] + budget.parts[3].e.e[i];
+        EXPECT_NEAR(budget.raw.e[i], sum, 2e-12);
+    }
+    EXPECT_LE(budget.residual, 2e-12);
+    double shares = 0;
+    for (const ErrorBudget::Part& part : budget.parts) shares += part.share;
+    EXPECT_NEAR(shares, 1, 1e-12);
+}
+
+// Mesh and volume differ by 1/16 without light and by 4/16 with it.
+TEST(ErrorBudget, GradientsCanDominate) {
+    FourPictures pictures{all_of(.25F), all_of(.5F), all_of(.25F), all_of(.5F)};
+    pictures.unlit_volume = all_of(.5F);
+    pictures.unlit_mesh = all_of(.5625F);
+    const ErrorBudget budget = error_budget(pictures);
+    EXPECT_EQ(budget.dominant().key, "gradients");
+    EXPECT_DOUBLE_EQ(budget.parts[3].error.all.linf, 255 * .1875);
+    EXPECT_DOUBLE_EQ(budget.parts[3].share, .75);
+    EXPECT_DOUBLE_EQ(budget.parts[0].share, .25);
+}
+
 // Constant pictures: every norm is the difference itself, in 1/255.
 TEST(ErrorBudget, FindsTheDominantPart) {
     struct Case {
