@@ -41,8 +41,7 @@ int run(int argc, char** argv) {
     app.add_option("--size", size, "Of the picture in pixels, whatever the window's")
         ->option_text("WxH");
     app.add_option("--script", options.script, "Play this script (docs/viewer.md) and end")
-        ->option_text("FILE")
-        ->check(CLI::ExistingFile);
+        ->option_text("FILE");
     const std::map<std::string, ContextChoice> contexts = {{"auto", ContextChoice::automatic},
                                                            {"osmesa", ContextChoice::osmesa},
                                                            {"egl", ContextChoice::egl},

@@ -42,14 +42,18 @@ void Measurements::start() {
     seconds_ = now_seconds();
 }
 
-std::string Measurements::text(const std::string& name) const {
+std::string Measurements::text(const std::string& name, const Shown& shown) const {
     const double seconds = now_seconds() - seconds_;
     const nlohmann::ordered_json line = {
         {"name", name},
         {"seconds", seconds},
         {"cpu_percent", 100 * (cpu_seconds() - cpu_seconds_) / seconds},
         {"input_to_picture_ms", summary(latencies_)},
-        {"frame_ms", summary(frames_)}};
+        {"frame_ms", summary(frames_)},
+        {"share_traced", shown.share_traced},
+        {"linf", shown.error.linf},
+        {"l2", shown.error.l2},
+        {"predicted", shown.plan.error}};
     return line.dump();
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "work/shown.h"
+
 namespace lamina::view {
 
 // What the window took since it was last asked.
@@ -13,8 +15,8 @@ class Measurements {
     void start();
     void add_latency(double ms) { latencies_.push_back(ms); }  // from input to picture on screen
     void add_frame(double ms) { frames_.push_back(ms); }       // to make one, until it is shown
-    // One line of JSON.
-    std::string text(const std::string& name) const;
+    // One line of JSON, with what is known of the picture's error.
+    std::string text(const std::string& name, const Shown& shown) const;
 
   private:
     std::vector<double> latencies_, frames_;

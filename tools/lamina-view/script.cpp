@@ -35,7 +35,7 @@ const std::map<std::string, Usage> usages = {
     {"set", {2, 2, "set coarse|trace|panels on|off"}},
     {"size", {2, 2, "size WIDTH HEIGHT"}},
     {"type", {1, 1000, "type TEXT"}},
-    {"wait", {1, 1, "wait full|saved|truth|MS"}},
+    {"wait", {1, 2, "wait full|saved|truth|MS, or wait file FILE"}},
     {"wheel", {1, 1, "wheel STEPS"}}};
 
 const std::map<std::string, int> keys = {{"Backspace", GLFW_KEY_BACKSPACE},

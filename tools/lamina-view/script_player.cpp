@@ -149,13 +149,21 @@ void ScriptPlayer::begin_wait(const ScriptCommand& command, double seconds) {
     if (what == "full") return until([this] { return viewer_.is_full(); });
     if (what == "truth") return until([this] { return viewer_.is_truth(); });
     if (what == "saved") return until([this] { return !viewer_.is_saving(); });
+    if (what == "file") {  // looked for now and then
+        if (command.words.size() != 2) command.fail("wait file FILE");
+        waiting_ = [this, file = command.words[1]](double now) {
+            until_ = now + .05;
+            return std::filesystem::exists(file);
+        };
+        return;
+    }
     until_ = seconds + command.number(0) / 1000;
     waiting_ = [this](double now) { return now >= until_; };
 }
 
 void ScriptPlayer::measure(const ScriptCommand& command) {
     if (command.words[0] == "start") return measurements_.start();
-    fmt::print("{}\n", measurements_.text(command.words[0]));
+    fmt::print("{}\n", measurements_.text(command.words[0], viewer_.shown()));
     std::fflush(stdout);
 }
 

@@ -5,6 +5,7 @@ namespace lamina {
 
 void add_verbs(CLI::App& app, int& exit_code) {
     add_render(app, exit_code);
+    add_view(app, exit_code);
     add_scene(app, exit_code);
     add_compare(app, exit_code);
     add_mesh(app, exit_code);

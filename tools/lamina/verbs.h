@@ -11,6 +11,7 @@ namespace lamina {
 void add_verbs(CLI::App& app, int& exit_code);  // all of the below
 
 void add_render(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_mesh(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
