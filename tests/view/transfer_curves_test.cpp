@@ -85,18 +85,43 @@ TEST(TransferCurves, FindSlopesOfOpacity) {
         EXPECT_GT(function.knots().size(), 20u);
         const TransferCurves curves = curves_of(function, 1);
         ASSERT_EQ(curves.density.size(), 4u) << length;
+        EXPECT_EQ(curves.colors.size(), 4u);
         EXPECT_EQ(curves.density[1].value, 10);
         EXPECT_TRUE(curves.density[1].inside.empty());
-        // The fit sees pieces that are up to 7.8e-4 from the curve, which hardly changes with the
-        // length: between 0 and .97 by .5 (1 - .5 / 2) of its change at most where it does most.
-        EXPECT_NEAR(curves.density[0].opacity_length, length, .01 * length);
-        EXPECT_NEAR(curves.density[2].opacity_length, length, .01 * length);
+        // All have few digits.
+        EXPECT_DOUBLE_EQ(curves.density[0].opacity_length, length);
+        EXPECT_DOUBLE_EQ(curves.density[2].opacity_length, length);
         EXPECT_TRUE(curves.function() == function);
     }
     // The length that opacities are shown for is taken where it fits.
     const TransferFunction function =
         TransferFunction::linear_opacity({{0, {1, 0, 0}, 0}, {10, {1, 1, 0}, .97}}, .37);
     EXPECT_EQ(curves_of(function, .37).density[0].opacity_length, .37);
+}
+
+TEST(TransferCurves, FindSlopesFromAndToOpacityOne) {
+    const TransferFunction function = TransferFunction::linear_opacity(
+        {{0, {1, 1, 1}, .1}, {10, {1, 1, 1}, 1}, {20, {1, 1, 1}, 1}, {35, {1, 1, 1}, .3}}, 10);
+    const TransferCurves curves = curves_of(function, 1);
+    ASSERT_EQ(curves.density.size(), 4u);
+    EXPECT_DOUBLE_EQ(curves.density[0].opacity_length, 10);
+    EXPECT_DOUBLE_EQ(curves.density[1].extinction, 1e6);
+    EXPECT_DOUBLE_EQ(curves.density[2].opacity_length, 10);
+    EXPECT_TRUE(curves.function() == function);
+}
+
+// Colours on the way were rounded by whoever made the slope.
+TEST(TransferCurves, KeepColoursBetweenStopsUntilAStopChanges) {
+    const TransferFunction function = TransferFunction::linear_opacity(
+        {{0, {.1, .2, .7}, 0}, {10, {.9, .3, 0}, .97}, {11.3, {.2, .2, .2}, .1}}, 1);
+    TransferCurves curves = curves_of(function, 1);
+    EXPECT_FALSE(curves.kept.empty());
+    EXPECT_TRUE(curves.function() == function);
+    curves.colors[0].color = {.3, .2, .7};
+    const TransferFunction changed = curves.function();
+    const TransferKnot knot = changed.knots()[1];
+    EXPECT_EQ(knot.optics.color, color_at(curves.colors, knot.value).above);
+    EXPECT_NE(knot.optics.color, function.knots()[1].optics.color);
 }
 
 TEST(TransferCurves, SmoothPointsThatFollowNoOpacityStayPoints) {

@@ -59,6 +59,7 @@ class Viewer {
     bool is_truth() const;
     bool is_saving() const { return !waiting_.empty() || saving_.busy(); }
     bool is_failed() const;
+    bool is_busy() const { return worker_.busy() || saving_.busy(); }
     std::string failure() const;  // what is wrong, or empty
 
   private:

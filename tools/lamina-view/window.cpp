@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,9 @@ namespace lamina::view {
 namespace {
 
 constexpr int first_width = 1280, first_height = 860;
+// GLFW 3.3 loses some of the events by which another thread wakes it (on X11), so that while one
+// works it is looked for what is new. Seconds.
+constexpr double busy_pause = .02;
 
 std::string glfw_message() {
     const char* text = nullptr;
@@ -67,7 +71,11 @@ Window::Window(const WindowOptions& options) : window_(make_window()) {
     ImGui_ImplOpenGL3_Init("#version 330 core");
     // A script does the same for everybody: nothing is remembered.
     viewer_ = std::make_unique<Viewer>(
-        gl_, options.session, [] { glfwPostEmptyEvent(); },
+        gl_, options.session,
+        [this] {
+            news_ = true;
+            glfwPostEmptyEvent();
+        },
         options.script.empty() ? ViewerSettings::file() : std::filesystem::path());
     set_callbacks();
     if (!options.script.empty())
@@ -117,19 +125,30 @@ void Window::set_callbacks() {
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned unicode) {
         if (!of(window).player_) of(window).character(unicode);
     });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { of(window).touched_ = true; });
+    glfwSetFramebufferSizeCallback(
+        window_, [](GLFWwindow* window, int, int) { of(window).touched_ = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
+        ImGui_ImplGlfw_WindowFocusCallback(window, focused);
+        of(window).touched_ = true;
+    });
+    glfwSetWindowCloseCallback(window_, [](GLFWwindow* window) { of(window).touched_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+        of(window).touched_ = true;
         of(window).viewer_->handle(
             {.kind = InputEvent::Kind::drop, .files = {paths, paths + count}});
     });
 }
 
 void Window::move(const glm::dvec2& place) {
+    touched_ = true;
     pointer_ = place;
     viewer_->handle({.kind = InputEvent::Kind::pointer, .seconds = glfwGetTime(), .place = place});
 }
 
 void Window::button(PointerButton button, bool down, bool shift, bool control) {
     const auto number = static_cast<std::size_t>(button);
+    touched_ = true;
     down_[number] = down;
     went_down_[number] = went_down_[number] || down;
     viewer_->handle({.kind = down ? InputEvent::Kind::press : InputEvent::Kind::release,
@@ -141,6 +160,7 @@ void Window::button(PointerButton button, bool down, bool shift, bool control) {
 }
 
 void Window::wheel(const glm::dvec2& steps) {
+    touched_ = true;
     ImGui_ImplGlfw_ScrollCallback(window_, steps.x, steps.y);
     viewer_->handle({.kind = InputEvent::Kind::wheel, .seconds = glfwGetTime(), .place = steps});
 }
@@ -148,6 +168,7 @@ void Window::wheel(const glm::dvec2& steps) {
 // ImGui takes the modifiers from their own keys.
 void Window::key(int key, bool down, bool shift, bool control) {
     if (key < 0) return;  // one that GLFW does not know
+    touched_ = true;
     const int action = down ? GLFW_PRESS : GLFW_RELEASE;
     if (player_) {
         const auto modifier = [&](bool held, int own_key) {
@@ -168,6 +189,7 @@ void Window::key(int key, bool down, bool shift, bool control) {
 }
 
 void Window::character(unsigned unicode) {
+    touched_ = true;
     ImGui_ImplGlfw_CharCallback(window_, unicode);
 }
 
@@ -194,24 +216,37 @@ void Window::run() {
     }
 }
 
+// Returns when there is a reason for a frame.
 void Window::wait_for_events() {
     if (frames_left_ > 0) {
         --frames_left_;
         return glfwPollEvents();
     }
-    const double now = glfwGetTime();
-    std::optional<double> next = viewer_->next_frame();
-    if (player_) {
-        const std::optional<double> then = player_->next(now);
-        if (then) next = next ? std::min(*next, *then) : *then;
+    touched_ = false;
+    for (;;) {
+        // Asked in this order: what is not busy any more has said what is new.
+        const bool busy = viewer_->is_busy();
+        if (touched_ || news_.exchange(false)) break;
+        const double now = glfwGetTime();
+        const std::optional<double> due = next_frame(now);
+        if (due && *due <= now) {
+            glfwPollEvents();
+            break;
+        }
+        double pause = due ? *due - now : INFINITY;
+        if (busy) pause = std::min(pause, busy_pause);
+        if (pause == INFINITY)
+            glfwWaitEvents();
+        else
+            glfwWaitEventsTimeout(pause);
     }
-    if (!next)
-        glfwWaitEvents();
-    else if (*next > now)
-        glfwWaitEventsTimeout(*next - now);
-    else
-        glfwPollEvents();
     frames_left_ = 2;
+}
+
+std::optional<double> Window::next_frame(double now) const {
+    const std::optional<double> next = viewer_->next_frame();
+    const std::optional<double> then = player_ ? player_->next(now) : std::nullopt;
+    return next && then ? std::min(*next, *then) : next ? next : then;
 }
 
 // What went down is seen to be down for one frame, even where it has gone up since.

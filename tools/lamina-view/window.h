@@ -4,6 +4,8 @@
 #include <glad/gl.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <memory>
@@ -53,6 +55,7 @@ class Window {
     static Window& of(GLFWwindow* window);
     void set_callbacks();
     void wait_for_events();
+    std::optional<double> next_frame(double now) const;
     void frame();
     void give_input_to_imgui();
     void measure(double began);
@@ -62,7 +65,9 @@ class Window {
     GladGLContext gl_{};
     std::unique_ptr<Viewer> viewer_;
     std::unique_ptr<ScriptPlayer> player_;
-    int frames_left_ = 3;  // ImGui needs some until what happened shows
+    int frames_left_ = 3;            // ImGui needs some until what happened shows
+    bool touched_ = false;           // something happened to the window
+    std::atomic<bool> news_{false};  // the viewer has something new to show
     std::string title_;
     std::filesystem::path screenshot_;
     glm::dvec2 pointer_{-1};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -68,10 +69,11 @@ bool near(const glm::dvec3& found, const glm::dvec3& wanted) {
     return near(found.x, wanted.x) && near(found.y, wanted.y) && near(found.z, wanted.z);
 }
 
-// Which sites a curve needs: the others lie, bit for bit, on the lines between those. `get` reads
-// the curve's number from a knot, `may_go` says whether a site is of no other use.
+// Which sites a curve needs: the others lie on the lines between those, bit for bit or, where not
+// `exact`, up to rounding. `get` reads the curve's number from a knot, `may_go` says whether a site
+// is of no other use.
 template <typename Get, typename MayGo>
-std::vector<char> needed_sites(const std::vector<Site>& sites, const Get& get,
+std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const Get& get,
                                const MayGo& may_go) {
     std::vector<char> needed(sites.size(), 1);
     const auto line_goes = [&](std::size_t a, std::size_t b, std::size_t at, bool exactly) {
@@ -89,7 +91,7 @@ std::vector<char> needed_sites(const std::vector<Site>& sites, const Get& get,
                 exactly = exactly && line_goes(a, b, at, true);
             }
             if (!on_line) break;
-            if (exactly) best = b;
+            if (exactly || !exact) best = b;
         }
         for (std::size_t at = a + 1; at < best; ++at) needed[at] = 0;
         a = best;
@@ -114,8 +116,9 @@ void drop_constant_ends(const std::vector<Site>& sites, std::vector<char>& neede
 }
 
 template <typename Get, typename MayGo>
-std::vector<char> needed_of(const std::vector<Site>& sites, const Get& get, const MayGo& may_go) {
-    std::vector<char> needed = needed_sites(sites, get, may_go);
+std::vector<char> needed_of(const std::vector<Site>& sites, bool exact, const Get& get,
+                            const MayGo& may_go) {
+    std::vector<char> needed = needed_sites(sites, exact, get, may_go);
     drop_constant_ends(sites, needed, get, may_go);
     return needed;
 }
@@ -151,13 +154,6 @@ std::vector<double> values_of(const std::vector<ExtinctionKnot>& knots,
 
 }  // namespace
 
-bool TransferCurves::operator==(const TransferCurves& other) const {
-    return density == other.density && palette == other.palette &&
-           std::ranges::equal(colors, other.colors, [](const ColorPoint& a, const ColorPoint& b) {
-               return a.value == b.value && a.color == b.color;
-           });
-}
-
 std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
     std::vector<ExtinctionKnot> knots;
     bool ends_inside = false;
@@ -188,8 +184,52 @@ ColorSides color_at(const std::vector<ColorPoint>& points, double value) {
     return {below, above};
 }
 
+namespace {
+
+bool same(const ColorPoint& a, const ColorPoint& b) {
+    return a.value == b.value && a.color == b.color;
+}
+
+// The stops on both sides of a value that has none itself.
+std::optional<std::pair<ColorPoint, ColorPoint>> stops_around(const std::vector<ColorPoint>& colors,
+                                                              double value) {
+    const auto above = std::ranges::upper_bound(colors, value, {}, &ColorPoint::value);
+    if (above == colors.begin() || above == colors.end() || (above - 1)->value == value) return {};
+    return std::pair(*(above - 1), *above);
+}
+
+ColorSides color_with_kept(const TransferCurves& curves, double value) {
+    const auto kept = std::ranges::lower_bound(curves.kept, value, {}, &KeptColor::value);
+    if (kept != curves.kept.end() && kept->value == value) {
+        const auto stops = stops_around(curves.colors, value);
+        if (stops && same(stops->first, kept->before) && same(stops->second, kept->after))
+            return {kept->color, kept->color};
+    }
+    return color_at(curves.colors, value);
+}
+
+// What interpolation between stops would round otherwise.
+std::vector<KeptColor> colors_to_keep(const std::vector<Site>& sites,
+                                      const std::vector<ColorPoint>& colors) {
+    std::vector<KeptColor> kept;
+    for (const Site& site : sites) {
+        const double value = site.below.value;
+        const auto stops = stops_around(colors, value);
+        if (stops && color_at(colors, value).above != site.above.optics.color)
+            kept.push_back({stops->first, stops->second, value, site.above.optics.color});
+    }
+    return kept;
+}
+
+}  // namespace
+
 TransferCurves::TransferCurves() : density(1), colors(1) {
     colors.front().color = glm::dvec3(1);
+}
+
+bool TransferCurves::operator==(const TransferCurves& other) const {
+    return density == other.density && palette == other.palette &&
+           std::ranges::equal(colors, other.colors, same);
 }
 
 TransferFunction TransferCurves::function() const {
@@ -199,7 +239,7 @@ TransferFunction TransferCurves::function() const {
     std::vector<TransferKnot> knots;
     for (const double value : values_of(extinctions, colors)) {
         const DensitySides density_here = density_at(extinctions, value);
-        const ColorSides color_here = color_at(colors, value);
+        const ColorSides color_here = color_with_kept(*this, value);
         const TransferKnot below{
             value, {color_here.below, density_here.below}, density_here.smooth_below};
         const TransferKnot above{
@@ -218,13 +258,14 @@ TransferFunction TransferCurves::function() const {
 
 TransferCurves curves_of(const TransferFunction& function, double unit_length) {
     const std::vector<Site> sites = sites_of(function);
-    const std::vector<char> for_color = needed_of(sites, color_in, [](const Site& site) {
+    const std::vector<char> for_color = needed_of(sites, false, color_in, [](const Site& site) {
         return site.below.optics.color == site.above.optics.color;
     });
-    const std::vector<char> for_density = needed_of(sites, extinction_in, [](const Site& site) {
-        return site.below.optics.extinction == site.above.optics.extinction && !site.below.smooth &&
-               !site.above.smooth;
-    });
+    const std::vector<char> for_density =
+        needed_of(sites, true, extinction_in, [](const Site& site) {
+            return site.below.optics.extinction == site.above.optics.extinction &&
+                   !site.below.smooth && !site.above.smooth;
+        });
     TransferCurves curves;
     std::vector<ExtinctionKnot> knots;
     curves.colors.clear();
@@ -243,6 +284,7 @@ TransferCurves curves_of(const TransferFunction& function, double unit_length) {
                 knots.push_back({value, above.optics.extinction, above.smooth});
         }
     }
+    curves.kept = colors_to_keep(sites, curves.colors);
     curves.density = with_slopes(knots, unit_length);
     return curves;
 }

@@ -30,6 +30,14 @@ struct DensityPoint {
     bool operator==(const DensityPoint&) const = default;
 };
 
+// A colour between two stops as it was read: a program may have rounded it otherwise than
+// interpolation does. It counts as long as both stops are there.
+struct KeptColor {
+    ColorPoint before, after;
+    double value = 0;
+    glm::dvec3 color{0};
+};
+
 // A transfer function as it is edited: extinction and colour are curves of their own, so that a map
 // of many colours leaves few points of extinction to hold. Both are linear between points and
 // constant outside; two points at one value make a step.
@@ -38,6 +46,7 @@ struct TransferCurves {
 
     std::vector<DensityPoint> density;  // one or more, in order of value
     std::vector<ColorPoint> colors;     // the same
+    std::vector<KeptColor> kept;        // in order of value
     // The function steps halfway between neighbouring values of both curves (a palette).
     bool palette = false;
 

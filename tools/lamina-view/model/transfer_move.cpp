@@ -83,9 +83,10 @@ std::vector<char> marked(const std::set<TransferHandle>& points, TransferHandle:
 
 double moved_extinction(double extinction, double places, const SymlogAxis& axis) {
     if (places == 0) return extinction;
+    // What is denser than the axis shows stands at its end.
     const double from = axis.place(extinction);
-    const double place =
-        std::clamp(from + places, std::min(axis.place(0), from), std::max(1., from));
+    if (from > 1 && places > 0) return extinction;
+    const double place = std::clamp(std::min(from, 1.) + places, axis.place(0), 1.);
     return std::max(0., axis.number(place));
 }
 

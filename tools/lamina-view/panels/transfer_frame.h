@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "model/symlog_axis.h"
 
 namespace lamina::view {
@@ -19,8 +21,9 @@ struct TransferFrame {
     float x(double value) const {
         return min.x + width() * static_cast<float>((value - value_lo) / (value_hi - value_lo));
     }
+    // What is denser than the axis shows stands at its end.
     float y(double extinction) const {
-        return max.y - height() * static_cast<float>(axis.place(extinction));
+        return max.y - height() * static_cast<float>(std::min(axis.place(extinction), 1.));
     }
     double value(float at_x) const {
         return value_lo + (value_hi - value_lo) * static_cast<double>((at_x - min.x) / width());

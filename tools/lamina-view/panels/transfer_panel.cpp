@@ -60,7 +60,7 @@ void TransferPanel::draw(PanelContext& context) {
     const ValueHistogram* const histogram = context.shown.histogram.get();
     const bool counted = histogram != nullptr;
     if (fitted_to_ != document.revisions().data || counted != counted_) {
-        plot_.fit(document.transfer().curves(), histogram);
+        plot_.fit(document.transfer(), histogram);
         fitted_to_ = document.revisions().data;
         counted_ = counted;
     }
@@ -84,8 +84,7 @@ void TransferPanel::draw_controls(PanelContext& context) {
     if (ImGui::Button("Presets")) ImGui::OpenPopup("presets");
     draw_presets(context);
     ImGui::SameLine();
-    if (ImGui::Button("Show all"))
-        plot_.fit(document.transfer().curves(), context.shown.histogram.get());
+    if (ImGui::Button("Show all")) plot_.fit(document.transfer(), context.shown.histogram.get());
     help(
         "Shows all values and extinctions. The wheel shows fewer values, the middle button moves "
         "along them");
@@ -228,10 +227,16 @@ void TransferPanel::draw_density_slider(Document& document) {
 void TransferPanel::draw_between(Document& document) {
     TransferEditor& editor = document.transfer();
     const TransferCurves& curves = editor.curves();
+    // Where both ends are as dense, or at one value, there is no difference.
     const auto count = [&](bool opacity) {
-        return std::count_if(
-            curves.density.begin(), curves.density.end() - 1,
-            [&](const DensityPoint& point) { return (point.opacity_length > 0) == opacity; });
+        std::size_t found = 0;
+        for (std::size_t i = 0; i + 1 < curves.density.size(); ++i) {
+            const DensityPoint &a = curves.density[i], &b = curves.density[i + 1];
+            if (a.value < b.value && a.extinction != b.extinction &&
+                (a.opacity_length > 0) == opacity)
+                ++found;
+        }
+        return found;
     };
     const char* const now = curves.palette      ? "nearest"
                             : count(true) == 0  ? "extinction"
@@ -252,8 +257,7 @@ void TransferPanel::draw_between(Document& document) {
 
 void TransferPanel::draw_maps(PanelContext& context) {
     row("colormap");
-    if (typed_text("##file", "name, or ParaView preset (JSON)", map_file_))
-        apply_map(context, map_file_);
+    if (typed_text("##file", "name or file (JSON)", map_file_)) apply_map(context, map_file_);
     row("  over");
     if (ImGui::RadioButton("data", !over_points_)) over_points_ = false;
     ImGui::SameLine();

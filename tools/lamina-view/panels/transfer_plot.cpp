@@ -12,11 +12,17 @@ namespace {
 
 using Curve = TransferHandle::Curve;
 
-double densest(const TransferCurves& curves) {
-    double most = 0;
-    for (const ExtinctionKnot& knot : knots_of(curves.density))
-        most = std::max(most, knot.extinction);
-    return most;
+// The largest extinction that is told from opacity 1: that has an arbitrary number, 1e7 /
+// unit_length.
+double densest(const TransferEditor& editor) {
+    constexpr double opaque_depth = 17.5;
+    double most = 0, most_of_all = 0;
+    for (const ExtinctionKnot& knot : knots_of(editor.curves().density)) {
+        most_of_all = std::max(most_of_all, knot.extinction);
+        if (knot.extinction * editor.unit_length() <= opaque_depth)
+            most = std::max(most, knot.extinction);
+    }
+    return most > 0 ? most : most_of_all;
 }
 
 float distance(const ImVec2& a, const ImVec2& b) {
@@ -29,7 +35,8 @@ bool pressed(ImGuiKey key) {
 
 }  // namespace
 
-void TransferPlot::fit(const TransferCurves& curves, const ValueHistogram* histogram) {
+void TransferPlot::fit(const TransferEditor& editor, const ValueHistogram* histogram) {
+    const TransferCurves& curves = editor.curves();
     double lo = curves.density.front().value, hi = curves.density.back().value;
     lo = std::min(lo, curves.colors.front().value);
     hi = std::max(hi, curves.colors.back().value);
@@ -43,16 +50,16 @@ void TransferPlot::fit(const TransferCurves& curves, const ValueHistogram* histo
     }
     frame_.value_lo = lo - .02 * (hi - lo);
     frame_.value_hi = hi + .02 * (hi - lo);
-    fit_extinction(curves);
+    fit_extinction(editor);
     fitted_ = true;
 }
 
 // Three decades are told apart, or so many that the faintest point is off 0, up to six.
-void TransferPlot::fit_extinction(const TransferCurves& curves) {
-    const double most = densest(curves);
+void TransferPlot::fit_extinction(const TransferEditor& editor) {
+    const double most = densest(editor);
     const double top = most > 0 ? std::min(3 * most, 1e300) : 1;
     double faintest = top;
-    for (const DensityPoint& point : curves.density)
+    for (const DensityPoint& point : editor.curves().density)
         if (point.extinction > 0) faintest = std::min(faintest, point.extinction);
     frame_.axis = SymlogAxis(0, top, std::clamp(faintest, 1e-6 * top, 1e-3 * top));
 }
@@ -288,11 +295,11 @@ void TransferPlot::draw_all(const TransferEditor& editor,
 
 std::string TransferPlot::draw(TransferEditor& editor, const TransferSurroundings& surroundings,
                                const ImVec2& size) {
-    if (!fitted_) fit(editor.curves(), surroundings.histogram);
+    if (!fitted_) fit(editor, surroundings.histogram);
     if (drag_ == Drag::none) {
-        const double most = densest(editor.curves());
+        const double most = densest(editor);
         if (most > frame_.axis.hi() || (most > 0 && most < 1e-2 * frame_.axis.hi()))
-            fit_extinction(editor.curves());
+            fit_extinction(editor);
     }
     place(ImGui::GetCursorScreenPos(), size);
     ImGui::InvisibleButton("plot", size,

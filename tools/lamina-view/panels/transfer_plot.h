@@ -22,7 +22,7 @@ struct TransferSurroundings {
 class TransferPlot {
   public:
     // Shows the whole range of the histogram and of the points, and all extinctions.
-    void fit(const TransferCurves& curves, const ValueHistogram* histogram);
+    void fit(const TransferEditor& editor, const ValueHistogram* histogram);
     // Fills a rectangle of ImGui's current window. Returns the name of what was edited, or nothing.
     std::string draw(TransferEditor& editor, const TransferSurroundings& surroundings,
                      const ImVec2& size);
@@ -32,7 +32,7 @@ class TransferPlot {
     enum class Drag { none, points, rectangle, window, pan };
 
     void place(const ImVec2& corner, const ImVec2& size);
-    void fit_extinction(const TransferCurves& curves);
+    void fit_extinction(const TransferEditor& editor);
     std::optional<TransferHandle> handle_at(const TransferEditor& editor, const ImVec2& at) const;
     std::string take_pointer(TransferEditor& editor);
     std::string press_left(TransferEditor& editor, const ImVec2& at);

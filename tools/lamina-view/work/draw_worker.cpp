@@ -36,6 +36,7 @@ void DrawWorker::request(DrawRequest request) {
             running_moves_ && request.moving && Clock::now() - running_since_ < longest_moving;
         const bool finish = moves_on || running_loads_ == request.revisions.data;
         newest_ = std::move(request);
+        busy_ = true;
         if (!finish) running_.request_stop();
     }
     changed_.notify_one();
@@ -62,6 +63,7 @@ void DrawWorker::run() {
         std::stop_token stop;
         {
             std::unique_lock lock(mutex_);
+            busy_ = newest_ || steps_->unfinished();
             changed_.wait(lock, [&] { return ending_ || newest_ || steps_->unfinished(); });
             if (ending_) break;
             request = std::exchange(newest_, std::nullopt);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -32,6 +33,8 @@ class DrawWorker {
 
     void request(DrawRequest request);
     std::shared_ptr<const Shown> shown() const;  // never null
+    // Whether something may still be published for what was requested.
+    bool busy() const { return busy_; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -46,6 +49,7 @@ class DrawWorker {
     std::condition_variable changed_;
     std::optional<DrawRequest> newest_;
     bool ending_ = false;
+    std::atomic<bool> busy_{false};
     std::stop_source running_;
     bool running_moves_ = false;
     std::uint64_t running_loads_ = 0;  // Revisions::data of what is being loaded

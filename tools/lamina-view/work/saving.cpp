@@ -31,26 +31,29 @@ bool can_save(const std::filesystem::path& file) {
 }
 
 void Saving::save(const std::filesystem::path& file, std::shared_ptr<const Shown> shown) {
-    running_.push_back(std::async(std::launch::async, [=, wake = wake_, shown = std::move(shown)] {
+    ++unfinished_;
+    std::erase_if(running_, [](const std::future<void>& running) {
+        return running.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    running_.push_back(std::async(std::launch::async, [this, file, shown = std::move(shown)] {
         Result result{file, {}};
         try {
             write(file, *shown);
         } catch (const std::exception& error) {
             result.failure = error.what();
         }
-        wake();
-        return result;
+        {
+            const std::lock_guard lock(mutex_);
+            results_.push_back(std::move(result));
+        }
+        wake_();
     }));
 }
 
 std::vector<Saving::Result> Saving::take_results() {
-    std::vector<Result> results;
-    std::erase_if(running_, [&](std::future<Result>& running) {
-        if (running.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-        results.push_back(running.get());
-        return true;
-    });
-    return results;
+    const std::lock_guard lock(mutex_);
+    unfinished_ -= results_.size();
+    return std::exchange(results_, {});
 }
 
 }  // namespace lamina::view

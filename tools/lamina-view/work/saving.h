@@ -5,6 +5,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,15 @@ class Saving {
     explicit Saving(std::function<void()> wake) : wake_(std::move(wake)) {}
     // The resolved scene, or the full picture, whatever is on the screen.
     void save(const std::filesystem::path& file, std::shared_ptr<const Shown> shown);
-    bool busy() const { return !running_.empty(); }
+    bool busy() const { return unfinished_ > 0; }  // until its result is taken
     std::vector<Result> take_results();
 
   private:
     std::function<void()> wake_;
-    std::vector<std::future<Result>> running_;  // waits for them when it ends
+    std::size_t unfinished_ = 0;
+    std::mutex mutex_;
+    std::vector<Result> results_;
+    std::vector<std::future<void>> running_;  // waits for them when it ends
 };
 
 }  // namespace lamina::view
