@@ -99,6 +99,17 @@ TEST(TransferCurves, FindSlopesOfOpacity) {
     EXPECT_EQ(curves_of(function, .37).density[0].opacity_length, .37);
 }
 
+TEST(TransferCurves, FindSlopesFromAndToOpacityOne) {
+    const TransferFunction function = TransferFunction::linear_opacity(
+        {{0, {1, 1, 1}, .1}, {10, {1, 1, 1}, 1}, {20, {1, 1, 1}, 1}, {35, {1, 1, 1}, .3}}, 10);
+    const TransferCurves curves = curves_of(function, 1);
+    ASSERT_EQ(curves.density.size(), 4u);
+    EXPECT_DOUBLE_EQ(curves.density[0].opacity_length, 10);
+    EXPECT_DOUBLE_EQ(curves.density[1].extinction, 1e6);
+    EXPECT_DOUBLE_EQ(curves.density[2].opacity_length, 10);
+    EXPECT_TRUE(curves.function() == function);
+}
+
 // Colours on the way were rounded by whoever made the slope.
 TEST(TransferCurves, KeepColoursBetweenStopsUntilAStopChanges) {
     const TransferFunction function = TransferFunction::linear_opacity(

@@ -40,7 +40,9 @@ ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, 
 
 void ScriptPlayer::advance(double seconds) {
     if (waiting_) {
+        looked_ = true;
         if (!waiting_(seconds)) return;
+        looked_ = false;
         waiting_ = nullptr;
     }
     if (actions_.empty() && next_ < commands_.size()) begin(commands_[next_++], seconds);
@@ -51,7 +53,7 @@ void ScriptPlayer::advance(double seconds) {
 }
 
 std::optional<double> ScriptPlayer::next(double seconds) const {
-    if (waiting_) return until_ > 0 ? std::optional(until_) : std::nullopt;
+    if (waiting_ && looked_) return until_ > 0 ? std::optional(until_) : std::nullopt;
     return seconds;
 }
 

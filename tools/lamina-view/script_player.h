@@ -44,7 +44,8 @@ class ScriptPlayer {
     std::size_t next_ = 0;
     std::deque<std::function<void()>> actions_;  // of the command that is being done
     Waiting waiting_;
-    double until_ = 0;  // of a wait for a time
+    bool looked_ = false;  // whether what is waited for is there already
+    double until_ = 0;     // of a wait for a time
     Measurements measurements_;
 };
 

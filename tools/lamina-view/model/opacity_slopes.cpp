@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 namespace lamina::view {
@@ -76,6 +77,53 @@ double length_of(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside
     return misfit(a, inside, b, best) <= pieces_tolerance ? best : 0;
 }
 
+DensityPoint point_of(const ExtinctionKnot& knot, double length) {
+    return {knot.value, knot.extinction, knot.smooth, length, {}};
+}
+
+// Whether the knots between two are those of a slope over a length, up to rounding.
+bool is_slope(std::span<const ExtinctionKnot> knots, std::size_t a, std::size_t b, double length) {
+    constexpr double near = 1e-9;
+    const auto wanted = inside_slope(point_of(knots[a], length), point_of(knots[b], length));
+    if (wanted.size() != b - a - 1) return false;
+    const double width = knots[b].value - knots[a].value;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const ExtinctionKnot& found = knots[a + 1 + i];
+        if (std::abs(found.value - wanted[i].value) > near * width ||
+            std::abs(found.extinction - wanted[i].extinction) > near * wanted[i].extinction)
+            return false;
+    }
+    return true;
+}
+
+struct FoundSlope {
+    std::size_t end = 0;
+    double length = 0;
+};
+
+// A slope from or to opacity 1: beside that its pieces are not smooth, and a step leads to it.
+// Opacity 1 itself tells the length.
+std::optional<FoundSlope> opaque_slope(std::span<const ExtinctionKnot> knots, std::size_t first) {
+    const std::size_t count = knots.size();
+    const auto steps = [&](std::size_t i) {
+        return i + 1 < count && knots[i].value == knots[i + 1].value;
+    };
+    const auto try_end = [&](std::size_t end, double dense) -> std::optional<FoundSlope> {
+        const double length = opaque_depth / dense;
+        if (end >= count || !is_slope(knots, first, end, length)) return {};
+        return FoundSlope{end, length};
+    };
+    if (steps(first) && knots[first].extinction > knots[first + 1].extinction) {
+        std::size_t end = first + 3;
+        while (end + 1 < count && knots[end].smooth) ++end;
+        return try_end(end, knots[first].extinction);
+    }
+    std::size_t end = first + 1;
+    while (end + 1 < count && knots[end].smooth) ++end;
+    if (end == first + 1 || !steps(end + 1)) return {};
+    return try_end(end + 2, knots[end + 2].extinction);
+}
+
 }  // namespace
 
 double opacity_of(double extinction, double length) {
@@ -114,7 +162,14 @@ std::vector<DensityPoint> with_slopes(const std::vector<ExtinctionKnot>& knots,
     std::vector<DensityPoint> points;
     for (std::size_t first = 0; first < knots.size(); ++first) {
         const ExtinctionKnot& knot = knots[first];
-        points.push_back({knot.value, knot.extinction, knot.smooth, 0, {}});
+        points.push_back(point_of(knot, 0));
+        if (const auto slope = opaque_slope(knots, first)) {
+            points.back().opacity_length = slope->length;
+            points.back().inside.assign(knots.begin() + static_cast<std::ptrdiff_t>(first + 1),
+                                        knots.begin() + static_cast<std::ptrdiff_t>(slope->end));
+            first = slope->end - 1;
+            continue;
+        }
         std::size_t last = first + 1;
         while (last + 1 < knots.size() && knots[last].smooth) ++last;
         if (last >= knots.size() || last == first + 1) continue;
