@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bindings.h"
+#include "lamina/scene_text.h"
 #include "shared_array.h"
 #include "vectors.h"
 
