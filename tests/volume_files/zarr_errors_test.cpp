@@ -115,7 +115,7 @@ TEST_F(ZarrErrors, Images) {
                      {{{"path", "a.zarr"}, {"coordinateTransformations", json::array({step})}}}}};
     };
     bad(transformed({{"type", "scale"}, {"scale", {1, 2}}}), {"scale", "3 numbers"});
-    bad(transformed({{"type", "scale"}, {"scale", {1, 0, 2}}}), {"scale"});
+    bad(transformed({{"type", "scale"}, {"scale", {1, 0, 2}}}), {"axis 1", "distance of 0"});
     bad(transformed({{"type", "affine"}}), {"affine"});
 }
 
