@@ -66,8 +66,9 @@ TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
     const auto expected = [&] {
         Session session(scene, volume, native);
         const PlanSummary plan = session.plan();
-        if (plan.expected_error)
+        if (plan.expected_error) {
             EXPECT_LE(error_of(session.draw(), session.trace()).linf, *plan.expected_error);
+        }
         return plan.expected_error;
     };
     const double blended = expected().value();
