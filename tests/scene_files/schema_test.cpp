@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/scene.schema.json names exactly the keys that the reader asks for.
+#include <algorithm>
+#include <iterator>
 #include <regex>
 
 #include "support/scene_fixture.h"
@@ -65,7 +67,14 @@ TEST(Schema, NamesTheKeysOfTheReader) {
         asked_for(with("/volume", {{"path", "a.bin"}, {"size", {4, 3, 2}}, {"type", "uint8"}})));
     nlohmann::json mesh = with("/mesh", nlohmann::json::object());
     in_reader.merge(asked_for(mesh));
-    EXPECT_EQ(in_schema, in_reader);
+    in_reader.merge(asked_for(with("/mesh", {{"path", "a.pvd"}})));
+    const auto only_in = [](const std::set<std::string>& a, const std::set<std::string>& b) {
+        std::vector<std::string> keys;
+        std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(keys));
+        return keys;
+    };
+    EXPECT_EQ(only_in(in_schema, in_reader), std::vector<std::string>());
+    EXPECT_EQ(only_in(in_reader, in_schema), std::vector<std::string>());
 }
 
 TEST(Schema, EverySceneThatShipsIsRead) {
