@@ -32,6 +32,6 @@ def read(file: Path, **selection: Any) -> Volume | Mesh:
         raise Error(f"{path}: holds a scene, expected a volume or a mesh; lamina.Scene.load reads scenes")
     absolute = path.absolute()
     if kind == "volume":
-        source = {"path": str(absolute), **plain(selection)} if selection else str(absolute)
+        source: str | dict[str, Any] = {"path": str(absolute), **plain(selection)} if selection else str(absolute)
         return Volume._of(_lamina.Volume.load(json.dumps({"version": 1, "volume": source})), absolute, source)
     return Mesh._of(_lamina.Mesh.load(path), absolute)

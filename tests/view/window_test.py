@@ -219,7 +219,7 @@ def test_the_line_of_a_wipe_is_dragged_and_not_the_camera():
         key M
         wait 50
         screenshot wipe.png
-        drag left 150 120 220 120 5
+        drag left 337 270 400 270 5
         wait 400
         screenshot dragged.png
         key V
