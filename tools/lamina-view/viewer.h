@@ -60,6 +60,7 @@ class Viewer {
     bool is_saving() const { return !waiting_.empty() || saving_.busy(); }
     bool is_failed() const;
     bool is_busy() const { return worker_.busy() || saving_.busy(); }
+    bool awaits_moving_picture() const { return requested_.moving && worker_.busy(); }
     std::string failure() const;  // what is wrong, or empty
 
   private:

@@ -218,7 +218,8 @@ void Window::run() {
 
 // Returns when there is a reason for a frame.
 void Window::wait_for_events() {
-    if (frames_left_ > 0) {
+    // While the camera moves, the processor is the picture's.
+    if (frames_left_ > 0 && !viewer_->awaits_moving_picture()) {
         --frames_left_;
         return glfwPollEvents();
     }

@@ -2,30 +2,34 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace lamina::view {
 
-// How small a picture has to be to arrive in time while the camera moves. The time of a picture is
-// a fixed part (order of tets, facts of the view) and one that grows with its pixels; both are
-// estimated from what pictures took, of which the last ones count most.
+// How small a picture has to be to arrive in time while the camera moves. It keeps what pictures
+// of each size took. A new time scales the others along, as views differ in what they take. Between
+// two sizes that are known, time is linear in the number of pixels; beyond them, larger pictures
+// are expected to take as much longer as they have more pixels, and smaller ones the square root of
+// that shorter, as part of the work (order of tets) is the same for all.
 class CoarseSize {
   public:
     explicit CoarseSize(double target_ms) : target_ms_(target_ms) {}
 
-    void add(double pixels, double ms);
-    // The least number of `divisors` by which both edges may be divided, as far as is known. Where
-    // even the fixed part takes too long, fewer pixels help little: then the pixels may take half
-    // as long as the fixed part.
-    double divisor(int width, int height) const;
+    // What a picture took whose edges were divided by this one of `divisors`.
+    void add(double divisor, double ms);
+    // The least one of `divisors` by which a picture is in time, as far as is known. Where none is,
+    // the least one that takes at most a quarter longer than the quickest.
+    double divisor() const;
 
     static constexpr std::array<double, 9> divisors{1, 1.5, 2, 3, 4, 6, 8, 12, 16};
 
   private:
-    double budget_pixels() const;
+    static constexpr std::size_t size = divisors.size();
+
+    double expected_ms(std::size_t index) const;
 
     double target_ms_;
-    // Sums over the pictures, weighted: of 1, pixels, ms, pixels^2, pixels * ms.
-    double count_ = 0, pixels_ = 0, ms_ = 0, squares_ = 0, products_ = 0;
+    std::array<double, size> ms_{};  // 0: not known
 };
 
 }  // namespace lamina::view

@@ -162,24 +162,26 @@ void SessionSteps::apply_change() {
     applied_ = asked;
 }
 
-void SessionSteps::set_size_for_moving() {
+// Returns what the edges are divided by.
+double SessionSteps::set_size_for_moving() {
     const Scene& scene = request_.scene;
-    const double divisor = request_.coarse ? coarse_size_.divisor(scene.width, scene.height) : 1;
+    const double divisor = request_.coarse ? coarse_size_.divisor() : 1;
     const int width = std::max(1, static_cast<int>(std::lround(scene.width / divisor)));
     const int height = std::max(1, static_cast<int>(std::lround(scene.height / divisor)));
-    if (width == session_->scene().width && height == session_->scene().height) return;
+    if (width == session_->scene().width && height == session_->scene().height) return divisor;
     session_->set_size(width, height);
     full_size_ = false;
+    return divisor;
 }
 
 void SessionSteps::draw_moving(const std::stop_token& stop) {
     const auto start = Clock::now();
     apply_change();
-    set_size_for_moving();
+    const double divisor = set_size_for_moving();
     const Image& picture = session_->draw(stop);
     show(PictureKind::moving, picture);
     shown_.moving_ms = ms_since(start);
-    coarse_size_.add(static_cast<double>(picture.width) * picture.height, shown_.moving_ms);
+    coarse_size_.add(divisor, shown_.moving_ms);
     next_ = Next::nothing;
     publish_(shown_);
 }
@@ -214,8 +216,7 @@ void SessionSteps::draw_full(const std::stop_token& stop) {
     tell_plan();
     show(PictureKind::full, *picture);
     shown_.full_screen = shown_.screen;
-    coarse_size_.add(static_cast<double>(picture->width) * picture->height,
-                     shown_.statistics.stages_ms["draw"]);
+    coarse_size_.add(1, shown_.statistics.stages_ms["draw"]);
     shown_.activity.clear();
     shown_.share_traced = 0;
     shown_.error = {};

@@ -41,7 +41,7 @@ class SessionSteps {
     Next step_after_full() const;
     void apply_change();
     void choose();
-    void set_size_for_moving();
+    double set_size_for_moving();
     void show(PictureKind kind, const Image& picture);
     void tell_plan();
     void show_traced(const TracedPicture& traced);
