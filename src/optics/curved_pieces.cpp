@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/curved_pieces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <optional>
@@ -21,8 +22,10 @@ using Pieces = std::span<const CurvedPiece>;
 
 // Not at steps, of which both sides are knots.
 bool smooth_at(std::span<const TransferKnot> knots, double value) {
-    const auto there = std::ranges::equal_range(knots, value, {}, &TransferKnot::value);
-    return there.size() == 1 && there.front().smooth;
+    const auto knot = std::ranges::lower_bound(knots, value, {}, &TransferKnot::value);
+    if (knot == knots.end() || knot->value != value) return false;
+    const auto next = knot + 1;
+    return knot->smooth && (next == knots.end() || next->value != value);
 }
 
 bool colors_are_linear(Pieces pieces, const CurvedPiece& all) {

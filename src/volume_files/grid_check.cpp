@@ -44,8 +44,10 @@ void check_grid(const std::string& file, const Grid& grid, const GridWords& word
     }
 }
 
-void turn_to_lps(Grid& grid) {
-    const glm::dvec3 turn{-1, -1, 1};
+void turn_to_lps(Grid& grid, WorldAxes axes) {
+    if (axes == WorldAxes::unnamed) return;
+    const glm::dvec3 turn{axes == WorldAxes::right_anterior_superior ? -1 : 1,
+                          axes == WorldAxes::left_posterior_superior ? 1 : -1, 1};
     grid.origin *= turn;
     for (glm::dvec3& step : grid.step) step *= turn;
     grid.axes = WorldAxes::left_posterior_superior;

@@ -17,8 +17,8 @@ struct GridWords {
 // orthogonal, up to the digits that headers have. They may be oblique in the world, and mirrored.
 void check_grid(const std::string& file, const Grid& grid, const GridWords& words);
 
-// Turns the axes of a grid in the axes of NIfTI, where x grows to the patient's right and y to the
-// front (RAS), to those of DICOM and NRRD (LPS). Samples stay where they are in the body.
-void turn_to_lps(Grid& grid);
+// Turns a grid in these axes to those of DICOM (LPS), which are the world's. Samples stay where
+// they are in the body. Axes without a name stay as they are.
+void turn_to_lps(Grid& grid, WorldAxes axes);
 
 }  // namespace lamina

@@ -192,11 +192,11 @@ Grid nifti_grid(const NiftiHeader& header) {
     if (header.sform_code > 0) {
         place_by_sform(header, grid);
         check_grid(file, grid, {"sform (srow_x, srow_y, srow_z)", "srow"});
-        turn_to_lps(grid);
+        turn_to_lps(grid, WorldAxes::right_anterior_superior);
     } else if (header.qform_code > 0) {
         place_by_qform(header, grid);
         check_grid(file, grid, {"qform", "qoffset"});
-        turn_to_lps(grid);
+        turn_to_lps(grid, WorldAxes::right_anterior_superior);
     } else {
         for (std::size_t axis = 0; axis < 3; ++axis)
             grid.step[axis] *= std::abs(header.pixdim[axis + 1]);

@@ -142,7 +142,6 @@ void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, 
 Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     const std::vector<unsigned> axes = volume_axes(file, nrrd);
     Grid grid;
-    grid.axes = axes_of(nrrd.space);
     for (std::size_t i = 0; i < 3; ++i) {
         const NrrdAxisInfo& axis = nrrd.axis[axes[i]];
         grid.size[i] = static_cast<std::int64_t>(axis.size);
@@ -159,6 +158,7 @@ Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     if (nrrd.spaceDim == 3 && !std::isnan(nrrd.spaceOrigin[0])) {
         grid.origin = {nrrd.spaceOrigin[0], nrrd.spaceOrigin[1], nrrd.spaceOrigin[2]};
     }
+    turn_to_lps(grid, axes_of(nrrd.space));
     check_grid(file, grid, {"space directions", "space origin"});
     return grid;
 }

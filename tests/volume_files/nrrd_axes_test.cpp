@@ -158,6 +158,43 @@ TEST_F(NrrdAxes, EveryScalarTypeIsRead) {
                  {"sample 2 of 2", "'9223372036854775808'"});
 }
 
+// The world is LPS: whatever space a file tells, what was at one place of the body stays there.
+TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
+    struct Space {
+        const char* name;
+        double right, front;  // signs of x and y beside LPS
+    };
+    for (const Space& space :
+         {Space{"left-posterior-superior", 1, 1}, Space{"LPS", 1, 1}, Space{"scanner-xyz", 1, 1},
+          Space{"right-anterior-superior", -1, -1}, Space{"RAS", -1, -1},
+          Space{"left-anterior-superior", 1, -1}, Space{"LAS", 1, -1}}) {
+        SCOPED_TRACE(space.name);
+        const double x = space.right, y = space.front;
+        const auto path =
+            write("a.nrrd",
+                  fmt::format("NRRD0005\ntype: uint8\ndimension: 3\nspace: {}\nsizes: 2 2 3\n"
+                              "space directions: ({},{},0) ({},{},0) (0,0,2)\n"
+                              "space origin: ({},{},7)\nencoding: raw\n\n{}",
+                              space.name, 3 * x, 4 * y, -4 * x, 3 * y, 5 * x, 6 * y, counting(12)));
+        const Grid grid = read_nrrd(path).grid();
+        EXPECT_EQ(grid.axes, WorldAxes::left_posterior_superior);
+        EXPECT_EQ(grid.origin, glm::dvec3(5, 6, 7));
+        EXPECT_EQ(grid.step[0], glm::dvec3(3, 4, 0));
+        EXPECT_EQ(grid.step[1], glm::dvec3(-4, 3, 0));
+        EXPECT_EQ(grid.step[2], glm::dvec3(0, 0, 2));
+    }
+    // Nothing is known of other spaces, which stay as they are.
+    const Grid other =
+        read_nrrd(write("a.nrrd",
+                        "NRRD0005\ntype: uint8\ndimension: 3\nspace: 3D-left-handed\nsizes: 2 2 3\n"
+                        "space directions: (1,0,0) (0,1,0) (0,0,1)\n"
+                        "space origin: (5,6,7)\nencoding: raw\n\n" +
+                            counting(12)))
+            .grid();
+    EXPECT_EQ(other.axes, WorldAxes::unnamed);
+    EXPECT_EQ(other.origin, glm::dvec3(5, 6, 7));
+}
+
 TEST_F(NrrdAxes, FilesOfAFolderGoByTheirNumbers) {
     for (const char* name : {"b2", "b10", "a11", "b02", ".hidden", "b", "b10c", "b9"})
         write(name, "x");
