@@ -122,6 +122,8 @@ TEST_F(MeshPieces, PvtuNamesItsFiles) {
     expect_bad("b.pvtu", pvtu_of({}), {"no <Piece>"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu", "./one.vtu"}), {"one.vtu", "twice"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu", ""}), {"Piece 2", "Source"});
+    write("b.pvtu", pvtu_of({std::string(300, 'a')}));  // longer than names may be
+    expect_error([&] { read_mesh(folder() / "b.pvtu"); }, {"aaa", "no such file"});
     expect_bad("b.pvtu", pvtu_of({"one.vtu"}).substr(0, 80), {"XML"});
     write("b.pvtu", pvtu_of({"one.vtu", "none.vtu"}));
     expect_error([&] { read_mesh(folder() / "b.pvtu"); }, {"none.vtu"});
