@@ -149,14 +149,17 @@ double TiffFile::resolution(int axis) const {
 void TiffFile::check_capacity(const TiffPage& page) const {
     const StoredAxis axes[] = {page.width, page.height, page.samples};
     const std::size_t bytes = stored_bytes(name_, axes, bytes_of(page.type));
-    const bool packed =
-        field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
-    const std::uint64_t most = file_bytes_ * (packed ? most_expansion : 1);
-    if (bytes > most) {
+    if (bytes > capacity()) {
         fail("{}: page {} promises {} x {} pixels ({} bytes), the file holds {} bytes{}", name_,
              number_ + 1, page.width, page.height, bytes, file_bytes_,
-             packed ? " of compressed data" : "");
+             capacity() > file_bytes_ ? " of compressed data" : "");
     }
+}
+
+std::uint64_t TiffFile::capacity() const {
+    const bool packed =
+        field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
+    return file_bytes_ * (packed ? most_expansion : 1);
 }
 
 void TiffFile::read(const TiffPage& page, std::int64_t sample, char* to) {

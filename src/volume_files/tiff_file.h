@@ -35,6 +35,8 @@ class TiffFile {
     bool is_reduced() const;  // a smaller copy of another page, or a mask
     TiffPage page() const;
     std::string description() const;  // of the page; empty: none
+    // The most bytes of samples that the file can hold, if all pages are packed as this one is.
+    std::uint64_t capacity() const;
     // Pixels a unit along x and y, whichever unit that is; 0: not said.
     double resolution(int axis) const;
 

@@ -69,6 +69,7 @@ class TiffStack {
         const StoredAxis sizes[] = {page_.width, page_.height, axes_.slices};
         const std::size_t word = bytes_of(page_.type);
         StoredSamples samples{name_, page_.type, nullptr};
+        check_capacity(word);
         samples.bytes = sample_memory(stored_bytes(name_, sizes, word));
         auto* to = static_cast<char*>(samples.bytes.get());
         const bool by_page = axes_.channels > 1;
@@ -90,6 +91,18 @@ class TiffStack {
         std::uint32_t page;
     };
 
+    // Before memory is taken for all pages.
+    void check_capacity(std::size_t word) const {
+        const StoredAxis sizes[] = {page_.width, page_.height, page_.samples, std::ssize(places_)};
+        const std::size_t bytes = stored_bytes(name_, sizes, word);
+        if (bytes <= capacity_) return;
+        fail(
+            "{}: pages: found {} of {} x {} pixels of {} samples ({} bytes), more than the files "
+            "can "
+            "hold",
+            name_, places_.size(), page_.width, page_.height, page_.samples, bytes);
+    }
+
     TiffFile& open(std::size_t number) {
         if (!file_ || opened_ != number) {
             file_ = std::make_unique<TiffFile>(files_[number]);
@@ -104,13 +117,16 @@ class TiffStack {
             check_interrupt();
             TiffFile& file = open(i);
             std::uint32_t number = 0;
+            std::uint64_t capacity = 0;
             do {
+                capacity = std::max(capacity, file.capacity());
                 if (file.is_reduced())
                     ++reduced;
                 else
                     add_page(file, {i, number});
                 ++number;
             } while (file.next_page());
+            capacity_ += capacity;
         }
         if (places_.empty()) fail("{}: found no page that is not a smaller copy", name_);
         if (reduced > 0)
@@ -141,6 +157,7 @@ class TiffStack {
     TiffPage page_;  // of every place
     std::string description_;
     std::array<double, 2> resolution_{};
+    std::uint64_t capacity_ = 0;  // of all files, in bytes of samples
     TiffAxes axes_;
     StoredAxis channel_, time_;
     std::unique_ptr<TiffFile> file_;

@@ -144,6 +144,8 @@ TEST_F(VolumeErrors, OfTiff) {
     expect("a.tif", replaced(good("tiff/imagej.tif"), "frames=3", "frames=4"),
            {"found 6 pages, ImageJ's description has", "4 times"});
     std::filesystem::create_directory(folder_ / "stack");
+    expect("a.tif", good("tiff/huge_page.tif"),
+           {"a.tif: pages: found 1 of 150994962 x 10 pixels of 513 samples (774604155060 bytes)"});
     write("stack/1.tif", strips);
     write("stack/2.tif", good("tiff/tiles.tif"));
     EXPECT_EQ(read_volume(folder_ / "stack").grid().size[2], 5);
