@@ -7,9 +7,9 @@ namespace lamina::fuzz {
 
 std::span<const FuzzTarget> fuzz_targets() {
     static constexpr FuzzTarget all[] = {{"colormap", run_colormap},
-                                         {"dicom", run_dicom},
+                                         {"dicom", run_dicom, few_mutations},
                                          {"exr", run_exr},
-                                         {"hdf5", run_hdf5},
+                                         {"hdf5", run_hdf5, few_mutations},
                                          {"integrate", run_integrate},
                                          {"metaimage", run_metaimage},
                                          {"nifti", run_nifti},

@@ -12,7 +12,12 @@ namespace lamina::fuzz {
 struct FuzzTarget {
     const char* name;  // of its folder in corpus/
     void (*run)(std::string_view input);
+    // Mutations of its corpus in the ordinary tests.
+    int mutations = 2000;
 };
+
+// Of readers that start a process for each input, which takes some 30 ms.
+constexpr int few_mutations = 100;
 
 std::span<const FuzzTarget> fuzz_targets();
 

@@ -80,7 +80,7 @@ TEST_P(Mutations, OfTheCorpusAreReadOrRefused) {
         corpus.push_back(read_bytes_of(path));
     ASSERT_FALSE(corpus.empty());
     Mutator mutator(corpus, 1);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < GetParam().mutations; ++i) {
         const std::string input = mutator.next();
         ASSERT_NO_THROW(GetParam().run(input))
             << "input " << i << ": " << testing::PrintToString(input);
