@@ -349,6 +349,13 @@ TEST_F(FirstPicture, OtherVerbsTakeDataFilesAndOpenScenes) {
     run({"crosscheck", volume, "-o", folder / "cross", "--set", "image.width=32", "--set",
          "image.height=24", "--set", "mesh={\"kuhn\": true}", "--samples", "16", "--quiet"});
     EXPECT_TRUE(std::filesystem::exists(folder / "cross" / "report.html"));
+    std::string samples(512, '\0');  // without a header
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<char>(i / 64 * 30);
+    write_bytes_to(folder / "v.raw", samples);
+    run({"crosscheck", folder / "v.raw", "--raw", "8,8,8,uint8", "-o", folder / "of_raw", "--set",
+         "image.width=32", "--set", "image.height=24", "--set", "mesh={\"kuhn\": true}",
+         "--samples", "16", "--quiet"});
+    EXPECT_TRUE(std::filesystem::exists(folder / "of_raw" / "report.html"));
     const ProgramResult result =
         lamina_run({"crosscheck", folder / "m.vtu", "-o", folder / "none"});
     EXPECT_EQ(result.exit_code, 1);

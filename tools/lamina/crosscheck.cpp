@@ -20,6 +20,7 @@
 #include "git_commit.h"
 #include "image/exr.h"
 #include "output_folder.h"
+#include "raw_options.h"
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "scene_data.h"
@@ -138,6 +139,7 @@ void add_crosscheck(CLI::App& app, int&) {
                      "Set a key of the scene, as in render.max_error=0.5")
         ->option_text("KEY=VALUE")
         ->allow_extra_args(false);
+    add_raw_options(*verb, options->scene.raw);
     const CLI::Option* const tolerances =
         verb->add_option(
                 "--tolerances", options->settings.tolerances,
