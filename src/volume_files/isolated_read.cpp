@@ -92,6 +92,9 @@ class Child {
         int ends[2] = {-1, -1};
         if (pipe2(ends, O_CLOEXEC) != 0)
             fail("{}: cannot be read: no pipe: {}", name_, std::strerror(errno));
+        // Fewer changes between the processes; without leave, it stays smaller.
+        constexpr int pipe_bytes = 1 << 20;
+        fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
         process_ = fork();
         if (process_ == 0) {
             close(ends[0]);

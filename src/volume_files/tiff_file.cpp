@@ -86,11 +86,14 @@ bool TiffFile::next_page() {
     return true;
 }
 
-void TiffFile::go_to_page(std::uint32_t number) {
+std::uint64_t TiffFile::place() const {
+    return TIFFCurrentDirOffset(tiff_.get());
+}
+
+void TiffFile::go_to_page(std::uint32_t number, std::uint64_t place) {
     number_ = number;
     message_.clear();
-    if (TIFFCurrentDirectory(tiff_.get()) != number &&
-        TIFFSetDirectory(tiff_.get(), static_cast<tdir_t>(number)) == 0)
+    if (this->place() != place && TIFFSetSubDirectory(tiff_.get(), place) == 0)
         fail_with_reason("cannot be read");
 }
 

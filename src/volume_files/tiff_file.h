@@ -30,7 +30,10 @@ class TiffFile {
     const std::string& name() const { return name_; }
     // The first page is there at first.
     bool next_page();
-    void go_to_page(std::uint32_t number);
+    // `place`: what place() was there. Finding a page by its number alone takes a look at all
+    // before.
+    void go_to_page(std::uint32_t number, std::uint64_t place);
+    std::uint64_t place() const;  // of the page, in bytes of the file
 
     bool is_reduced() const;  // a smaller copy of another page, or a mask
     TiffPage page() const;

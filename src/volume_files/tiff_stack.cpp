@@ -78,7 +78,7 @@ class TiffStack {
         for (std::int64_t slice = 0; slice < axes_.slices; ++slice) {
             const Place& place =
                 places_[static_cast<std::size_t>(first + slice * axes_.slice_step)];
-            open(place.file).go_to_page(place.page);
+            open(place.file).go_to_page(place.page, place.offset);
             file_->read(page_, by_page ? 0 : *channel_.taken, to);
             to += static_cast<std::size_t>(page_.width * page_.height) * word;
         }
@@ -89,6 +89,7 @@ class TiffStack {
     struct Place {
         std::size_t file;
         std::uint32_t page;
+        std::uint64_t offset;  // of the page in the file
     };
 
     // Before memory is taken for all pages.
@@ -123,7 +124,7 @@ class TiffStack {
                 if (file.is_reduced())
                     ++reduced;
                 else
-                    add_page(file, {i, number});
+                    add_page(file, {i, number, file.place()});
                 ++number;
             } while (file.next_page());
             capacity_ += capacity;
