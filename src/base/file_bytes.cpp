@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_bytes.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <fstream>
-#include <memory>
 #include <system_error>
 
 #include "base/error.h"
-#include "base/interrupt.h"
+#include "base/random_access_file.h"
 
 namespace lamina {
 
@@ -23,29 +18,15 @@ void expect_regular_file(const std::filesystem::path& path) {
     }
 }
 
-std::string read_file_bytes(const std::filesystem::path& path) {
-    expect_regular_file(path);
-    std::error_code error;
-    const auto size = std::filesystem::file_size(path, error);
-    if (error) fail("{}: cannot read: {}", path.string(), error.message());
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                               &std::fclose);
-    if (!file) fail("{}: cannot read: {}", path.string(), std::strerror(errno));
-
-    constexpr std::size_t step = std::size_t{1} << 26;  // bytes between checks for a requested stop
-    std::string bytes(size, '\0');
-    for (std::size_t done = 0; done < bytes.size();) {
-        check_interrupt();
-        const std::size_t wanted = std::min(bytes.size() - done, step);
-        const std::size_t got = std::fread(bytes.data() + done, 1, wanted, file.get());
-        done += got;
-        if (got == wanted) continue;
-        if (std::ferror(file.get()) != 0) {
-            fail("{}: cannot read: {}", path.string(), std::strerror(errno));
-        }
-        bytes.resize(done);  // another process has shortened the file meanwhile
-    }
+ByteBuffer read_large_file(const std::filesystem::path& path) {
+    const RandomAccessFile file(path);
+    ByteBuffer bytes(file.size());
+    bytes.shorten(file.read_some(0, bytes.data(), bytes.size()));
     return bytes;
+}
+
+std::string read_file_bytes(const std::filesystem::path& path) {
+    return std::string(read_large_file(path).text());
 }
 
 std::string file_beginning(const std::filesystem::path& path, std::size_t most) {

@@ -5,13 +5,16 @@
 #include <filesystem>
 #include <string>
 
+#include "base/byte_buffer.h"
+
 namespace lamina {
 
 // Throws Error unless `path` is a regular file, because opening a pipe may never end.
 void expect_regular_file(const std::filesystem::path& path);
 
 // Reads all bytes of a regular file. Throws Error where it is not one or cannot be read.
-std::string read_file_bytes(const std::filesystem::path& path);
+ByteBuffer read_large_file(const std::filesystem::path& path);
+std::string read_file_bytes(const std::filesystem::path& path);  // of a small one
 
 // Up to so many bytes of the file's beginning; none where it is not a regular file or cannot be
 // read.

@@ -217,13 +217,13 @@ MeshData read_node_ele(const std::filesystem::path& path) {
              file == path ? "" : fmt::format("; expected beside {}", path.string()));
     }
     MeshData mesh;
-    const std::string node_text = read_file_bytes(node);
-    Lines node_lines(node.string(), node_text);
+    const ByteBuffer node_text = read_large_file(node);
+    Lines node_lines(node.string(), node_text.text());
     const std::int64_t first_point = read_nodes(node_lines, mesh);
     expect_file_end(node_lines, static_cast<std::int64_t>(mesh.points.size()), "points");
 
-    const std::string ele_text = read_file_bytes(ele);
-    Lines ele_lines(ele.string(), ele_text);
+    const ByteBuffer ele_text = read_large_file(ele);
+    Lines ele_lines(ele.string(), ele_text.text());
     read_tets(ele_lines, first_point, mesh);
     expect_file_end(ele_lines, static_cast<std::int64_t>(mesh.tets.size()), "tetrahedra");
     return mesh;

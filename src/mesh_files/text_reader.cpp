@@ -2,6 +2,9 @@
 #include "mesh_files/text_reader.h"
 
 #include <algorithm>
+#include <functional>
+
+#include "base/warning.h"
 
 namespace lamina {
 
@@ -30,6 +33,13 @@ std::string next_word(TextReader reader) {
     std::string text;
     for (const char c : word.substr(0, longest)) text += c >= ' ' && c <= '~' ? c : '?';
     return "'" + text + (word.size() > longest ? "...'" : "'");
+}
+
+void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
+    const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
+    if (surplus == 0) return;
+    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
+                     surplus, behind));
 }
 
 const char* vtk_name_of(ValueType type) {

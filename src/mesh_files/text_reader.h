@@ -16,6 +16,9 @@
 
 namespace lamina {
 
+// Warns of the characters of `text` that are not blanks. `behind`: what ends before it.
+void warn_of_surplus(const std::string& what, std::string_view text, const char* behind);
+
 // Reads words and numbers from a text, independently of the locale.
 class TextReader {
   public:

@@ -286,9 +286,9 @@ class VtkReader {
 }  // namespace
 
 MeshData read_vtk(const std::filesystem::path& path) {
-    const std::string bytes = read_file_bytes(path);
+    const ByteBuffer bytes = read_large_file(path);
     MeshAssembly assembly(path.string());
-    assembly.add(VtkReader(path.string(), bytes).read());
+    assembly.add(VtkReader(path.string(), bytes.text()).read());
     return assembly.finish();
 }
 

@@ -25,14 +25,14 @@ void check_length(std::uint64_t found, std::uint64_t expected, const std::string
     fail("{}: found {} bytes in its header, expected {}", what, found, expected);
 }
 
-std::string read_plain(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
-                       const std::string& what) {
+ByteBuffer read_plain(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
+                      const std::string& what) {
     check_length(read_header_word(bytes, encoding), expected, what);
     if (expected > bytes.at_most_left()) {
         fail("{}: found {} bytes before the end of the file's data, expected {}", what,
              bytes.at_most_left(), expected);
     }
-    std::string values(expected, '\0');
+    ByteBuffer values(expected);
     bytes.read(values.data(), values.size());
     return values;
 }
@@ -78,11 +78,12 @@ std::vector<Block> read_blocks(EncodedBytes& bytes, const VtuEncoding& encoding,
     return blocks;
 }
 
-std::string read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding,
-                            std::uint64_t expected, const std::string& what) {
+ByteBuffer read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding, std::uint64_t expected,
+                           const std::string& what) {
     const VtuCompressor compressor = VtuCompressor::named(encoding.compressor, what);
     const std::vector<Block> blocks = read_blocks(bytes, encoding, compressor, expected, what);
-    std::string values(expected, '\0'), packed;
+    ByteBuffer values(expected);
+    std::string packed;
     std::size_t done = 0;
     std::uint64_t surplus = 0;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -90,7 +91,7 @@ std::string read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding,
         packed.resize(blocks[i].stored);
         bytes.read(packed.data(), packed.size());
         const std::int64_t used =
-            compressor.decode(packed, std::span(values).subspan(done, blocks[i].size));
+            compressor.decode(packed, values.span().subspan(done, blocks[i].size));
         if (used < 0) {
             fail("{}: damaged {} data in block {} of {}", what, compressor.word(), i + 1,
                  blocks.size());
@@ -109,21 +110,21 @@ std::string read_compressed(EncodedBytes& bytes, const VtuEncoding& encoding,
 
 }  // namespace
 
-std::string read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                           std::int64_t count, const std::string& what) {
+ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                          std::int64_t count, const std::string& what) {
     if (count == 0) return {};
     std::uint64_t expected = 0;
     if (__builtin_mul_overflow(static_cast<std::uint64_t>(count), bytes_of(type), &expected)) {
         fail("{}: the file promises {} values, more than any file holds", what, count);
     }
-    EncodedBytes bytes(source.text, source.base64, what);
-    std::string values;
+    EncodedBytes bytes(source, what);
+    ByteBuffer values;
     if (encoding.compressor.empty()) {
         values = read_plain(bytes, encoding, expected, what);
     } else {
         values = read_compressed(bytes, encoding, expected, what);
     }
-    source.text.remove_prefix(bytes.used());
+    source.skip(bytes.used());
     return values;
 }
 
@@ -131,7 +132,7 @@ template <typename To>
 std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what) {
     if (count == 0) return {};
-    const std::string values = read_vtu_bytes(source, encoding, type, count, what);
+    ByteBuffer values = read_vtu_bytes(source, encoding, type, count, what);
     return values_from_bytes<To>(type, values.data(), static_cast<std::size_t>(count),
                                  encoding.swap_bytes);
 }

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/byte_buffer.h"
 #include "base/value_type.h"
+#include "mesh_files/vtu_source.h"
 
 namespace lamina {
 
@@ -20,22 +21,16 @@ struct VtuEncoding {
 // Values in their own type and native byte order.
 struct VtuValues {
     ValueType type = ValueType::uint8;
-    std::string bytes;
-};
-
-// The encoded text of one array.
-struct VtuSource {
-    // From the array's beginning to the end of the available text; reading removes what was read.
-    std::string_view text;
-    bool base64 = false;
+    ByteBuffer bytes;
 };
 
 // Reads `count` values of `type` from binary data, as vtkXMLDataParser does: a header (the length,
 // or the lengths of the compressed blocks), then the values. Checks lengths before it takes memory.
-// Throws Error. `what`: names the file and the array in messages.
+// Throws Error. `what`: names the file and the array in messages. The
+// source then begins behind it.
 // The bytes of the values, in the file's byte order.
-std::string read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
-                           std::int64_t count, const std::string& what);
+ByteBuffer read_vtu_bytes(VtuSource& source, const VtuEncoding& encoding, ValueType type,
+                          std::int64_t count, const std::string& what);
 template <typename To>
 std::vector<To> read_vtu_data(VtuSource& source, const VtuEncoding& encoding, ValueType type,
                               std::int64_t count, const std::string& what);

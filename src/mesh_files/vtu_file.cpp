@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <functional>
 #include <optional>
 #include <utility>
 
 #include "base/error.h"
-#include "base/file_bytes.h"
 #include "base/warning.h"
 #include "mesh_files/text_reader.h"
 
@@ -42,15 +40,7 @@ std::string said(const char* value) {
     return *value == '\0' ? "''" : next_word(TextReader(value));
 }
 
-// Warns of bytes that are not blanks.
-void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
-    const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
-    if (surplus == 0) return;
-    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
-                     surplus, behind));
-}
-
-void swap_words(ValueType type, std::string& bytes) {
+void swap_words(ValueType type, ByteBuffer& bytes) {
     const std::size_t word = bytes_of(type);
     for (std::size_t i = 0; i < bytes.size(); i += word)
         std::reverse(bytes.data() + i, bytes.data() + i + word);
@@ -59,54 +49,23 @@ void swap_words(ValueType type, std::string& bytes) {
 }  // namespace
 
 VtuFile::VtuFile(const std::filesystem::path& path, const char* grid_type)
-    : name_(path.string()), bytes_(read_file_bytes(path)), file_bytes_(bytes_.size()) {
-    constexpr std::string_view last_tag = "</VTKFile>";
-    const std::size_t end = bytes_.rfind(last_tag);
-    if (end != std::string::npos) {
-        warn_of_surplus(name_, std::string_view(bytes_).substr(end + last_tag.size()),
-                        "</VTKFile>");
-    }
-    cut_off_appended_data();
-    parse(grid_type);
+    : name_(path.string()), text_(path) {
+    parse(text_.xml(), grid_type);
 }
 
-// Raw appended data are not XML.
-void VtuFile::cut_off_appended_data() {
-    const std::size_t tag = bytes_.find("<AppendedData");
-    if (tag == std::string::npos) {
-        xml_ = std::move(bytes_);
-        return;
-    }
-    const std::size_t tag_end = bytes_.find('>', tag);
-    const std::size_t mark =
-        tag_end == std::string::npos ? tag_end : bytes_.find_first_not_of(" \t\r\n", tag_end + 1);
-    if (mark == std::string::npos || bytes_[mark] != '_') {
-        fail("{}: AppendedData: no underscore before its data", name_);
-    }
-    const std::size_t end = bytes_.rfind("</AppendedData");
-    if (end == std::string::npos || end <= mark ||
-        bytes_.find("</VTKFile", end) == std::string::npos) {
-        fail("{}: truncated: no </AppendedData> and </VTKFile> after its {} bytes of appended data",
-             name_, bytes_.size() - mark - 1);
-    }
-    has_appended_ = true;
-    appended_ = std::string_view(bytes_).substr(mark + 1, end - mark - 1);
-    xml_ = bytes_.substr(0, tag_end + 1) + "</AppendedData></VTKFile>";
-}
-
-void VtuFile::parse(const char* grid_type) {
+void VtuFile::parse(std::span<char> xml, const char* grid_type) {
     const std::ptrdiff_t marks =
-        std::count_if(xml_.begin(), xml_.end(), [](char c) { return c == '<' || c == '='; });
+        std::count_if(xml.begin(), xml.end(), [](char c) { return c == '<' || c == '='; });
     if (marks > most_marks) {
         fail("{}: found {} tags and attributes, expected at most {}", name_, marks, most_marks);
     }
-    if (xml_.find("<VTKFile") == std::string::npos) {
+    if (std::string_view(xml.data(), xml.size()).find("<VTKFile") == std::string::npos) {
         fail("{}: not a VTK XML file: no <VTKFile> in it", name_);
     }
     const pugi::xml_parse_result result = document_.load_buffer_inplace(
-        xml_.data(), xml_.size(), pugi::parse_escapes | pugi::parse_cdata, pugi::encoding_utf8);
+        xml.data(), xml.size(), pugi::parse_escapes | pugi::parse_cdata, pugi::encoding_utf8);
     if (!result) {
-        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml_.size(),
+        fail("{}: truncated or damaged XML at byte {} of {}: {}", name_, result.offset, xml.size(),
              result.description());
     }
     read_root(document_.child("VTKFile"), grid_type);
@@ -132,13 +91,12 @@ void VtuFile::read_root(pugi::xml_node root, const char* grid_type) {
     }
     encoding_.header_type = header == "UInt32" ? ValueType::uint32 : ValueType::uint64;
     encoding_.compressor = root.attribute("compressor").value();
-    if (!has_appended_) return;
+    if (!text_.has_appended()) return;
     const std::string appended = root.child("AppendedData").attribute("encoding").value();
     if (appended != "raw" && appended != "base64") {
         fail("{}: AppendedData encoding: found {}, expected 'raw' or 'base64'", name_,
              said(appended.c_str()));
     }
-    appended_base64_ = appended == "base64";
 }
 
 std::int64_t VtuFile::count_in(pugi::xml_node node, const char* attribute,
@@ -166,22 +124,25 @@ ValueType VtuFile::type_of(pugi::xml_node array, const std::string& what) const 
 }
 
 VtuSource VtuFile::appended_at(pugi::xml_node array, const std::string& what) const {
-    if (!has_appended_) fail("{}: format 'appended', but the file has no AppendedData", what);
+    if (!text_.has_appended())
+        fail("{}: format 'appended', but the file has no AppendedData", what);
     const std::int64_t offset = count_in(array, "offset", what);
-    if (static_cast<std::uint64_t>(offset) > appended_.size()) {
+    VtuSource source = text_.appended();
+    if (static_cast<std::uint64_t>(offset) > source.left()) {
         fail("{}: offset: found {}, the file has {} bytes of appended data", what, offset,
-             appended_.size());
+             source.left());
     }
-    return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
+    source.skip(static_cast<std::uint64_t>(offset));
+    return source;
 }
 
 // Arrays that share their bytes would let a small file fill all memory.
-void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
+void VtuFile::count_appended(std::uint64_t bytes, const std::string& what) const {
     appended_used_ += bytes;
-    if (appended_used_ > appended_.size()) {
+    if (appended_used_ > text_.appended().left()) {
         fail(
             "{}: offset: the arrays up to this one take {} bytes of appended data, the file has {}",
-            what, appended_used_, appended_.size());
+            what, appended_used_, text_.appended().left());
     }
 }
 
@@ -190,11 +151,11 @@ void VtuFile::count_appended(std::size_t bytes, const std::string& what) const {
 void VtuFile::count_kept(std::int64_t count, const std::string& what) const {
     constexpr std::uint64_t most_expansion = 256;
     values_kept_ += static_cast<std::uint64_t>(count);
-    if (values_kept_ / most_expansion > file_bytes_ / sizeof(double) + 1) {
+    if (values_kept_ / most_expansion > text_.byte_count() / sizeof(double) + 1) {
         fail(
             "{}: the arrays up to this one promise {} values, {} bytes each, more than {} times "
             "the file's {} bytes",
-            what, values_kept_, sizeof(double), most_expansion, file_bytes_);
+            what, values_kept_, sizeof(double), most_expansion, text_.byte_count());
     }
 }
 
@@ -214,16 +175,16 @@ auto VtuFile::decoded(pugi::xml_node array, std::int64_t count, const std::strin
     const std::string format = array.attribute("format").as_string("ascii");
     if (format == "appended") {
         VtuSource source = appended_at(array, what);
-        const std::size_t from = source.text.size();
+        const std::uint64_t from = source.left();
         auto values = binary(source);
-        count_appended(from - source.text.size(), what);
+        count_appended(from - source.left(), what);
         return values;
     }
     std::string_view text;
     const std::string joined = text_of(array, text);
     if (!joined.empty()) text = joined;
     if (format == "binary") {
-        VtuSource source{text, true};
+        VtuSource source{.text = text};
         auto values = binary(source);
         warn_of_surplus(what, source.text, "its base64 data");
         return values;
@@ -270,7 +231,7 @@ VtuValues VtuFile::stored_values(pugi::xml_node array, std::int64_t tuples, std:
         [&](TextReader& reader) {
             VtuValues values{type, {}};
             const auto store = [&](const auto& numbers) {
-                values.bytes.resize(words * bytes_of(type));
+                values.bytes = ByteBuffer(words * bytes_of(type));
                 with_type(type, [&](auto zero) {
                     for (std::size_t i = 0; i < words; ++i) {
                         const auto value = static_cast<decltype(zero)>(numbers[i]);

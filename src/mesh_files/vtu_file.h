@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <pugixml.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/value_type.h"
+#include "mesh_files/vtk_xml_text.h"
 #include "mesh_files/vtu_data.h"
 
 namespace lamina {
@@ -20,7 +22,7 @@ class VtuFile {
     explicit VtuFile(const std::filesystem::path& path, const char* grid_type = "UnstructuredGrid");
 
     const std::string& name() const { return name_; }
-    std::size_t byte_count() const { return file_bytes_; }
+    std::uint64_t byte_count() const { return text_.byte_count(); }
     pugi::xml_node grid() const { return grid_; }
 
     // A whole number >= 0 in an attribute.
@@ -44,22 +46,17 @@ class VtuFile {
                  const Binary& binary, const Text& text) const;
     std::int64_t value_count(std::int64_t tuples, std::int64_t components,
                              const std::string& what) const;
-    void cut_off_appended_data();
-    void parse(const char* grid_type);
+    void parse(std::span<char> xml, const char* grid_type);
     void read_root(pugi::xml_node root, const char* grid_type);
     ValueType type_of(pugi::xml_node array, const std::string& what) const;
     VtuSource appended_at(pugi::xml_node array, const std::string& what) const;
-    void count_appended(std::size_t bytes, const std::string& what) const;
+    void count_appended(std::uint64_t bytes, const std::string& what) const;
     void count_kept(std::int64_t count, const std::string& what) const;
 
     std::string name_;
-    std::string bytes_;          // of the file
-    std::string xml_;            // without appended data; xml_nodes point into it
-    std::string_view appended_;  // appended data after the underscore
-    bool has_appended_ = false, appended_base64_ = false;
-    mutable std::size_t appended_used_ = 0;  // bytes used by all arrays that were read
-    std::size_t file_bytes_;
-    mutable std::uint64_t values_kept_ = 0;  // number of values of all arrays that were read
+    VtkXmlText text_;                          // xml_nodes point into it
+    mutable std::uint64_t appended_used_ = 0;  // bytes used by all arrays that were read
+    mutable std::uint64_t values_kept_ = 0;    // number of values of all arrays that were read
     pugi::xml_document document_;
     pugi::xml_node grid_;
     VtuEncoding encoding_;

@@ -35,9 +35,10 @@ class SliceReader {
         const auto& size = series_.grid.size;
         const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
         samples_.type = scales_alike_ ? type_ : ValueType::float32;
-        samples_.bytes = sample_memory(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
-        if (std::ranges::any_of(series_.slices, &DicomImage::compressed))
-            allow_bytes(stored_bytes(series_.name, axes, bytes_of(samples_.type)));
+        const std::size_t bytes = stored_bytes(series_.name, axes, bytes_of(samples_.type));
+        const bool isolated = std::ranges::any_of(series_.slices, &DicomImage::compressed);
+        if (isolated) allow_bytes(bytes);
+        samples_.bytes = isolated ? shared_sample_memory(bytes) : sample_memory(bytes);
         std::size_t done = 0;
         for (const DicomImage& slice : series_.slices) {
             check_interrupt();

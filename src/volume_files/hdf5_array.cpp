@@ -224,7 +224,7 @@ std::shared_ptr<void> Hdf5Array::read(const std::vector<std::int64_t>& index,
     }
     expect_filters();
     allow_bytes(bytes);
-    std::shared_ptr<void> samples = sample_memory(bytes);
+    std::shared_ptr<void> samples = shared_sample_memory(bytes);
     read_slabs(index, static_cast<char*>(samples.get()));
     return samples;
 }

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -27,14 +28,23 @@ namespace {
 constexpr rlim_t seconds_for_headers = 5;
 
 // What the other process sends: one of these letters, a length, and so many bytes.
-enum Message : char { warning = 'W', refusal = 'E', result = 'R', samples_follow = 'S' };
+enum Message : char { warning = 'W', refusal = 'E', result = 'R' };
 
 // Of fixed size, between processes of one program.
 struct ResultHead {
     Grid grid;
     ValueType type;
     double scale, offset;
+    std::size_t bytes;  // of the samples
 };
+
+int shared_file = -1;  // in the process of its own: what its samples are in
+
+std::shared_ptr<void> mapped(int file, std::size_t bytes) {
+    void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    return {memory, [bytes](void* mapping) { munmap(mapping, bytes); }};
+}
 
 // In the process of its own: writes all or ends it.
 void send_all(int to, const void* bytes, std::size_t count) {
@@ -58,7 +68,8 @@ void send_text(int to, char kind, const std::string& text) {
     send_message(to, kind, text.data(), text.size());
 }
 
-[[noreturn]] void run_child(int to, const std::function<ReadSamples()>& read) {
+[[noreturn]] void run_child(int to, int samples, const std::function<ReadSamples()>& read) {
+    shared_file = samples;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT}) signal(number, SIG_DFL);
     const rlimit no_core{0, 0};
@@ -70,12 +81,10 @@ void send_text(int to, char kind, const std::string& text) {
     try {
         const ClientScope scope({{}, &taker, nullptr});
         const ReadSamples found = read();
-        const ResultHead head{found.grid, found.samples.type, found.samples.scale,
-                              found.samples.offset};
+        const ResultHead head{
+            found.grid, found.samples.type, found.samples.scale, found.samples.offset,
+            static_cast<std::size_t>(found.grid.sample_count()) * bytes_of(found.samples.type)};
         send_message(to, result, &head, sizeof head);
-        send_message(
-            to, samples_follow, found.samples.bytes.get(),
-            static_cast<std::size_t>(found.grid.sample_count()) * bytes_of(found.samples.type));
     } catch (const std::bad_alloc&) {
         send_text(to, refusal, "out of memory");
     } catch (const std::exception& error) {
@@ -92,24 +101,24 @@ class Child {
         int ends[2] = {-1, -1};
         if (pipe2(ends, O_CLOEXEC) != 0)
             fail("{}: cannot be read: no pipe: {}", name_, std::strerror(errno));
-        // Fewer changes between the processes; without leave, it stays smaller.
-        constexpr int pipe_bytes = 1 << 20;
-        fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
-        process_ = fork();
+        samples_ = memfd_create("samples", MFD_CLOEXEC);
+        process_ = samples_ < 0 ? -1 : fork();
         if (process_ == 0) {
             close(ends[0]);
-            run_child(ends[1], read);
+            run_child(ends[1], samples_, read);
         }
+        const int reason = errno;
         close(ends[1]);
         from_ = ends[0];
         if (process_ > 0) return;
-        close(from_);
+        close_files();
+        errno = reason;
         fail("{}: cannot be read: no process: {}", name_, std::strerror(errno));
     }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child() {
-        close(from_);
+        close_files();
         if (!ended_) {
             kill(process_, SIGKILL);
             wait_for();
@@ -117,20 +126,14 @@ class Child {
     }
 
     ReadSamples receive() {
-        std::optional<ReadSamples> found;
         for (char kind = 0; receive_all(&kind, 1);) {
             std::size_t count = 0;
             expect_all(&count, sizeof count);
-            if (kind == samples_follow && found) {
-                found->samples.bytes = sample_memory(count);
-                expect_all(found->samples.bytes.get(), count);
-                return std::move(*found);
-            }
             if (kind == result) {
                 ResultHead head;
                 expect_all(&head, sizeof head);
-                found = ReadSamples{head.grid, {name_, head.type, {}, head.scale, head.offset}};
-                continue;
+                return {head.grid,
+                        {name_, head.type, mapped(samples_, head.bytes), head.scale, head.offset}};
             }
             constexpr std::size_t most_text = 1 << 16;
             std::string text(std::min(count, most_text), '\0');
@@ -142,6 +145,11 @@ class Child {
     }
 
   private:
+    void close_files() {
+        close(from_);
+        if (samples_ >= 0) close(samples_);
+    }
+
     // False at the end.
     bool receive_all(void* bytes, std::size_t count) {
         char* at = static_cast<char*>(bytes);
@@ -186,7 +194,7 @@ class Child {
     std::string name_;
     const char* library_;
     pid_t process_ = -1;
-    int from_ = -1;
+    int from_ = -1, samples_ = -1;
     bool ended_ = false;
 };
 
@@ -203,6 +211,11 @@ void allow_bytes(std::size_t bytes) {
                                              static_cast<rlim_t>(used.ru_stime.tv_sec) +
                                              seconds_for_headers + bytes / slowest);
     setrlimit(RLIMIT_CPU, &limit);
+}
+
+std::shared_ptr<void> shared_sample_memory(std::size_t bytes) {
+    if (ftruncate(shared_file, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
+    return mapped(shared_file, bytes);
 }
 
 ReadSamples read_isolated(const std::string& name, const char* library,

@@ -181,7 +181,7 @@ class ImageFile {
         if (piece == pieces_[0]) say_taken(what, axes);
         const std::size_t word = bytes_of(values->type);
         samples.bytes = sample_memory(taken_bytes(what, axes, word));
-        MemoryReader reader(values->bytes, what);
+        MemoryReader reader(values->bytes.text(), what);
         read_taken(reader, axes, word, samples.bytes.get());
         return samples;
     }

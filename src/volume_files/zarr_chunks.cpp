@@ -117,14 +117,14 @@ class ZarrReader {
 
     void read_chunk(std::int64_t chunk) {
         const std::filesystem::path file = file_of(chunk);
-        std::string samples(static_cast<std::size_t>(array_.chunk_samples()) * bytes_, '\0');
+        ByteBuffer samples(static_cast<std::size_t>(array_.chunk_samples()) * bytes_);
         if (std::filesystem::exists(file)) {
-            const std::string stored = read_file_bytes(file);
+            const ByteBuffer stored = read_large_file(file);
             if (samples.size() / most_chunk_expansion > stored.size()) {
                 fail("{}: found {} bytes, which cannot hold the {} of a chunk", file.string(),
                      stored.size(), samples.size());
             }
-            decode_chunk(array_.codec, stored, samples, file.string());
+            decode_chunk(array_.codec, stored.text(), samples.span(), file.string());
         } else {
             ++missing_;
             fill(samples);
@@ -133,7 +133,7 @@ class ZarrReader {
     }
 
     // In the byte order of the file, as the other samples are.
-    void fill(std::string& samples) const {
+    void fill(ByteBuffer& samples) const {
         with_type(array_.type, [&](auto zero) {
             using Value = decltype(zero);
             Value value = fill_as<Value>();

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -244,6 +245,58 @@ def test_the_line_of_a_wipe_is_dragged_and_not_the_camera():
     assert len(set(pictures)) == 3
     before, after = (json.loads(pathlib.Path(name + ".json").read_text()) for name in ["before", "after"])
     assert before == after
+
+
+KEYS = [*"ABCDEFHIJKLMNOPQRSTUVWXYZ0123456789", "Backspace", "Delete", "Down", "End", "Enter", "Escape", "F1", "Home", "Left",
+        "Right", "Space", "Tab", "Up"]
+
+
+def random_event(random):
+    def place():
+        return f"{random.randint(-20, 1300)} {random.randint(-20, 880)}"
+
+    def held(*modifiers):
+        return " ".join(random.sample(modifiers, random.choice([0, 0, 0, 1, len(modifiers)])))
+
+    def key():
+        name, modifiers = random.choice(KEYS), held("shift", "control")
+        return f"key {name} {modifiers}" if (name, "control" in modifiers) != ("Q", True) else "key Q"
+
+    button = random.choice(["left", "left", "left", "right", "middle"])
+    return random.choice([
+        lambda: f"move {place()}",
+        lambda: f"press {button} {held('shift')}",
+        lambda: f"release {button}",
+        lambda: f"drag {button} {place()} {place()} {random.randint(1, 4)} {held('shift')}",
+        lambda: f"click {place()} {held('shift', 'control')}",
+        lambda: f"click {place()} {held('shift', 'control')}",
+        lambda: f"doubleclick {place()}",
+        lambda: f"wheel {random.uniform(-4, 4):.2f}",
+        key,
+        key,
+        lambda: f"type {random.choice(['0', '1', '.5', '-3', '1e9', 'nan', '[4, 2]', 'x', '#$%'])}",
+        lambda: f"set {random.choice(['coarse', 'trace', 'panels'])} {random.choice(['on', 'off'])}",
+        lambda: f"wait {random.choice([0, 5, 40])}",
+    ])()
+
+
+# Settings that these events reach by chance may ask for a picture that takes minutes; opening a file ends it.
+@pytest.mark.parametrize("seed", range(int(os.environ.get("LAMINA_VIEWER_SEEDS", "1"))))
+def test_a_thousand_events_at_random_do_no_harm(seed):
+    generated("a.nrrd")
+    lamina("mesh", generated("b.nrrd", "6,5,4"), "--kuhn", "-o", "b.vtu")
+    pathlib.Path("bad.json").write_text("{")
+    choice = random.Random(seed)
+    files = ["a.nrrd", "b.vtu", "bad.json", "b.nrrd"]
+    events = [random_event(choice) for _ in range(1000)]
+    for number in range(100, len(events), 100):
+        events[number] = choice.choice([f"open {choice.choice(files)}",
+                                        f"size {choice.randint(40, 1300)} {choice.randint(40, 900)}"])
+    end = [*(f"release {button}" for button in ["left", "right", "middle"]), "open a.nrrd", "wait full", "save end.json",
+           "save end.exr", "wait saved"]
+    played("\n".join([*events, *end]), "a.nrrd", "--size", "160x120")
+    lamina("render", "end.json", "--context", "cpu", "-o", "again.exr")
+    assert difference("end.exr", "again.exr")["linf"] == 0
 
 
 @pytest.mark.skipif(not shutil.which("xdotool"), reason="there is no xdotool")

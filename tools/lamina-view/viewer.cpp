@@ -304,9 +304,9 @@ void Viewer::draw_picture(float left, float top, float width, float height, floa
     if (!uploaded_) return;
     // One pixel of the picture is one of the screen, unless it is coarse or does not fit.
     const Scene& scene = document_.scene();
-    const bool moving = shown_->kind == PictureKind::moving;
-    const auto across = static_cast<float>(moving ? scene.width : texture_.width());
-    const auto down = static_cast<float>(moving ? scene.height : texture_.height());
+    const bool coarse = shown_->kind == PictureKind::moving || shown_->kind == PictureKind::none;
+    const auto across = static_cast<float>(coarse ? scene.width : texture_.width());
+    const auto down = static_cast<float>(coarse ? scene.height : texture_.height());
     const float scale = std::min({1 / pixels, width / across, height / down});
     const auto on_pixels = [&](float place) { return std::floor(place * pixels) / pixels; };
     const float x = on_pixels(left + (width - scale * across) / 2);

@@ -139,9 +139,22 @@ void SessionSteps::load(const std::stop_token& stop) {
     shown_.histogram = std::make_shared<const ValueHistogram>(session_->histogram(histogram_bins));
     shown_.chosen = std::make_shared<const Scene>(session_->chosen_scene());
     shown_.chosen_of = applied_;
-    shown_.resolved.reset();
+    forget_pictures();
     next_ = step_after_data();
     publish_(shown_);
+}
+
+// What is on the screen stays there until there is another picture.
+void SessionSteps::forget_pictures() {
+    shown_.kind = PictureKind::none;
+    shown_.probe.reset();
+    shown_.full.reset();
+    shown_.full_screen.reset();
+    shown_.resolved.reset();
+    shown_.truth.reset();
+    shown_.missed.reset();
+    shown_.share_traced = 0;
+    shown_.error = {};
 }
 
 // Hands the session what has changed, by the call that costs least: nothing is chosen again.

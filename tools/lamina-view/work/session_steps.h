@@ -47,6 +47,7 @@ class SessionSteps {
     void show_traced(const TracedPicture& traced);
     void take_truth(const PreciseImage& truth);
     void forget_tiles();
+    void forget_pictures();  // of other data
     void fail(const std::string& message);
     ProgressCallback progress();
 
