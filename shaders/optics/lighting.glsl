@@ -68,11 +68,17 @@ LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     return LightEffect(weight * effect.change, weight * effect.highlight);
 }
 
+// What light may do between the nodes of a piece: highlights and all else, each with the square of how far the gradient
+// may be from that in the middle, of its length (executors/light_cuts.h): x, y of highlights, z, w of all else.
+uniform vec4 hidden_limits;
+
 // Returns what light may do between the nodes of a piece, whose gradient has this square in the middle and goes as far
-// from that as the root of `reach`: nothing where it stays near, else as much as light can do at all.
-// `most_turn_square`: how near, of `square`.
-float hidden_effect(float square, float reach, float smallest_square, float most_turn_square, float largest_effect) {
+// from that as the root of `reach`: nothing where it stays near. Beyond, a highlight may lie between the nodes; what
+// else light does changes without peaks, and by as much as light can only where the gradient goes three times as far.
+float hidden_effect(float square, float reach, float smallest_square) {
     float steepest = 2.0 * (square + reach);  // |a + b|^2 <= 2 |a|^2 + 2 |b|^2
     float weight = steepest / (steepest + smallest_square);
-    return reach > most_turn_square * square ? largest_effect * weight : 0.0;
+    float near = hidden_limits.w * square;
+    float share = clamp((reach - near) / max(8.0 * near, 1e-37), 0.0, 1.0);
+    return weight * (hidden_limits.z * share + (reach > hidden_limits.y * square ? hidden_limits.x : 0.0));
 }

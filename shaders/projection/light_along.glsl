@@ -3,9 +3,8 @@
 #include "optics/opacity.glsl"
 #include "optics/lighting.glsl"
 
-// The square of the smallest gradient, and how far light may bend; the gradient turn, squared, of its length in the
-// middle; and what light can do at all (executors/tile_light.h).
-uniform vec4 light_limits;
+// The square of the smallest gradient, and how far light may bend (executors/tile_light.h).
+uniform vec2 light_limits;
 
 struct LitRun {
     vec2 depths;  // extinction at both ends, times the length
@@ -30,7 +29,7 @@ float largest_of(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 float hidden_bend(LitRun run, float at, float extent) {
     vec3 center = run.gradient + (at + 0.5 * extent) * run.turn;
     vec3 reach = 0.5 * extent * run.turn;
-    return hidden_effect(dot(center, center), dot(reach, reach), light_limits.x, light_limits.z, light_limits.w);
+    return hidden_effect(dot(center, center), dot(reach, reach), light_limits.x);
 }
 
 // The place behind `at` where the gradient is perpendicular to the light, 2 where there is none.
@@ -91,7 +90,7 @@ LightSums light_along(LitRun run, float in_front) {
 
         float weight = in_front * opacity;
         float most = light_limits.y;
-        if (bend > most && bend * weight > 0.125 * most && extent > 0.00390625) {
+        if (bend > most && bend * weight > 0.5 * most && extent > 0.00390625) {
             longest = extent * clamp(sqrt(most / bend), 0.125, 0.5);
             continue;
         }

@@ -5,15 +5,12 @@
 #include "optics/lighting.glsl"
 #include "slicing/cell_gradient.glsl"
 
-uniform float most_bend;       // where light bends more along a part, the part is cut
-// Of the gradient's length in the middle of a part, how far it may be from that: beyond, there may be dips and
-// highlights between the nodes, of up to the largest effect that light has.
-uniform float most_turn;
-uniform float largest_effect;
+uniform float most_bend;  // where light bends more along a part, the part is cut
 
 // Light is not looked at more closely than that (plan/march_limit.cpp counts the rounds).
 const float shortest_lit_piece = 1.0 / 256.0;
-const float faint_light = 1.0 / 8.0;
+// Half of the native engine's: the number of rounds is bounded anyway, and pieces grow more slowly.
+const float faint_share = 1.0 / 4.0;
 
 float length_square(vec3 v) { return dot(v, v); }
 
@@ -24,7 +21,7 @@ float hidden_bend(CellGradient gradient, float at, float extent) {
     vec3 slope = vec3(cubic_slope(gradient.x, middle), cubic_slope(gradient.y, middle), cubic_slope(gradient.z, middle));
     vec3 most = reach * (abs(slope) + reach * (abs(c2 + 3.0 * c3 * middle) + reach * abs(c3)));
     float square = length_square(gradient_along(gradient, middle)), way = length_square(most);
-    return hidden_effect(square, way, gradient.smallest_square, most_turn * most_turn, largest_effect);
+    return hidden_effect(square, way, gradient.smallest_square);
 }
 
 // Returns what a light adds to the two numbers of hidden_kinks().
@@ -95,7 +92,10 @@ float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPar
 }
 
 // Returns whether a part's light bends too much for one rule. `seen`: what the eye sees of the part's opacity.
-bool bends(float bend, float seen) { return bend > most_bend && bend * seen > faint_light * most_bend; }
+bool bends(float bend, float seen) {
+    float largest_effect = hidden_limits.x + hidden_limits.z;
+    return bend > most_bend && bend * seen * max(largest_effect, 1.0) > faint_share * most_bend;
+}
 
 // Returns how long the first piece of a part may be: what is missed of a kink falls with the square of that.
 float longest_piece(float bend) { return clamp(sqrt(most_bend / max(bend, 1e-30)), 1.0 / 8.0, 1.0); }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "executors/light_cuts.h"
 #include "optics/ray_lights.h"
 
 namespace lamina {
@@ -45,6 +46,13 @@ void set_lights(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
     program.set("half_power", static_cast<float>(lighting.power / 2));
     program.set("light_directions", std::span<const glm::vec4>(directions));
     program.set("light_colors", std::span<const glm::vec4>(colors));
+}
+
+void set_light_cuts(const Lighting& lighting, gl::Program& program) {
+    const LightCuts cuts = light_cuts(lighting);
+    program.set("hidden_limits",
+                glm::vec4(cuts.highlight_effect, cuts.most_turn * cuts.most_turn, cuts.plain_effect,
+                          cuts.most_plain_turn * cuts.most_plain_turn));
 }
 
 }  // namespace lamina

@@ -16,5 +16,7 @@ void set_light_defines(const Lighting& lighting, gl::Defines& defines);
 // space.
 void set_lights(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
                 gl::Program& program);
+// Sets what parts of rays are cut by.
+void set_light_cuts(const Lighting& lighting, gl::Program& program);
 
 }  // namespace lamina

@@ -19,11 +19,13 @@ constexpr double peak_widths = 3;
 
 LightCuts light_cuts(const Lighting& lighting) {
     LightCuts cuts;
-    cuts.most_turn = most_growth;
+    cuts.most_turn = cuts.most_plain_turn = most_growth;
     if (lighting.specular > 0)
         cuts.most_turn = std::min(most_growth, peak_widths / std::sqrt(lighting.power));
     const glm::dvec3 anywhere(0, 0, 1);
-    cuts.largest_effect = RayLights(lighting, anywhere).largest_effect(1);
+    const RayLights lights(lighting, anywhere);
+    cuts.plain_effect = lights.largest_effect(1) - lights.largest_effect(0);
+    cuts.highlight_effect = lights.largest_effect(0);
     return cuts;
 }
 

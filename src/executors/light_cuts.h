@@ -8,8 +8,11 @@ namespace lamina {
 // Where lit parts of rays are cut.
 struct LightCuts {
     // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
-    // may be dips and highlights between the nodes, of up to the largest effect that light has.
-    double most_turn = 0, largest_effect = 0;
+    // may be highlights of up to this effect between the nodes, and dips of all else.
+    double most_turn = 0, highlight_effect = 0;
+    double most_plain_turn = 0, plain_effect = 0;
+
+    double largest_effect() const { return highlight_effect + plain_effect; }
 };
 
 LightCuts light_cuts(const Lighting& lighting);

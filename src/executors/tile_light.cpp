@@ -18,7 +18,7 @@ namespace {
 constexpr double usual_effect = 25, order = 6;
 // Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
 // light of strength 1, and the more the stronger it is.
-constexpr double faint_share = 1.0 / 8;
+constexpr double faint_share = 1.0 / 2;
 
 TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     TileLight::Direction direction;
@@ -55,10 +55,12 @@ TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3,
         light.spacing[axis] = static_cast<float>(glm::length(axes[axis]));
     light.most_bend = static_cast<float>(most_bend);
     const LightCuts cuts = light_cuts(lighting);
-    light.most_turn = static_cast<float>(cuts.most_turn);
-    light.largest_effect = static_cast<float>(cuts.largest_effect);
-    const double largest = cuts.largest_effect, excess = largest / (usual_effect * most_bend);
-    if (excess > 1) light.most_turn *= static_cast<float>(std::pow(excess, -1 / order));
+    const double largest = cuts.largest_effect(), excess = largest / (usual_effect * most_bend);
+    const double nearer = std::pow(std::max(excess, 1.0), -1 / order);
+    light.most_turn = static_cast<float>(nearer * cuts.most_turn);
+    light.most_plain_turn = static_cast<float>(nearer * cuts.most_plain_turn);
+    light.highlight_effect = static_cast<float>(cuts.highlight_effect);
+    light.plain_effect = static_cast<float>(cuts.plain_effect);
     light.faint_bend = static_cast<float>(faint_share * most_bend / std::max(largest, 1.0));
     return light;
 }

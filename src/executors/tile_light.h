@@ -31,8 +31,9 @@ struct TileLight {
     // Unless it bends, times the part's opacity, by less than this: too faint to be looked at.
     float faint_bend = 0;
     // Of the gradient's length in the middle of a part, how far it may be from that: beyond, there
-    // may be dips and highlights between the nodes, of up to the largest effect that light has.
-    float most_turn = 0, largest_effect = 0;
+    // may be highlights between the nodes, and dips of all else (executors/light_cuts.h).
+    float most_turn = 0, highlight_effect = 0;
+    float most_plain_turn = 0, plain_effect = 0;
 };
 
 // `axes`: orthogonal, in the unit of lengths along rays.

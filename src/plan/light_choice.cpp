@@ -43,19 +43,21 @@ void plan_light(const Scene& scene, double max_color, ProjectPlan& project) {
 }
 
 // A piece is tried again, half as long, only where light bends by more than `most_bend` and by more
-// than an eighth of that in what the eye sees of it. The second difference of three effects is at
-// most twice their span, which is at least what may be hidden; kinks count up to 2.52 times the
-// span. So such a piece shows at least 1 / `most` of the ray, and those that do not overlap are at
-// most `most`. Pieces whose lengths lie within one octave do not overlap, and lengths have eight
-// octaves (shaders/slicing/lit_cell.glsl): 8 * most trials in vain, and as length doubles after two
-// pieces of full length, twice as many of these. Whole parts of which that is true are at most
-// `most`, too: each takes a round to be found, up to three stretches that begin with pieces of an
-// eighth, and so ten rounds in all.
+// than a quarter of that in what the eye sees of it, divided by the largest effect of light where
+// that is more than 1. The second difference of three effects is at most twice their span, which is
+// at least what may be hidden; kinks count up to 2.52 times the span. So such a piece shows at
+// least 1 / `most` of the ray, and those that do not overlap are at most `most`. Pieces whose
+// lengths lie within one octave do not overlap, and lengths have eight octaves
+// (shaders/slicing/lit_cell.glsl): 8 * most trials in vain, and as length doubles after two pieces
+// of full length, twice as many of these. Whole parts of which that is true are at most `most`,
+// too: each takes a round to be found, up to three stretches that begin with pieces of an eighth,
+// and so ten rounds in all.
 double light_rounds(const Scene& scene, double max_color) {
     if (!scene.lighting) return 0;
     const glm::dvec3 anywhere(0, 0, 1);
-    const double most =
-        8 * 2.52 * RayLights(*scene.lighting, anywhere).effect_span() / most_bend(scene, max_color);
+    const RayLights lights(*scene.lighting, anywhere);
+    const double most = 4 * std::max(lights.largest_effect(1), 1.0) * 2.52 * lights.effect_span() /
+                        most_bend(scene, max_color);
     return (3 * 8 + 10) * most;
 }
 

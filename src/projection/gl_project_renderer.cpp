@@ -14,7 +14,6 @@
 #include "base/unreachable.h"
 #include "executors/gl_compositing.h"
 #include "executors/gl_lights.h"
-#include "executors/light_cuts.h"
 #include "facts/world_unit.h"
 #include "gl/api.h"
 #include "gl/check.h"
@@ -197,10 +196,9 @@ void GlProjectRenderer::set_light(gl::Program& program, const View& view) const 
     const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
     const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
     program.set("view_axes", std::span<const glm::vec4>(axes));
-    const LightCuts cuts = light_cuts(*plan_.lighting);
+    set_light_cuts(*plan_.lighting, program);
     program.set("light_limits",
-                glm::vec4(gradients_.smallest_square(*plan_.lighting), plan_.most_bend,
-                          cuts.most_turn * cuts.most_turn, cuts.largest_effect));
+                glm::vec2(gradients_.smallest_square(*plan_.lighting), plan_.most_bend));
 }
 
 void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,

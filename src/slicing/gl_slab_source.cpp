@@ -15,7 +15,6 @@
 #include "base/stage.h"
 #include "base/unreachable.h"
 #include "executors/gl_lights.h"
-#include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
 #include "executors/smallest_gradient.h"
 #include "facts/drawn_range.h"
@@ -159,10 +158,8 @@ void GlSlabSource::bind_lights(gl::Program& program) const {
     }
     program.set("spacing", spacing);
     if (!plan_.integrates_cells()) return;
-    const LightCuts cuts = light_cuts(*plan_.lighting);
     program.set("most_bend", static_cast<float>(plan_.most_bend));
-    program.set("most_turn", static_cast<float>(cuts.most_turn));
-    program.set("largest_effect", static_cast<float>(cuts.largest_effect));
+    set_light_cuts(*plan_.lighting, program);
 }
 
 void GlSlabSource::set_real(gl::Program& program, const char* name, const glm::dvec3& value) const {

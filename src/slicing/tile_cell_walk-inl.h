@@ -253,7 +253,7 @@ class CellWalk {
             __builtin_prefetch(samples + bytes * index);
             __builtin_prefetch(samples + bytes * (index + static_cast<std::size_t>(brick.slice)));
             if (!lit_) continue;
-            for (const std::int32_t row : {0, brick.row, brick.slice, brick.row + brick.slice})
+            for (const std::int32_t row : {0, brick.slice})
                 __builtin_prefetch(brick.gradients + index + static_cast<std::size_t>(row));
         }
     }

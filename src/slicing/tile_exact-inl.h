@@ -238,7 +238,8 @@ class CellIntegrator {
         const FloatTag d;
         const FloatMask seen = hn::And(members_from(i), depth > Number(0));
         if (hn::AllFalse(d, hn::Or(seen, hard))) return Number(1);
-        gradient = set_gradients(view_->brick, *slabs_.light, i, parts_.count - i, parts_);
+        gradient = set_gradients(view_->brick, hn::Or(seen, hard), i, *slabs_.light, parts_,
+                                 gradient_rows_);
         Number color[3] = {load_number(parts_.color[0] + i), load_number(parts_.color[1] + i),
                            load_number(parts_.color[2] + i)};
         const Number opacity = load_number(parts_.opacity + i);
@@ -316,6 +317,7 @@ class CellIntegrator {
     CellWalk walks_[most_packets];
     CellParts parts_;
     CutParts cut_;
+    alignas(64) GradientRows gradient_rows_ = {};  // of lit parts
     std::int64_t count_ = 0;
 };
 

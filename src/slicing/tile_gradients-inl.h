@@ -13,6 +13,7 @@
 
 #include "executors/tile_light.h"
 #include "executors/tile_number-inl.h"
+#include "slicing/tile_cell_parts-inl.h"
 #include "slicing/tile_scalars-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,16 +23,16 @@ namespace lamina::HWY_NAMESPACE {
 // each of a cell's four rows along x, in the order of Corners.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
-// Loads pairs one by one, which is faster than gathers. Where samples have no neighbour along x,
-// they are their own.
+// Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep what
+// they have. Where samples have no neighbour along x, they are their own.
 inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
-                                         GradientRows& rows) {
+                                         std::uint32_t lanes, GradientRows& rows) {
     const std::size_t steps[4] = {0, static_cast<std::size_t>(brick.row),
                                   static_cast<std::size_t>(brick.slice),
                                   static_cast<std::size_t>(brick.row + brick.slice)};
     constexpr std::size_t size = sizeof(StoredGradient);
     const bool pairs = brick.last_sample[0] > 0;
-    for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); ++lane) {
+    for_each_lane(lanes, [&](std::size_t lane) {
         const StoredGradient* const from = brick.gradients + static_cast<std::size_t>(index[lane]);
         for (std::size_t row = 0; row < 4; ++row) {
             std::uint32_t* const to = rows[row] + 4 * lane;
@@ -42,7 +43,7 @@ inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int3
                 std::memcpy(to + 2, from + steps[row], size);
             }
         }
-    }
+    });
 }
 
 // Stored gradients (slicing/gradient_map.h): x below y, and z below the exponent.
@@ -51,11 +52,12 @@ struct GradientWords {
     HWY_INLINE Ints exponent() const { return hn::ShiftRight<16>(z); }
 };
 
+// 2^16 times a component.
 HWY_INLINE Floats low_component(Ints words) {
-    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(hn::ShiftLeft<16>(words)));
+    return hn::ConvertTo(FloatTag(), hn::ShiftLeft<16>(words));
 }
 HWY_INLINE Floats high_component(Ints words) {
-    return hn::ConvertTo(FloatTag(), hn::ShiftRight<16>(words));
+    return hn::ConvertTo(FloatTag(), hn::AndNot(hn::Set(IntTag(), 0xffff), words));
 }
 
 // The gradients of a cell's corners, `lower` and `upper` on x, have the unit 2^(largest -
@@ -63,11 +65,10 @@ HWY_INLINE Floats high_component(Ints words) {
 // 2^46 up to 2^47, and squares of gradients 1e31 times as small are numbers, too.
 constexpr int unit_octaves = 32;
 
-// 2^exponent, 0 where that is too small.
-HWY_INLINE Floats power_of_two(Ints exponent) {
+// 2^(exponent - 127), 0 where that is too small.
+HWY_INLINE Floats power_of_biased(Ints exponent) {
     const IntTag di;
-    const Ints biased = hn::Max(hn::Add(exponent, hn::Set(di, 127)), hn::Zero(di));
-    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(biased));
+    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Max(exponent, hn::Zero(di))));
 }
 
 // The square of the smallest gradient, in the unit of gradients with this largest exponent. It is
@@ -77,14 +78,15 @@ HWY_INLINE Number smallest_square_of(const TileLight& light, Ints largest) {
     const IntTag di;
     const Ints exponent = hn::Sub(hn::Set(di, light.smallest.exponent + unit_octaves), largest);
     const Ints kept = hn::Min(hn::Max(exponent, hn::Set(di, -most)), hn::Set(di, most));
-    const Number smallest = Number(light.smallest.mantissa) * Number(power_of_two(kept));
+    const Number power(power_of_biased(hn::Add(kept, hn::Set(di, 127))));
+    const Number smallest = Number(light.smallest.mantissa) * power;
     return smallest * smallest;
 }
 
-HWY_INLINE void set_corner(const GradientWords& words, Ints largest, std::size_t row, bool upper,
+// `unit`: the exponent of 2^-16 in that of the cell.
+HWY_INLINE void set_corner(const GradientWords& words, Ints unit, std::size_t row, bool upper,
                            Corners (&corners)[3]) {
-    const Ints octaves = hn::Sub(words.exponent(), largest);
-    const Floats scale = power_of_two(hn::Add(octaves, hn::Set(IntTag(), unit_octaves)));
+    const Floats scale = power_of_biased(hn::Add(words.exponent(), unit));
     const Floats components[3] = {low_component(words.xy), high_component(words.xy),
                                   low_component(words.z)};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -104,9 +106,10 @@ HWY_INLINE Ints unpack_gradients(const GradientRows& rows, Corners (&corners)[3]
         upper[row] = {hn::BitCast(IntTag(), words[2]), hn::BitCast(IntTag(), words[3])};
         largest = hn::Max(largest, hn::Max(lower[row].exponent(), upper[row].exponent()));
     }
+    const Ints unit = hn::Sub(hn::Set(IntTag(), 127 - 16 + unit_octaves), largest);
     for (std::size_t row = 0; row < 4; ++row) {
-        set_corner(lower[row], largest, row, false, corners);
-        set_corner(upper[row], largest, row, true, corners);
+        set_corner(lower[row], unit, row, false, corners);
+        set_corner(upper[row], unit, row, true, corners);
     }
     return largest;
 }
@@ -136,11 +139,10 @@ HWY_INLINE void leave_out_lower(const Number (&place)[3], const Number (&change)
     }
 }
 
-// Of the cells with the lowest corners `index`. Returns the largest exponent.
+// Of the cells with the lowest corners `index`, in a set of lanes. Returns the largest exponent.
 HWY_INLINE Ints gradient_corners(const TileBrick& brick, const std::int32_t* index,
-                                 Corners (&corners)[3]) {
-    alignas(64) GradientRows rows;
-    fetch_gradients(brick, index, rows);
+                                 std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
+    fetch_gradients(brick, index, lanes, rows);
     return unpack_gradients(rows, corners);
 }
 
@@ -152,7 +154,9 @@ struct PointGradient {
 HWY_INLINE PointGradient gradient_at(const TileBrick& brick, const TileLight& light,
                                      const std::int32_t* index, const Floats (&share)[3]) {
     Corners corners[3];
-    const Ints largest = gradient_corners(brick, index, corners);
+    alignas(64) GradientRows rows;
+    const std::uint32_t all_lanes = (1u << hn::Lanes(FloatTag())) - 1;
+    const Ints largest = gradient_corners(brick, index, all_lanes, rows, corners);
     leave_out_lower({share[0], share[1], share[2]}, {Number(0), Number(0), Number(0)}, corners);
     PointGradient gradient;
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -28,14 +28,13 @@ struct GradientLanes {
     Number to_eye[3];
 };
 
-// Sets the gradients of a vector of parts from part i on, of which the first `count` are there.
-HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, const TileLight& light,
-                                       std::size_t i, std::size_t count, const CellParts& parts) {
-    alignas(64) std::int32_t index[most_lanes] = {};
-    std::memcpy(index, parts.index + i,
-                std::min(count, hn::Lanes(FloatTag())) * sizeof(std::int32_t));
+// Sets the gradients of the `members` of a vector of parts from part i on. The others have any.
+// `rows`: kept from vector to vector.
+HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, FloatMask members, std::size_t i,
+                                       const TileLight& light, const CellParts& parts,
+                                       GradientRows& rows) {
     Corners corners[3];
-    const Ints largest = gradient_corners(brick, index, corners);
+    const Ints largest = gradient_corners(brick, parts.index + i, bits_of(members), rows, corners);
     const Number place[3] = {load_number(parts.place[0] + i), load_number(parts.place[1] + i),
                              load_number(parts.place[2] + i)};
     const Number change[3] = {load_number(parts.change[0] + i), load_number(parts.change[1] + i),
@@ -50,29 +49,35 @@ HWY_INLINE GradientLanes set_gradients(const TileBrick& brick, const TileLight& 
     return lanes;
 }
 
-template <std::size_t channels>
-HWY_INLINE EffectLanes<channels> effect_at(const TileLight& light, const GradientLanes& gradient,
-                                           Number t) {
-    const Number there[3] = {gradient.along[0].at(t), gradient.along[1].at(t),
-                             gradient.along[2].at(t)};
-    return effect_of<channels>(light, there, gradient.smallest_square, gradient.to_eye);
-}
+// The gradient at the nodes of a piece.
+struct GradientNodes {
+    Number g[3][3];  // by node and axis
+};
 
 // Returns what the nodes of a piece of `extent` from `at` on may not see.
-HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradient, Number at,
-                              Number extent) {
+HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradient,
+                              const GradientNodes& nodes, Number at, Number extent) {
     const Number half = Number(0.5f) * extent, middle = at + half;
-    Number square(0), reach(0);
+    Number reach(0);
     for (const CubicLanes& along : gradient.along) {
-        const Number center = along.at(middle);
         const Number bend = along.c[2] + Number(3) * along.c[3] * middle;
-        const Number slope = hn::Abs(along.slope(middle).v);
+        const Number slope = hn::Abs((along.c[1] + middle * (along.c[2] + bend)).v);
         const Number rest = Number(hn::Abs(bend.v)) + half * Number(hn::Abs(along.c[3].v));
         const Number most = half * (slope + half * rest);
-        square = square + center * center;
         reach = reach + most * most;
     }
+    const Number square = dot(nodes.g[1], nodes.g[1]);
     return hidden_effect(light, square, reach, gradient.smallest_square);
+}
+
+// The component of the gradient along a direction.
+HWY_INLINE CubicLanes component_along(const GradientLanes& gradient, const Number (&direction)[3]) {
+    CubicLanes component;
+    for (std::size_t power = 0; power < 4; ++power)
+        component.c[power] = gradient.along[0].c[power] * direction[0] +
+                             gradient.along[1].c[power] * direction[1] +
+                             gradient.along[2].c[power] * direction[2];
+    return component;
 }
 
 // What the rule of three nodes misses of kinks, where the gradient is perpendicular to a light, as
@@ -80,22 +85,16 @@ HWY_INLINE Number hidden_bend(const TileLight& light, const GradientLanes& gradi
 // cosine is at that end: k of it where k < .113, which no node sees, and less beyond.
 HWY_INLINE Number hidden_kinks(const TileLight& light, const GradientLanes& gradient, Number at,
                                Number extent) {
-    const Number places[3] = {at, at + Number(0.5f) * extent, at + extent};
-    Number g[3][3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            g[i][axis] = gradient.along[axis].at(places[i]);
-    }
+    const Number ends[2] = {at, at + extent};
     Number beyond[2] = {Number(0), Number(0)};
     for (const TileLight::Direction& direction : light.directions) {
         const Number to_light[3] = {Number(direction.to_light[0]), Number(direction.to_light[1]),
                                     Number(direction.to_light[2])};
-        const auto along = [&](std::size_t i) HWY_ATTR {
-            return direction.to_eye ? dot(g[i], gradient.to_eye) : dot(g[i], to_light);
-        };
-        const Number middle = along(1);
+        const CubicLanes cosine =
+            component_along(gradient, direction.to_eye ? gradient.to_eye : to_light);
+        const Number middle = cosine.at(at + Number(0.5f) * extent);
         for (std::size_t end = 0; end < 2; ++end) {
-            const Number there = along(2 * end);
+            const Number there = cosine.at(ends[end]);
             const Number amount = Number(direction.largest_color) * Number(hn::Abs(there.v));
             beyond[end] = beyond[end] + zero_unless(Number(0) > there * middle, amount);
         }
@@ -104,7 +103,9 @@ HWY_INLINE Number hidden_kinks(const TileLight& light, const GradientLanes& grad
     if (hn::AllFalse(FloatTag(), both > Number(0))) return both;
     Number most(0);
     for (std::size_t end = 0; end < 2; ++end) {
-        const Number square = dot(g[2 * end], g[2 * end]);
+        const Number g[3] = {gradient.along[0].at(ends[end]), gradient.along[1].at(ends[end]),
+                             gradient.along[2].at(ends[end])};
+        const Number square = dot(g, g);
         const Number root(hn::Sqrt(max(square, Number(1e-37f)).v));
         const Number weight = square / (square + gradient.smallest_square);
         most = max(most, weight * beyond[end] / root);
@@ -128,12 +129,19 @@ HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& grad
     const RayPart<curved>& part = lit.part;
     const CubicLanes mean_depth = part.mean_depth();
     const FloatMask deep = lit.depth > Number(largest_part_depth);
+    GradientNodes gradients;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Number place = lit.at + Number(GaussRule<3>::nodes[i]) * lit.extent;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            gradients.g[i][axis] = gradient.along[axis].at(place);
+    }
+    EffectLanes<channels> effects[3];
+    set_effects(light, gradients.g, gradient.smallest_square, gradient.to_eye, effects);
     LitNodes<channels> nodes;
     for (std::size_t i = 0; i < 3; ++i) {
         const Number t(GaussRule<3>::nodes[i]);
         const Number there = part.share.at(t);
-        nodes.add(i, effect_at<channels>(light, gradient, lit.at + t * lit.extent),
-                  part.extinction_at(t, there), t * mean_depth.at(t), deep, there);
+        nodes.add(i, effects[i], part.extinction_at(t, there), t * mean_depth.at(t), deep, there);
     }
     const Number scale = lit.opacity / nodes.total;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -142,8 +150,9 @@ HWY_INLINE Number add_light_of(const TileLight& light, const GradientLanes& grad
                                    lit.interval.change[c] * nodes.shared[k] + nodes.highlight[k];
         color[c] = max(color[c] + scale * light_there, Number(0));
     }
-    return max(nodes.largest_bend(), max(hidden_bend(light, gradient, lit.at, lit.extent),
-                                         hidden_kinks(light, gradient, lit.at, lit.extent)));
+    const Number hidden = max(hidden_bend(light, gradient, gradients, lit.at, lit.extent),
+                              hidden_kinks(light, gradient, lit.at, lit.extent));
+    return max(nodes.largest_bend(), hidden);
 }
 
 template <bool curved>
