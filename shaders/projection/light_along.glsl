@@ -90,7 +90,7 @@ LightSums light_along(LitRun run, float in_front) {
 
         float weight = in_front * opacity;
         float most = light_limits.y;
-        if (bend > most && bend * weight > 0.5 * most && extent > 0.00390625) {
+        if (bend > most && bend * weight > 0.25 * most && extent > 0.00390625) {
             longest = extent * clamp(sqrt(most / bend), 0.125, 0.5);
             continue;
         }

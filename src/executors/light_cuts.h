@@ -15,6 +15,10 @@ struct LightCuts {
     double largest_effect() const { return highlight_effect + plain_effect; }
 };
 
+// Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
+// light of strength 1, and the more the stronger it is.
+inline constexpr double faint_share_of_cells = 1.0 / 2, faint_share_of_tets = 1.0 / 4;
+
 LightCuts light_cuts(const Lighting& lighting);
 
 }  // namespace lamina

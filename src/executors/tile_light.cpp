@@ -16,9 +16,6 @@ namespace {
 // usual light does at max_error 1. What a rule of three nodes misses of what is smooth falls with
 // the sixth power of the turn.
 constexpr double usual_effect = 25, order = 6;
-// Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
-// light of strength 1, and the more the stronger it is.
-constexpr double faint_share = 1.0 / 2;
 
 TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {
     TileLight::Direction direction;
@@ -37,7 +34,7 @@ TileLight::Direction direction_of(const Light& light, const std::array<glm::dvec
 }  // namespace
 
 TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double most_bend) {
+                          double most_bend, double faint_share) {
     TileLight light;
     light.smallest = smallest_gradient_of(lighting);
     light.gray = true;

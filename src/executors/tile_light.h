@@ -38,6 +38,6 @@ struct TileLight {
 
 // `axes`: orthogonal, in the unit of lengths along rays.
 TileLight make_tile_light(const Lighting& lighting, const std::array<glm::dvec3, 3>& axes,
-                          double most_bend);
+                          double most_bend, double faint_share);
 
 }  // namespace lamina

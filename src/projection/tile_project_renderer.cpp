@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "base/stage.h"
+#include "executors/light_cuts.h"
 #include "facts/world_unit.h"
 #include "projection/ray_perturbation.h"
 
@@ -178,7 +179,7 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 void TileProjectRenderer::set_light() {
     const Stage stage("gradients");
     gradients_ = StoredGradients(gradients_of(mesh_));
-    light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend);
+    light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend, faint_share_of_tets);
     fragments_.light = &*light_;
     fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
     fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;

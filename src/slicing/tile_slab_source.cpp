@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/stage.h"
+#include "executors/light_cuts.h"
 #include "executors/shader_intervals.h"
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
@@ -73,7 +74,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
 
 void TileSlabSource::set_light() {
     if (!plan_.lighting) return;
-    light_ = make_tile_light(*plan_.lighting, grid_.step, plan_.most_bend);
+    light_ = make_tile_light(*plan_.lighting, grid_.step, plan_.most_bend, faint_share_of_cells);
     slabs_.light = &*light_;
 }
 
