@@ -40,7 +40,7 @@ template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
     HandOver hand_over;
     const Client client = ClientScope::current();
-    const auto task = [&](const auto& work) {
+    const auto task = [&](const auto& work) LAMINA_UNSEEN_BY_THREAD_SANITIZER {
         hand_over.task([&] {
             const ClientScope scope(client);
             work();
