@@ -71,7 +71,9 @@ void send_text(int to, char kind, const std::string& text) {
 [[noreturn]] void run_child(int to, int samples, const std::function<ReadSamples()>& read) {
     shared_file = samples;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT}) signal(number, SIG_DFL);
+    // A terminal interrupts both processes: the other one hears of it, and ends this one.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
+    for (const int number : {SIGPIPE, SIGABRT}) signal(number, SIG_DFL);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     allow_bytes(0);
