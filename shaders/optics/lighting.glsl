@@ -68,8 +68,8 @@ LightEffect light_effect(vec3 gradient, float smallest_square, vec3 to_eye) {
     return LightEffect(weight * effect.change, weight * effect.highlight);
 }
 
-// What light may do between the nodes of a piece: highlights and all else, each with the square of how far the gradient
-// may be from that in the middle, of its length (executors/light_cuts.h): x, y of highlights, z, w of all else.
+// The cuts of light (executors/light_cuts.h): x is the largest effect of highlights, and y the square of how far, as a
+// share of its length in the middle of a piece, the gradient may go before they may hide; z and w are those of all else.
 uniform vec4 hidden_limits;
 
 // Returns what light may do between the nodes of a piece, whose gradient has this square in the middle and goes as far

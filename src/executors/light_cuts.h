@@ -17,6 +17,7 @@ struct LightCuts {
 
 // Of the largest bend, what may be left of parts that are faint: a ray has a few of them under
 // light of strength 1, and the more the stronger it is.
+// The shaders have their own: 1/4 (slicing/cell_light.glsl, projection/light_along.glsl).
 inline constexpr double faint_share_of_cells = 1.0 / 2, faint_share_of_tets = 1.0 / 4;
 
 LightCuts light_cuts(const Lighting& lighting);

@@ -139,7 +139,8 @@ HWY_INLINE void leave_out_lower(const Number (&place)[3], const Number (&change)
     }
 }
 
-// Of the cells with the lowest corners `index`, in a set of lanes. Returns the largest exponent.
+// Sets the gradients at the corners of cells in a set of lanes; `index`: of each cell's lowest
+// corner. Returns the largest exponent. `rows`: memory, in which the other lanes stay as they are.
 HWY_INLINE Ints gradient_corners(const TileBrick& brick, const std::int32_t* index,
                                  std::uint32_t lanes, GradientRows& rows, Corners (&corners)[3]) {
     fetch_gradients(brick, index, lanes, rows);

@@ -144,7 +144,7 @@ void SessionSteps::load(const std::stop_token& stop) {
     publish_(shown_);
 }
 
-// What is on the screen stays there until there is another picture.
+// The screen keeps the old picture until there is another one.
 void SessionSteps::forget_pictures() {
     shown_.kind = PictureKind::none;
     shown_.probe.reset();
