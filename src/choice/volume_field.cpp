@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "choice/box_corners.h"
+#include "choice/shown_cells.h"
 #include "facts/facts.h"
 #include "volume/code_counts.h"
 
@@ -46,15 +47,6 @@ std::vector<WeightedValue> weighted_values(const float* samples, std::int64_t co
     return values;
 }
 
-// Along one axis, the planes between which brick number `brick` lies. The outermost bricks also
-// hold the half voxels beyond the samples of `cell` axes.
-double plane(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, std::int64_t brick) {
-    const int component = static_cast<int>(axis);
-    if (brick == 0) return grid.index_min()[component];
-    if (brick == bricks.count[axis]) return grid.index_max()[component];
-    return static_cast<double>(brick * MinMaxBricks::edge);
-}
-
 }  // namespace
 
 double VolumeField::spacing() const {
@@ -76,31 +68,11 @@ ValueDistribution VolumeField::distribution() const {
     }));
 }
 
-// Of each row of bricks, the first and the last that show something: the hull needs no others.
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
                                                   double least) const {
-    const Grid& grid = volume_.grid();
-    const auto [nx, ny, nz] = bricks_.count;
-    std::vector<glm::dvec3> points;
-    const auto shown = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-        const ValueRange range = bricks_.at(x, y, z);
-        return !range.empty() && transfer_function.max_extinction(range.lo, range.hi) > least;
-    };
-    for (std::int64_t z = 0; z < nz; ++z) {
-        for (std::int64_t y = 0; y < ny; ++y) {
-            std::int64_t first = 0, end = nx;
-            while (first < nx && !shown(first, y, z)) ++first;
-            if (first == nx) continue;
-            while (!shown(end - 1, y, z)) --end;
-            const glm::dvec3 min(plane(grid, bricks_, 0, first), plane(grid, bricks_, 1, y),
-                                 plane(grid, bricks_, 2, z));
-            const glm::dvec3 max(plane(grid, bricks_, 0, end), plane(grid, bricks_, 1, y + 1),
-                                 plane(grid, bricks_, 2, z + 1));
-            for (const glm::dvec3& corner : corners_of(min, max))
-                points.push_back(grid.to_world(corner));
-        }
-    }
-    return points;
+    return hull_of_shown_cells(volume_, bricks_, [&](const ValueRange& range) {
+        return transfer_function.max_extinction(range.lo, range.hi) > least;
+    });
 }
 
 std::array<glm::dvec3, 8> VolumeField::corners() const {

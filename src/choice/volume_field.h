@@ -18,7 +18,7 @@ class VolumeField : public Field {
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
     ValueDistribution distribution() const override;
-    // Corners of min/max bricks.
+    // Corners of cells.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                          double least) const override;
     std::array<glm::dvec3, 8> corners() const override;

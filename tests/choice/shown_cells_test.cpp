@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/shown_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <random>
+
+#include "choice/volume_field.h"
+#include "support/volume_of.h"
+
+namespace lamina {
+namespace {
+
+struct Reach {
+    double lo = INFINITY, hi = -INFINITY;
+    void add(double value) {
+        lo = std::min(lo, value);
+        hi = std::max(hi, value);
+    }
+};
+
+Reach reach_of(const std::vector<glm::dvec3>& points, const glm::dvec3& along) {
+    Reach reach;
+    for (const glm::dvec3& point : points) reach.add(glm::dot(point, along));
+    return reach;
+}
+
+bool shows(const ValueRange& range) {
+    return range.hi > 100;
+}
+
+// Every corner of every cell with a sample above 100, by looking at all of them.
+std::vector<glm::dvec3> all_shown_corners(const Volume& volume) {
+    const Grid& grid = volume.grid();
+    const auto* const samples = static_cast<const std::uint8_t*>(volume.data());
+    std::vector<glm::dvec3> points;
+    std::array<std::int64_t, 3> cells;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        cells[axis] = std::max<std::int64_t>(1, grid.size[axis] - 1);
+    for (std::int64_t cell = 0; cell < cells[0] * cells[1] * cells[2]; ++cell) {
+        const std::array<std::int64_t, 3> at{cell % cells[0], cell / cells[0] % cells[1],
+                                             cell / cells[0] / cells[1]};
+        bool any = false;
+        std::array<glm::dvec3, 8> corners;
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            std::array<std::int64_t, 3> sample;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const std::int64_t side = std::int64_t(corner >> axis & 1);
+                sample[axis] = std::min(at[axis] + side, grid.size[axis] - 1);
+                const int a = static_cast<int>(axis);
+                double plane = static_cast<double>(at[axis] + side);
+                if (at[axis] + side == 0) plane = grid.index_min()[a];
+                if (at[axis] + side == cells[axis]) plane = grid.index_max()[a];
+                corners[corner][a] = plane;
+            }
+            any |= samples[(sample[2] * grid.size[1] + sample[1]) * grid.size[0] + sample[0]] > 100;
+        }
+        if (!any) continue;
+        for (const glm::dvec3& corner : corners) points.push_back(grid.to_world(corner));
+    }
+    return points;
+}
+
+// A few lone samples, so that rows end anywhere in a brick, in the first cell and in the last.
+Volume lone_samples(std::array<std::int64_t, 3> size, Centering centering, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0, 1);
+    const double most = seed % 3 == 0 ? .3 : .01;
+    return test::volume_of<std::uint8_t>(
+        test::grid_of(size, centering),
+        [&](double, double, double) { return share(random) < most ? 200. : 90.; });
+}
+
+TEST(ShownCells, HaveTheHullOfThoseFoundByLookingAtAll) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    unsigned seed = 0;
+    for (const Centering centering : {Centering::node, Centering::cell}) {
+        for (const std::array<std::int64_t, 3> size : {std::array<std::int64_t, 3>{9, 10, 11},
+                                                       {5, 4, 6},
+                                                       {17, 3, 2},
+                                                       {30, 21, 13},
+                                                       {2, 2, 2}}) {
+            for (int round = 0; round < 6; ++round) {
+                const Volume volume = lone_samples(size, centering, ++seed);
+                const auto found = hull_of_shown_cells(volume, measure_bricks(volume), shows);
+                const auto expected = all_shown_corners(volume);
+                ASSERT_EQ(found.empty(), expected.empty());
+                for (int direction = 0; direction < 20; ++direction) {
+                    const glm::dvec3 along(normal(random), normal(random), normal(random));
+                    const Reach f = reach_of(found, along), e = reach_of(expected, along);
+                    EXPECT_EQ(f.lo, e.lo) << "seed " << seed;
+                    EXPECT_EQ(f.hi, e.hi) << "seed " << seed;
+                }
+            }
+        }
+    }
+}
+
+TEST(ShownCells, OneSampleAcrossAndValuesThatAreNotFinite) {
+    const auto value = [](double x, double, double) {
+        return x == 2 ? 200. : x > 5 ? double(NAN) : 0.;
+    };
+    const Volume volume = test::volume_of<float>(test::grid_of({9, 1, 4}, Centering::cell), value);
+    const Reach x = reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {1, 0, 0});
+    const Reach y = reach_of(hull_of_shown_cells(volume, measure_bricks(volume), shows), {0, 1, 0});
+    const Grid& grid = volume.grid();
+    EXPECT_EQ(x.lo, grid.to_world({1, 0, 0}).x);
+    EXPECT_EQ(x.hi, grid.to_world({3, 0, 0}).x);
+    EXPECT_EQ(y.lo, grid.to_world({0, -.5, 0}).y);
+    EXPECT_EQ(y.hi, grid.to_world({0, .5, 0}).y);
+}
+
+// Files of one head differ in which way their axes run: the camera must not.
+TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
+    const Volume volume = lone_samples({22, 19, 15}, Centering::cell, 5);
+    Grid turned = volume.grid();
+    turned.origin = volume.grid().to_world({21, 0, 14});
+    turned.step[0] = -turned.step[0];
+    turned.step[2] = -turned.step[2];
+    const auto* const samples = static_cast<const std::uint8_t*>(volume.data());
+    const Volume mirrored =
+        test::volume_of<std::uint8_t>(turned, [&](double x, double y, double z) {
+            return double(samples[std::size_t(((14 - z) * 19 + y) * 22 + 21 - x)]);
+        });
+    const auto one = hull_of_shown_cells(volume, measure_bricks(volume), shows);
+    const auto other = hull_of_shown_cells(mirrored, measure_bricks(mirrored), shows);
+    for (const glm::dvec3& along :
+         {glm::dvec3(1, 0, 0), {0, 1, 0}, {0, 0, 1}, {1, 2, -3}, {-.5, .25, 1}}) {
+        // Positions of whole and half voxels at distance 1 have no rounding.
+        EXPECT_EQ(reach_of(one, along).lo, reach_of(other, along).lo);
+        EXPECT_EQ(reach_of(one, along).hi, reach_of(other, along).hi);
+    }
+}
+
+}  // namespace
+}  // namespace lamina
