@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""NIfTI files by nibabel, and one head in three formats."""
+import numpy as np
+
+from .cases import TYPES, rotation, values_of
+
+
+def to_lps(affine):
+    """Steps and origin of a RAS affine, in LPS."""
+    turned = np.diag([-1, -1, 1]) @ affine[:3]
+    return turned[:, :3].T, turned[:, 3]
+
+
+def nibabel_files(cases):
+    import nibabel as nib
+    oblique = np.eye(4)
+    oblique[:3, :3] = rotation(.4, .1, -.7) @ np.diag([1.5, .75, 3])
+    oblique[:3, 3] = -40, 25, 7
+    mirrored = oblique @ np.diag([-1, 1, 1, 1])
+    number = 0
+    for make, name in ((nib.Nifti1Image, "one"), (nib.Nifti2Image, "two"), (nib.Nifti1Pair, "pair"),
+                       (nib.Nifti2Pair, "pair2")):
+        for kind in TYPES:
+            for endian in "<>":
+                for affine in (oblique, mirrored):
+                    array = values_of(kind, (6, 5, 4), seed=number)  # [x, y, z]
+                    header = make.header_class(endianness=endian)
+                    header.set_data_dtype(array.dtype.newbyteorder(endian))
+                    image = make(array, affine, header)
+                    image.header.set_slope_inter(1, 0)
+                    suffix = ".img" if "pair" in name else ".nii"
+                    file = f"{name}{number}{suffix}{'.gz' if number % 3 == 0 else ''}"
+                    number += 1
+                    nib.save(image, cases.path(file))
+                    back = nib.load(cases.path(file))
+                    steps, origin = to_lps(back.affine)
+                    stored = np.asanyarray(back.dataobj.get_unscaled()).T
+                    cases.add(file, stored.astype(stored.dtype.newbyteorder("=")), steps, origin)
+                    if "pair" in name:
+                        other = file.replace(".img", ".hdr")
+                        cases.add(other, stored.astype(stored.dtype.newbyteorder("=")), steps, origin)
+    one_head(cases, nib, oblique)
+    # qform alone, sform alone, both (sform counts), neither.
+    array = values_of("uint8", (6, 5, 4), seed=99)
+    for sform, qform, name in ((0, 1, "q"), (1, 0, "s"), (2, 1, "both"), (0, 0, "none")):
+        for affine, hand in ((oblique, "right"), (mirrored, "left")):
+            image = nib.Nifti1Image(array, None)
+            image.header.set_zooms((1.5, .75, 3))
+            if qform:
+                image.header.set_qform(affine @ np.diag([1, 1, 1, 1]), qform)
+            if sform:
+                moved = affine.copy()
+                moved[:3, 3] += 5
+                image.header.set_sform(moved, sform)
+            file = f"{name}_{hand}.nii"
+            nib.save(nib.Nifti1Image(array, None, image.header), cases.path(file))
+            header = nib.load(cases.path(file)).header
+            if sform:
+                steps, origin = to_lps(header.get_sform())
+            elif qform:
+                steps, origin = to_lps(header.get_qform())
+            else:
+                steps, origin = np.diag([1.5, .75, 3]), (0, 0, 0)
+            cases.add(file, array.T, steps, origin, lps=bool(sform or qform))
+    # Scaled samples, by the tool's own arithmetic in double precision.
+    for slope, inter, drawn in ((2, -1024, "int16"), (.1, 3.5, "float"), (1, 70000, "float"), (-1, 255, "uint8")):
+        array = np.arange(120, dtype=np.uint8).reshape(6, 5, 4)
+        image = nib.Nifti1Image(array, oblique)
+        image.header.set_slope_inter(slope, inter)
+        file = f"scaled_{drawn}_{slope}.nii.gz"
+        image.to_filename(cases.path(file))
+        raw = bytearray(__import__("gzip").open(cases.path(file)).read())
+        raw[112:120] = np.array([slope, inter], "<f4").tobytes()  # nibabel resets them when it writes
+        raw[352:] = array.tobytes(order="F")
+        with __import__("gzip").open(cases.path(file), "wb") as out:
+            out.write(bytes(raw))
+        back = nib.load(cases.path(file))
+        steps, origin = to_lps(back.affine)
+        cases.add(file, back.get_fdata().T, steps, origin, drawn=drawn)
+    times = values_of("int16", (6, 5, 4, 3), seed=7)
+    nib.save(nib.Nifti1Image(times, oblique), cases.path("times.nii.gz"))
+    steps, origin = to_lps(nib.load(cases.path("times.nii.gz")).affine)
+    cases.add("times.nii.gz", times[..., 0].T, steps, origin, warnings=["time 0 of 3 is taken"])
+    cases.add("times.nii.gz", times[..., 2].T, steps, origin, time=2)
+    vectors = values_of("float32", (6, 5, 4, 1, 3), seed=8)
+    nib.save(nib.Nifti1Image(vectors, oblique), cases.path("vectors.nii"))
+    cases.add("vectors.nii", vectors[..., 0, 1].T, steps, origin, channel=1)
+    rgb = np.zeros((6, 5, 4), dtype=[("R", "u1"), ("G", "u1"), ("B", "u1")])
+    for i, key in enumerate("RGB"):
+        rgb[key] = values_of("uint8", (6, 5, 4), seed=20 + i)
+    nib.save(nib.Nifti1Image(rgb, oblique), cases.path("rgb.nii"))
+    cases.add("rgb.nii", rgb["G"].T, steps, origin, channel=1)
+
+
+def one_head(cases, nib, affine):
+    """The same samples at the same places, as NIfTI (RAS), NRRD and MetaImage (LPS)."""
+    array = values_of("int16", (6, 5, 4), seed=50)
+    nib.save(nib.Nifti1Image(array, affine), cases.path("head.nii.gz"))
+    steps, origin = to_lps(nib.load(cases.path("head.nii.gz")).affine)
+    lengths = np.linalg.norm(steps, axis=1)
+
+    def text(vector):
+        return ",".join(repr(float(x)) for x in vector)
+
+    with open(cases.path("head.nrrd"), "wb") as out:
+        out.write(("NRRD0004\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 6 5 4\nspace directions: " +
+                   " ".join(f"({text(step)})" for step in steps) + "\nendian: little\nencoding: raw\nspace origin: (" +
+                   text(origin) + ")\n\n").encode() + array.tobytes(order="F"))
+    with open(cases.path("head.mha"), "wb") as out:
+        rows = (steps / lengths[:, None]).ravel()
+        out.write(("ObjectType = Image\nNDims = 3\nTransformMatrix = " + text(rows).replace(",", " ") + "\nOffset = " +
+                   text(origin).replace(",", " ") + "\nAnatomicalOrientation = RAI\nElementSpacing = " +
+                   text(lengths).replace(",", " ") + "\nDimSize = 6 5 4\nElementType = MET_SHORT\n" +
+                   "ElementDataFile = LOCAL\n").encode() + array.tobytes(order="F"))
+    for file in ("head.nii.gz", "head.nrrd", "head.mha"):
+        cases.add(file, array.T, steps, origin, lps=True)
