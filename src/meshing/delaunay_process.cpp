@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meshing/delaunay_process.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -12,14 +11,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <thread>
 
 #include "base/error.h"
+#include "base/find_program.h"
 #include "base/interrupt.h"
 #include "base/temporary_file.h"
 #include "meshing/tetrahedralize_protocol.h"
@@ -182,38 +180,10 @@ DelaunayTets read_tets(std::FILE* file, std::size_t points) {
     return answer;
 }
 
-bool is_program(const std::filesystem::path& path) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
-
-// The folder of programs that was installed with the library, for other programs that load it.
-std::filesystem::path programs_of_library() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&is_program), &info) == 0 || !info.dli_fname)
-        return {};
-    return std::filesystem::path(info.dli_fname).parent_path() / LAMINA_PROGRAMS_FROM_LIBRARY;
-}
-
 }  // namespace
 
 std::optional<std::filesystem::path> find_tetrahedralizer() {
-    std::error_code failure;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
-    for (const auto& folder : {self.parent_path(), programs_of_library()}) {
-        if (!folder.empty() && is_program(folder / tetrahedralize_program))
-            return folder / tetrahedralize_program;
-    }
-    const char* const folders = std::getenv("PATH");
-    std::istringstream list(folders ? folders : "");
-    for (std::string folder; std::getline(list, folder, ':');) {
-        // Shells take an empty entry for the current folder. A program that lies there by chance
-        // must not be started.
-        if (folder.empty()) continue;
-        const auto path = std::filesystem::path(folder) / tetrahedralize_program;
-        if (is_program(path)) return path;
-    }
-    return std::nullopt;
+    return find_program(tetrahedralize_program);
 }
 
 std::filesystem::path require_tetrahedralizer() {

@@ -17,9 +17,8 @@
 #include "base/standard_streams.h"
 #include "base/warning.h"
 #include "command_line.h"
-#include "mesh_files/mesh_file.h"
 #include "verbs.h"
-#include "volume_files/volume_file.h"
+#include "version_text.h"
 
 namespace {
 
@@ -33,12 +32,6 @@ void print_warning(const std::string& text) {
     static std::set<std::string> printed;
     if (lamina::Progress::is_quiet() || !printed.insert(text).second) return;
     lamina::print_message("lamina: warning: {}\n", text);
-}
-
-// With the formats that this build reads: some depend on libraries that need not be there.
-std::string version_text() {
-    return fmt::format("lamina " LAMINA_VERSION "\nvolumes: {}\nmeshes: {}",
-                       lamina::volume_format_names(), lamina::mesh_format_list);
 }
 
 // Names an unknown verb. CLI11 would only say that a subcommand is missing.
@@ -56,15 +49,14 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
 int run(int argc, char** argv) {
     int exit_code = 0;
     CLI::App app("lamina: volume rendering by slicing, with the error of each picture", "lamina");
-    const std::string version = version_text();
-    app.set_version_flag("--version", version);
+    app.set_version_flag("--version", lamina::version_text);
     app.footer(
         "A first picture: lamina render head.nrrd -o head.png\n"
         "What a verb takes: lamina VERB --help");
     app.require_subcommand(1);
     lamina::add_verbs(app, exit_code);
     for (CLI::App* const verb : app.get_subcommands({}))
-        verb->set_version_flag("--version", version);
+        verb->set_version_flag("--version", lamina::version_text);
     check_verb(app, argc, argv);
     try {
         app.parse(argc, argv);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/find_program.h"
 #include "base/standard_streams.h"
 #include "verbs.h"
 
@@ -34,18 +35,17 @@ std::vector<std::string> arguments_of(const ViewVerbOptions& options) {
     return arguments;
 }
 
-// The viewer that was built or installed with this program, else the one in the PATH. This process
-// becomes the viewer: signals and exit code are its own.
+// This process becomes the viewer: signals and exit code are its own.
 [[noreturn]] void become_viewer(const ViewVerbOptions& options) {
     std::vector<std::string> arguments = arguments_of(options);
     std::vector<char*> pointers;
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     flush_results();
-    std::error_code unknown;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    if (!unknown) execv((self.parent_path() / viewer_program).c_str(), pointers.data());
-    execvp(viewer_program, pointers.data());
+    if (const auto program = find_program(viewer_program))
+        execv(program->c_str(), pointers.data());
+    else
+        errno = ENOENT;
     fail(
         "cannot start lamina-view ({}), which belongs beside lamina or in the PATH: it is built "
         "where "
