@@ -89,17 +89,23 @@ void add_compare(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand(
         "compare", "How A differs from B: e = A-B in 1/255, per channel and over all");
     const auto options = std::make_shared<CompareOptions>();
-    verb->add_option("A", options->a, "picture (.exr, .npy, or .png against .png)")->required();
-    verb->add_option("B", options->b, "picture to measure against, of the same size")->required();
-    verb->add_flag("--json", options->json, "print JSON instead of a table");
+    verb->add_option("A", options->a, "Picture (.exr, .npy, or .png against .png)")->required();
+    verb->add_option("B", options->b, "Picture to measure against, of the same size")->required();
+    verb->add_flag("--json", options->json, "Print JSON instead of a table");
     verb->add_option("--diff", options->diff,
-                     "write the signed difference in false colour, with its colour bar (.png)");
-    verb->add_option(
-        "--range", options->range,
-        "with --diff: darkest at this difference, in 1/255, instead of at the largest");
+                     "Write the signed difference in false colour, with its colour bar (.png)")
+        ->option_text("FILE");
+    verb->add_option("--range", options->range,
+                     "With --diff: darkest at this difference, in 1/255, instead of at the largest")
+        ->option_text("DIFFERENCE");
     verb->add_option("--max-linf", options->max_linf,
-                     "exit with code 3 when Linf over all is larger")
+                     "Exit with code 3 where Linf, the largest difference of any channel in any "
+                     "pixel, in 1/255, is larger")
+        ->option_text("LINF")
         ->check([](const std::string& text) { return text.empty() ? "expected a number" : ""; });
+    verb->footer(
+        "Linf is the largest difference, L1 the mean one with its sign, L2 the root of the "
+        "mean square, all in 1/255.");
     verb->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 

@@ -134,6 +134,7 @@ void add_crosscheck(CLI::App& app, int&) {
                      "Scene file (JSON) with a volume, or a volume; - reads a scene from stdin")
         ->required();
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
+        ->type_name("FOLDER")
         ->required();
     verb->add_option("--set", options->scene.settings,
                      "Set a key of the scene, as in render.max_error=0.5")

@@ -74,15 +74,22 @@ void add_generate(CLI::App& app, int& exit_code) {
     (void)exit_code;
     auto* const verb = app.add_subcommand("generate", "Write a volume made by formula");
     const auto options = std::make_shared<GenerateOptions>();
-    verb->add_option("NAME", options->name, fmt::format("{}", fmt::join(generator_names(), ", ")))
+    verb->add_option("NAME", options->name,
+                     fmt::format("One of {}", fmt::join(generator_names(), ", ")))
         ->required();
-    verb->add_option("-o,--output", options->output, "file to write (.nrrd)")->required();
+    verb->add_option("-o,--output", options->output, "File to write (.nrrd)")
+        ->type_name("FILE")
+        ->required();
     verb->add_option(
-        "--size", options->size,
-        fmt::format("X,Y,Z samples, up to {0} along each axis (128,128,128; ramp: 256,4,1)",
-                    largest_generated_axis));
-    verb->add_option("--type", options->type, "uint8, uint16 or float")->capture_default_str();
-    verb->add_flag("--quiet", options->quiet, "no progress");
+            "--size", options->size,
+            fmt::format(
+                "Samples along x, y and z, up to {0} along each axis (128,128,128; ramp: 256,4,1)",
+                largest_generated_axis))
+        ->type_name("X,Y,Z");
+    verb->add_option("--type", options->type, "Of the samples")
+        ->option_text("uint8|uint16|float")
+        ->capture_default_str();
+    verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }
 

@@ -74,14 +74,15 @@ void add_info(CLI::App& app, int& exit_code) {
     auto* const verb = app.add_subcommand("info", "What a file contains");
     const auto options = std::make_shared<InfoOptions>();
     verb->add_option("FILE", options->file,
-                     "volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
+                     "Volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
     add_raw_options(*verb, options->raw);
-    verb->add_flag("--json", options->json, "print JSON instead of a table");
+    verb->add_flag("--json", options->json, "Print JSON instead of a table");
     verb->add_option(
-        "--png", options->png,
-        "write a picture (.png): a volume's three middle slices, a mesh's boundary and "
-        "three cuts; and the histogram below");
+            "--png", options->png,
+            "Write a picture (.png): a volume's three middle slices, a mesh's boundary and "
+            "three cuts; and the histogram below")
+        ->type_name("FILE");
     verb->callback([options] { run(*options); });
 }
 

@@ -71,11 +71,11 @@ void add_integrate(CLI::App& app, int& exit_code) {
     const auto cases = std::make_shared<std::string>();
     const auto output = std::make_shared<std::string>(standard_stream);
     verb->add_option("CASES.json", *cases,
-                     R"(array of {"transfer_function", "sf", "sb", "length"}: the scalar at the )"
+                     R"(Array of {"transfer_function", "sf", "sb", "length"}: the scalar at the )"
                      "front and at the back, and the length in world units")
         ->required();
-    verb->add_option("-o,--output", *output,
-                     "write the results here; - is stdout, and the default");
+    verb->add_option("-o,--output", *output, "Write the results here; - is stdout, and the default")
+        ->type_name("FILE");
     verb->callback([cases, output] { integrate(*cases, *output); });
 }
 

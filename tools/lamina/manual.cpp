@@ -6,6 +6,7 @@
 #include "base/shortened.h"
 #include "base/standard_streams.h"
 #include "manual_page.h"
+#include "markdown_page.h"
 #include "verbs.h"
 
 namespace lamina {
@@ -25,13 +26,22 @@ const CommandDescription& find(const CommandDescription& program, const std::str
 }  // namespace
 
 void add_man(CLI::App& app, int&) {
-    const auto name = std::make_shared<std::string>();
+    struct Options {
+        std::string name;
+        bool markdown = false;
+    };
+    const auto options = std::make_shared<Options>();
     CLI::App* const verb =
         app.add_subcommand("man", "Print the manual page of the program, or of a verb");
-    verb->add_option("VERB", *name, "The verb; without one the page of lamina itself");
+    verb->add_option("VERB", options->name, "The verb; without one the page of lamina itself");
+    verb->add_flag("--markdown", options->markdown, "Print all verbs as one page of Markdown");
     verb->footer("To read it: lamina man render | man -l -");
-    verb->callback([&app, name] {
-        write_result(manual_page(find(describe(app), *name), "lamina " LAMINA_VERSION));
+    verb->callback([&app, options] {
+        if (options->markdown && !options->name.empty())
+            throw UsageError("man --markdown: has all verbs, expected no VERB beside it");
+        write_result(options->markdown ? markdown_page(describe(app))
+                                       : manual_page(find(describe(app), options->name),
+                                                     "lamina " LAMINA_VERSION));
     });
 }
 

@@ -170,21 +170,24 @@ void add_mesh(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<MeshOptions>();
     const MeshSettings defaults;
     verb->add_option("INPUT", options->input,
-                     "volume (as for render), or scene (JSON): its volume and mesh settings, and "
+                     "Volume (as for render), or scene (JSON): its volume and mesh settings, and "
                      "coarse where its transfer function shows nothing")
         ->required();
-    verb->add_option("-o,--output", options->output, "mesh to write (.vtu, or .node with its .ele)")
+    verb->add_option("-o,--output", options->output, "Mesh to write (.vtu, or .node with its .ele)")
+        ->type_name("FILE")
         ->required();
     add_raw_options(*verb, options->raw);
     verb->add_option("--tolerance", options->tolerance,
-                     fmt::format("largest difference between mesh and volume, as a fraction of "
+                     fmt::format("Largest difference between mesh and volume, as a fraction of "
                                  "the range of values ({})",
-                                 defaults.tolerance));
+                                 defaults.tolerance))
+        ->type_name("SHARE");
     verb->add_option("--max-tets", options->max_tets,
-                     fmt::format("stop there ({})", defaults.max_tets));
+                     fmt::format("Stop at this number of tets ({})", defaults.max_tets))
+        ->type_name("N");
     verb->add_flag("--kuhn", options->kuhn,
-                   "every sample and six tets a cell instead; needs no TetGen");
-    verb->add_flag("--quiet", options->quiet, "no progress");
+                   "Every sample and six tets a cell instead; needs no TetGen");
+    verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }
 

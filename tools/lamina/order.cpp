@@ -250,17 +250,19 @@ void add_order(CLI::App& app, int& exit_code) {
         "order", "How fast and how right a mesh's tets are put in order for drawing");
     const auto options = std::make_shared<OrderOptions>();
     verb->add_option("INPUT", options->input,
-                     "mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or scene (.json), whose camera "
+                     "Mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele), or scene (.json), whose camera "
                      "is the first")
         ->required();
     verb->add_option(
             "--eyes", options->eyes,
-            "number of views: around the mesh, without perspective, and inside it, in turn")
+            "Number of views: around the mesh, without perspective, and inside it, in turn")
+        ->type_name("N")
         ->capture_default_str();
-    verb->add_option("--size", options->size, "pixels of a view that are judged, WxH")
+    verb->add_option("--size", options->size, "Pixels of a view that are judged")
+        ->type_name("WxH")
         ->capture_default_str();
-    verb->add_flag("--json", options->json, "print JSON instead of a table");
-    verb->add_flag("--quiet", options->quiet, "no progress");
+    verb->add_flag("--json", options->json, "Print JSON instead of a table");
+    verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }
 

@@ -176,15 +176,16 @@ void add_reproduce(CLI::App& app, int& exit_code) {
     const auto options = std::make_shared<ReproduceOptions>();
     verb->add_option("PAPER", options->paper, "lamar or kraus")->required();
     verb->add_option("ITEM", options->item,
-                     fmt::format("all of them when left out; of lamar: {}; of kraus: {}",
+                     fmt::format("All of them when left out; of lamar: {}; of kraus: {}",
                                  names_of(papers::lamar_items()), names_of(papers::kraus_items())));
-    verb->add_option("-o,--output", options->output, "folder to write (made if need be)")
+    verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
+        ->type_name("FOLDER")
         ->required();
     verb->add_option("--context", options->context,
-                     "auto, osmesa, egl, or, of kraus, cpu (the native engine)")
+                     "What draws: auto, osmesa, egl, or, of kraus, cpu (the native engine)")
         ->option_text("auto|osmesa|egl|cpu");
     verb->add_flag("--force", options->force, force_help);
-    verb->add_flag("--quiet", options->quiet, "no progress");
+    verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }
 

@@ -17,6 +17,7 @@
 #include "render/context_choice.h"
 #include "render/draw_context.h"
 #include "selftest/selftest.h"
+#include "selftest/selftest_case.h"
 #include "study/machine.h"
 #include "verbs.h"
 
@@ -74,11 +75,12 @@ void add_selftest(CLI::App& app, int& exit_code) {
         "Draw stiff and extreme scenes, and say whether every picture keeps its bound");
     verb->add_option("-o,--output", options->output,
                      "Folder for selftest.json and selftest.txt (made if need be)")
+        ->type_name("FOLDER")
         ->required();
-    verb->add_option(
-            "--group", options->groups,
-            "Only this group (may be repeated): optics, cells, depth, meshes, views, numbers, "
-            "metamorphic")
+    verb->add_option("--group", options->groups,
+                     fmt::format("Only this group (may be repeated): {}",
+                                 fmt::join(selftest::selftest_groups(), ", ")))
+        ->type_name("GROUP")
         ->allow_extra_args(false);
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu")

@@ -175,12 +175,15 @@ void add_study(CLI::App& app, int&) {
         "study", "Measure error and run time of many settings of some scenes, and report");
     verb->add_option("STUDY", options->study, "Study file (JSON): scenes and what to sweep");
     verb->add_option("-o,--output", options->output, "Folder to write (made if need be)")
+        ->type_name("FOLDER")
         ->required();
     verb->add_option("--shard", options->shard,
-                     "I/N: only the I-th of N parts of the runs, for job arrays");
+                     "Only the I-th of N parts of the runs, for job arrays")
+        ->type_name("I/N");
     verb->add_flag("--resume", options->resume, "Go on with a study that was stopped");
     verb->add_option("--merge", options->merged,
-                     "Put the shards in these folders together in the folder of -o");
+                     "Put the shards in these folders together in the folder of -o")
+        ->type_name("FOLDER");
     verb->add_flag("--yes", options->yes,
                    fmt::format("Run it though it has more than {} runs", study::most_runs_unasked));
     verb->add_flag("--force", options->force, force_help);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "command_description.h"
+
+namespace lamina {
+
+// All verbs of a program as one page of Markdown (docs/commands.md). Ends with a newline.
+std::string markdown_page(const CommandDescription& program);
+
+}  // namespace lamina
