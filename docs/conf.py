@@ -7,12 +7,13 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 project = "lamina"
 copyright = "2026, the lamina developers"  # noqa: A001 (Sphinx's name)
-version = release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+version = release = re.search(r"project\(lamina VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
 extensions = ["myst_parser"]
 myst_heading_anchors = 4
 exclude_patterns = []
 highlight_language = "none"
+smartquotes = False  # "--set" is two hyphens
 nitpicky = True
 
 html_theme = "furo"
