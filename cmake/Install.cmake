@@ -10,11 +10,12 @@ install(TARGETS lamina_shared EXPORT laminaTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lamina NAMELINK_COMPONENT lamina-dev)
 install(DIRECTORY data/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/lamina COMPONENT lamina)
 install(FILES docs/scene.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lamina COMPONENT lamina)
+# As in the repository, so that links hold.
 install(FILES README.md DESTINATION ${documents}/lamina COMPONENT lamina)
+install(DIRECTORY docs DESTINATION ${documents}/lamina COMPONENT lamina PATTERN conf.py EXCLUDE)
 
 install(DIRECTORY include/lamina DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT lamina-dev)
 install(DIRECTORY examples DESTINATION ${documents}/lamina-dev COMPONENT lamina-dev)
-install(FILES docs/library.md DESTINATION ${documents}/lamina-dev COMPONENT lamina-dev)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/lamina)
 install(EXPORT laminaTargets NAMESPACE lamina:: DESTINATION ${package} COMPONENT lamina-dev)
 configure_package_config_file(cmake/laminaConfig.cmake.in ${PROJECT_BINARY_DIR}/laminaConfig.cmake

@@ -204,6 +204,8 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
 }
 
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value) {
+    nlohmann::json set = value_of(key, value);
+    if (set.is_null()) return remove_key(document, key);
     nlohmann::json* node = &document;
     for (const std::string& part : parts_of(key)) {
         if (node->is_array()) {
@@ -225,15 +227,18 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
                                          shortened(part)));
         }
     }
-    *node = value_of(key, value);
+    *node = std::move(set);
 }
 
 void remove_key(nlohmann::json& document, const std::string& key) {
     nlohmann::json::json_pointer place;
     for (const std::string& part : parts_of(key)) place /= part;
     if (!document.contains(place)) return;
-    nlohmann::json& object = document[place.parent_pointer()];
-    if (object.is_object()) object.erase(place.back());
+    nlohmann::json& parent = document[place.parent_pointer()];
+    if (parent.is_array())
+        parent.erase(std::stoul(place.back()));
+    else
+        parent.erase(place.back());
 }
 
 }  // namespace lamina

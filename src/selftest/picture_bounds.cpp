@@ -160,7 +160,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
     const bool post = scene.slice.classification == Classification::post;
     const bool by_slab = sliced && scene.slice.classification != Classification::exact;
     // Rays may end where the rest cannot change the picture by more than this
-    // (docs/performance.md).
+    // (docs/omissions.md).
     const double hidden_light = scene.max_error / 255 / 1024;
 
     return all_pixels(scene, [&](const View::Ray& ray, std::array<double, 4>& exact,

@@ -116,10 +116,7 @@ void read_baseline(JsonReader& study, const SweptKeys& swept, StudyFile& file) {
 void apply_settings(const Settings& settings, nlohmann::json& document) {
     for (const auto& [key, value] : settings) {
         try {
-            if (value.is_null())
-                remove_key(document, key);
-            else
-                set_key(document, key, json_text(value));
+            set_key(document, key, json_text(value));
         } catch (const UsageError&) {
             fail(
                 "{}: not a key of a scene: expected at most {} parts with single dots between, "

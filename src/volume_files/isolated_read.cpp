@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <optional>
 
@@ -68,7 +69,8 @@ void send_text(int to, char kind, const std::string& text) {
     send_message(to, kind, text.data(), text.size());
 }
 
-[[noreturn]] void run_child(int to, int samples, const std::function<ReadSamples()>& read) {
+[[noreturn]] void run_child(int to, int samples, const std::string& too_much,
+                            const std::function<ReadSamples()>& read) {
     shared_file = samples;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     // A terminal interrupts both processes: the other one hears of it, and ends this one.
@@ -88,7 +90,7 @@ void send_text(int to, char kind, const std::string& text) {
             static_cast<std::size_t>(found.grid.sample_count()) * bytes_of(found.samples.type)};
         send_message(to, result, &head, sizeof head);
     } catch (const std::bad_alloc&) {
-        send_text(to, refusal, "out of memory");
+        send_text(to, refusal, too_much);
     } catch (const std::exception& error) {
         send_text(to, refusal, error.what());
     }
@@ -107,7 +109,10 @@ class Child {
         process_ = samples_ < 0 ? -1 : fork();
         if (process_ == 0) {
             close(ends[0]);
-            run_child(ends[1], samples_, read);
+            run_child(ends[1], samples_,
+                      name_ + ": damaged, or memory is short: " + library +
+                          " asks for far more than the samples take",
+                      read);
         }
         const int reason = errno;
         close(ends[1]);
@@ -200,9 +205,8 @@ class Child {
     bool ended_ = false;
 };
 
-}  // namespace
-
-void allow_bytes(std::size_t bytes) {
+// A few seconds, and what so many bytes take.
+void allow_time(std::size_t bytes) {
     constexpr std::size_t slowest = 1 << 20;  // bytes a second, decompressed
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
@@ -213,6 +217,28 @@ void allow_bytes(std::size_t bytes) {
                                              static_cast<rlim_t>(used.ru_stime.tv_sec) +
                                              seconds_for_headers + bytes / slowest);
     setrlimit(RLIMIT_CPU, &limit);
+}
+
+// Address space beside what there is: for headers, and for copies of the bytes: the samples, what
+// is packed, and what a library holds while it unpacks. Sanitizers reserve more than any limit.
+void allow_memory([[maybe_unused]] std::size_t bytes) {
+#ifndef LAMINA_SANITIZED
+    constexpr std::size_t for_headers = std::size_t{256} << 20, copies = 4;
+    std::size_t pages = 0;
+    if (!(std::ifstream("/proc/self/statm") >> pages)) return;
+    rlimit limit{};
+    getrlimit(RLIMIT_AS, &limit);
+    const rlim_t there = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, there + for_headers + copies * bytes);
+    setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+}  // namespace
+
+void allow_bytes(std::size_t bytes) {
+    allow_time(bytes);
+    allow_memory(bytes);
 }
 
 std::shared_ptr<void> shared_sample_memory(std::size_t bytes) {

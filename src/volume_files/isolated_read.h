@@ -15,8 +15,8 @@ struct ReadSamples {
     StoredSamples samples;
 };
 
-// Allows more processor time to a read in a process of its own: a few seconds, and what so many
-// bytes take.
+// Allows more processor time and memory to a read in a process of its own: those of headers, and
+// those of so many bytes of samples.
 void allow_bytes(std::size_t bytes);
 
 // For the samples, once, in `read`: memory that both processes see.

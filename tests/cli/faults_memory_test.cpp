@@ -106,5 +106,23 @@ TEST_F(FaultsOfMemory, TooLittleForOpenGLIsSaidBefore) {
     }
 }
 
+// The decoder asked for a gigabyte, which the reading process may not take: 256 MiB beside what it
+// has (volume_files/isolated_read.cpp), of which the program takes less than 64.
+TEST_F(FaultsOfMemory, ADamagedImageOfAKilobyteTakesLittle) {
+    const std::string image = folder / "image.dcm";
+    std::filesystem::copy_file(
+        LAMINA_SOURCE_DIR "/tests/fuzz/corpus/dicom/fragment_asks_for_memory", image);
+    const std::string measure =
+        "import resource, subprocess, sys; done = subprocess.run(sys.argv[1:]); "
+        "print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)";
+    const ProgramResult result =
+        run_program({"python3", "-c", measure, LAMINA_BINARY, "info", image});
+    int exit_code = 0, kibibytes = 0;
+    std::istringstream(result.out) >> exit_code >> kibibytes;
+    EXPECT_EQ(exit_code, 1) << result.err;
+    EXPECT_GT(kibibytes, 0);
+    EXPECT_LT(kibibytes, (256 + 64) * 1024);
+}
+
 }  // namespace
 }  // namespace lamina

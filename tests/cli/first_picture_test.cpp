@@ -138,6 +138,24 @@ TEST_F(FirstPicture, TheSceneThatIsWrittenDrawsTheSamePicture) {
     }
 }
 
+// So that a folder with both can be moved.
+TEST_F(FirstPicture, TheSceneNamesDataBelowItFromThere) {
+    const std::string volume = generated("gaussians");
+    const std::string name = std::filesystem::path(volume).filename();
+    std::filesystem::create_directory(folder / "below");
+    std::filesystem::copy_file(volume, folder / "below/v.nrrd");
+    run({"scene", folder / "below/v.nrrd", "-o", folder / "s.json", "--size", "160x120", "--quiet"});
+    EXPECT_EQ(document("s.json")["volume"], "below/v.nrrd");
+    render(folder / "s.json", "a.exr");
+    render(volume, "b.exr");
+    expect_same("a.exr", "b.exr");
+    run({"scene", volume, "-o", folder / "below/s.json", "--quiet"});
+    EXPECT_EQ(document("below/s.json")["volume"], std::filesystem::canonical(volume).string());
+    const json shown = json::parse(lamina_run({"scene", volume, "-o", "-", "--quiet"}).out);
+    EXPECT_EQ(std::filesystem::path(shown["volume"].get<std::string>()).filename(), name);
+    EXPECT_TRUE(std::filesystem::path(shown["volume"].get<std::string>()).is_absolute());
+}
+
 TEST_F(FirstPicture, AFileIsKnownByItsContent) {
     const std::string volume = generated("gaussians");
     render(volume, "a.exr");

@@ -324,5 +324,5 @@ def test_vtks_error_is_that_of_the_benchmark(source, tmp_path):
     e = 255 * (np.load(tmp_path / "vtk.npy") - truth.array[:, :, :3])
     # The scene has its colours and extinctions in double precision, VTK's functions have the same: 1e-6 of a code.
     assert math.isclose(held.l2, np.sqrt((e * e).mean()), rel_tol=1e-6)
-    # docs/performance.md has 6.08 at 800 x 600; pixels 25 times as large see some edges more, some less.
+    # docs/journal.md has 6.08 at 800 x 600; pixels 25 times as large see some edges more, some less.
     assert 5 < held.l2 < 7

@@ -112,6 +112,12 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     EXPECT_EQ(scene.target, Target::fixed8);
     EXPECT_EQ(scene.camera.eye, glm::dvec3(1, 2, 3));
     EXPECT_DOUBLE_EQ(scene.transfer_function.knots()[1].optics.extinction, -std::log1p(-.25));
+    set_key(document, "render.slice.samples", "null");
+    set_key(document, "transfer_function.points.1", "null");
+    set_key(document, "lighting.power", "null");  // not there
+    EXPECT_FALSE(document["render"]["slice"].contains("samples"));
+    EXPECT_EQ(document["transfer_function"]["points"].size(), 1u);
+    EXPECT_FALSE(document.contains("lighting"));
     EXPECT_THROW(set_key(document, "camera.eye.7", "1"), UsageError);
     EXPECT_THROW(set_key(document, "version.x", "1"), UsageError);
     EXPECT_THROW(set_key(document, "", "1"), UsageError);

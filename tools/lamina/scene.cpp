@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,6 +27,27 @@ struct SceneVerbOptions {
     bool quiet = false;
 };
 
+// Data below the scene's folder are named from there, so that both can be moved together.
+void name_from(const std::filesystem::path& folder, nlohmann::ordered_json& source) {
+    if (source.is_object() && source.contains("path")) return name_from(folder, source["path"]);
+    if (!source.is_string()) return;
+    const auto path = std::filesystem::path(source.get<std::string>()).lexically_relative(folder);
+    if (!path.empty() && *path.begin() != ".." && *path.begin() != ".") source = path.string();
+}
+
+std::string scene_text(const SceneVerbOptions& options, const Scene& scene,
+                       const nlohmann::json& document) {
+    nlohmann::ordered_json result = document_of(scene, document);
+    if (options.output != standard_stream) {
+        const auto folder =
+            std::filesystem::weakly_canonical(std::filesystem::absolute(options.output))
+                .parent_path();
+        for (const char* const source : {"volume", "mesh"})
+            if (result.contains(source)) name_from(folder, result[source]);
+    }
+    return json_text(result, 2) + "\n";
+}
+
 void run(const SceneVerbOptions& options) {
     nlohmann::json document;
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
@@ -34,7 +56,7 @@ void run(const SceneVerbOptions& options) {
     const auto output = open_named(options.output);
     RenderStats ignored;
     load_data(scene, wishes, ignored);
-    output->write(json_text(document_of(scene, document), 2) + "\n");
+    output->write(scene_text(options, scene, document));
     output->commit();
     if (options.quiet) return;
     for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
