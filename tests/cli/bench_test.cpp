@@ -74,6 +74,37 @@ TEST_F(Bench, TimesScenesThatAreThereAndNamesWhatIsMissing) {
     EXPECT_EQ(ways[1]["times_as_fast"]["max"], ratios[2]);
 }
 
+TEST_F(Bench, KeepsAHistoryThatIsDrawn) {
+    const std::string history = folder / "history.jsonl", page = folder / "page.html";
+    const auto timed = [&](const std::string& width) {
+        const ProgramResult result =
+            bench({"--scenes", folder / "here.json", "--frames", "1", "--rounds", "1", "--history",
+                   history, "--", "--set", "image.width=" + width});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+    };
+    const auto drawn = [&] {
+        return run_program({LAMINA_SOURCE_DIR "/tools/bench_history", history, "-o", page});
+    };
+    timed("40");
+    timed("30");
+    timed("30");
+    ASSERT_EQ(drawn().exit_code, 0);
+    const std::string text = read_bytes_of(page);
+    EXPECT_NE(text.find("<h2>here</h2>"), std::string::npos);
+    EXPECT_NE(text.find("image.width=30"), std::string::npos);
+    EXPECT_NE(text.find("1 runs of other machines or arguments"), std::string::npos);
+    // Two runs: two points of one way, the first of them at 1.
+    std::size_t points = 0;
+    for (std::size_t at = 0; (at = text.find("<circle", at)) != std::string::npos; ++at) ++points;
+    EXPECT_EQ(points, 2u);
+    EXPECT_NE(text.find("cpu: 1.000 at "), std::string::npos);
+    write_bytes_to(history, read_bytes_of(history) + "{}\n");
+    const ProgramResult broken = drawn();
+    EXPECT_EQ(broken.exit_code, 1);
+    EXPECT_NE(broken.err.find("history.jsonl, line 4: expected a run"), std::string::npos)
+        << broken.err;
+}
+
 TEST_F(Bench, ListsTheStandardSet) {
     const ProgramResult result = bench({"--list"});
     ASSERT_EQ(result.exit_code, 0) << result.err;

@@ -58,12 +58,12 @@ QUICK_RUN = ("**These figures are no measurement.** They are from a quick trial 
 
 
 def machine_line(about, round_count, spread):
-    """spread: the median and the largest deviation of a round's ratio from the median of the rounds."""
+    """spread: the median and the ninth decile of the deviation of a round's ratio from the median of the rounds."""
     instructions = {"AVX3": "AVX-512"}.get(about["engine"].partition(":")[2].split(",")[0].strip(), about["engine"])
     rounds = f"**Rounds:** {round_count}."
     if round_count > 1:
-        rounds += (f" Half of the ratios changed by less than {100 * spread[0]:.0f} % from round to round, all of "
-                   f"them by less than {100 * spread[1]:.0f} %.")
+        rounds += (f" From round to round half of the ratios changed by less than {100 * spread[0]:.0f} %, and nine of "
+                   f"ten by less than {100 * spread[1]:.0f} %.")
     line = (f"**Machine:** {about['cores']} cores of a{' virtual' if 'virtual' in about['machine'] else ''} machine, "
             f"{about['cpu']}, {instructions}, {about['memory_gib']} GiB of memory, no GPU used, {about['system']}. "
             f"**Date:** {about['date']}. **Commit:** {about['commit']}. **OpenGL:** {about['opengl']}. {rounds}")

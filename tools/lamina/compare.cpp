@@ -105,7 +105,7 @@ void add_compare(CLI::App& app, int& exit_code) {
         ->check([](const std::string& text) { return text.empty() ? "expected a number" : ""; });
     verb->footer(
         "Linf is the largest difference, L1 the mean one with its sign, L2 the root of the "
-        "mean square, all in 1/255.");
+        "mean square, all in 1/255, of A minus B. A pixel is (column, row), from the top left.");
     verb->callback([options, &exit_code] { exit_code = compare(*options); });
 }
 

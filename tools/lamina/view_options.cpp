@@ -42,7 +42,8 @@ ValueRange range_of(const std::string& text) {
 void add_view_options(CLI::App& verb, ViewOptions& options) {
     const char* const group = "Look";
     verb.add_option("--azimuth", options.turn.azimuth,
-                    "Go around what shows, this many degrees to the right")
+                    "Go around what shows, this many degrees to the right of the automatic "
+                    "view, or of a scene's camera")
         ->option_text("DEGREES")
         ->group(group);
     verb.add_option("--elevation", options.turn.elevation, "The same, upwards")
