@@ -7,18 +7,15 @@ import os
 import platform
 import re
 
+from bench_parts import processor
+
 WIDTH, HEIGHT, LEFT, TOP = 640, 150, 46, 8
 COLORS = ("#2a78c8", "#d9622b", "#3a9b5c", "#8a4fb0")
 
 
 def machine():
     """Times of one machine alone are compared."""
-    try:
-        with open("/proc/cpuinfo") as lines:
-            processor = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "")
-    except OSError:
-        processor = ""
-    return f"{processor or platform.processor()}, {len(os.sched_getaffinity(0))} cores, {platform.node()}"
+    return f"{processor.name()}, {len(os.sched_getaffinity(0))} cores, {platform.node()}"
 
 
 def add(path, lamina, options, results):

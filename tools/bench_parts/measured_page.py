@@ -2,12 +2,12 @@
 """Tables between markers of a Markdown page, and the machine that they were measured on."""
 import datetime
 import os
-import pathlib
 import platform
 import re
 import subprocess
 import textwrap
 
+from bench_parts import processor
 from bench_parts.scenes import ROOT
 
 BLOCK = re.compile(r"(<!-- table: ([a-z-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
@@ -25,14 +25,6 @@ def replace(text, blocks):
     return BLOCK.sub(new, text)
 
 
-def cpu_fields():
-    fields = {}
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        name, _, value = line.partition(":")
-        fields.setdefault(name.strip(), value.strip())
-    return fields
-
-
 def commit():
     """Of the source, and whether what is built from it was changed since."""
     def git(*arguments):
@@ -43,9 +35,9 @@ def commit():
 
 def machine(engine):
     """engine: `context` of a run's statistics, which names the instruction set."""
-    fields, memory = cpu_fields(), os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    fields, memory = processor.fields(), os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     return {"machine": platform.machine() + (", virtual" if "hypervisor" in fields.get("flags", "") else ""),
-            "cpu": f"{fields.get('model name', platform.processor())} (family {fields.get('cpu family', '?')}, "
+            "cpu": f"{processor.name()} (family {fields.get('cpu family', '?')}, "
                    f"model {fields.get('model', '?')})",
             "cores": len(os.sched_getaffinity(0)), "memory_gib": round(memory / 2**30), "engine": engine,
             "system": platform.freedesktop_os_release().get("PRETTY_NAME", platform.system()),

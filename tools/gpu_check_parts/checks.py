@@ -7,7 +7,7 @@ import platform
 import subprocess
 import sys
 
-from bench_parts import scenes
+from bench_parts import processor, scenes
 
 CONTEXTS = ("egl", "cpu")
 
@@ -15,16 +15,11 @@ CONTEXTS = ("egl", "cpu")
 def machine(lamina):
     """What the figures belong to."""
     try:
-        with open("/proc/cpuinfo") as lines:
-            processor = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "")
-    except OSError:
-        processor = platform.processor()
-    try:
         driver = subprocess.run(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"],
                                 capture_output=True, text=True).stdout.strip()
     except OSError:
         driver = ""
-    return {"processor": processor, "processors": len(os.sched_getaffinity(0)), "system": platform.platform(),
+    return {"processor": processor.name(), "processors": len(os.sched_getaffinity(0)), "system": platform.platform(),
             "driver": driver, "date": datetime.date.today().isoformat(), "lamina": lamina.run("--version").splitlines()}
 
 

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of this program alone: getrusage() also counts what the process held before it became lamina.
+// The kernel keeps this peak for the program alone; that of getrusage() includes what the process
+// held before it became lamina.
 double peak_rss_mb() {
     std::ifstream status("/proc/self/status");
     const std::string name = "VmHWM:";
