@@ -3,7 +3,6 @@
 """site_test.py SOURCE: builds the manual without a warning, finds every link of its pages, and looks at each page in headless
 Chromium at the width of a phone and of a desk, light and dark. 77: Sphinx or Chromium is not there."""
 import html.parser
-import os
 import pathlib
 import shutil
 import subprocess
@@ -12,6 +11,7 @@ import tempfile
 import urllib.parse
 
 SOURCE = pathlib.Path(sys.argv[1])
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 NO_TOOL = 77
 PHONE, DESK = 360, 1280
 
@@ -50,18 +50,6 @@ def faults_of_links(site):
                 yield f"{page.name}: no place {target}"
 
 
-def browser_of(webdriver, service, profile):
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium")
-    for argument in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                     "--disable-background-networking", "--disable-component-update", f"--user-data-dir={profile}"):
-        options.add_argument(argument)
-    if os.geteuid() == 0:
-        options.add_argument("--no-sandbox")  # which root cannot have
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=service, options=options)
-
-
 # What is wider than the window must scroll inside of itself.
 LOOK = """
 const wide = document.scrollingElement.scrollWidth - document.documentElement.clientWidth;
@@ -94,8 +82,7 @@ def faults_of_looks(site, browser):
 def main():
     try:
         import furo, myst_parser, sphinx  # noqa: F401, E401
-        from selenium import webdriver
-        from selenium.webdriver.chrome.service import Service
+        import headless_chromium
     except ImportError as error:
         print(error)
         return NO_TOOL
@@ -105,9 +92,7 @@ def main():
         site = pathlib.Path(folder) / "site"
         subprocess.run([SOURCE / "tools/manual", "-o", site], check=True)
         faults = list(faults_of_links(site))
-        # Its crash reporter writes there whatever the profile.
-        service = Service(shutil.which("chromedriver") or "chromedriver", env={**os.environ, "XDG_CONFIG_HOME": folder})
-        browser = browser_of(webdriver, service, os.path.join(folder, "profile"))
+        browser = headless_chromium.started_in(folder)
         try:
             faults += faults_of_looks(site, browser)
         finally:

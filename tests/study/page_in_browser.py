@@ -2,29 +2,17 @@
 """A report page in headless Chromium, for tests."""
 import json
 import os
-import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
 from made_up_report import made_up_report
 
-
-def options_for(profile):
-    options = webdriver.ChromeOptions()
-    options.binary_location = shutil.which("chromium")
-    for argument in ("--headless=new", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                     "--disable-background-networking", "--disable-component-update", "--window-size=1280,1000",
-                     f"--user-data-dir={profile}"):
-        options.add_argument(argument)
-    if os.geteuid() == 0:
-        options.add_argument("--no-sandbox")  # which root cannot have
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    return options
+sys.path.append(os.path.join(os.path.dirname(__file__), os.pardir, "support"))
+import headless_chromium  # noqa: E402
 
 
 class PageInBrowser(unittest.TestCase):
@@ -38,10 +26,7 @@ class PageInBrowser(unittest.TestCase):
         cls.folder = folder.name
         cls.report = made_up_report(12)
         cls.page = cls.write_page("report", cls.report)
-        # Its crash reporter writes there whatever the profile.
-        private = {**os.environ, "XDG_CONFIG_HOME": folder.name}
-        cls.browser = webdriver.Chrome(service=Service(shutil.which("chromedriver") or "chromedriver", env=private),
-                                       options=options_for(os.path.join(folder.name, "profile")))
+        cls.browser = headless_chromium.started_in(folder.name)
         cls.addClassCleanup(cls.browser.quit)
 
     @classmethod
