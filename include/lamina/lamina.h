@@ -14,6 +14,7 @@
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"
 #include "lamina/lighting.h"
+#include "lamina/memory.h"
 #include "lamina/mesh_data.h"
 #include "lamina/mesh_making.h"
 #include "lamina/picture_comparison.h"

@@ -27,12 +27,13 @@ class ContentHash {
     void add(std::string_view text) { add(text.data(), text.size()); }
     void add(double value) { add(&value, sizeof value); }
 
-    std::string hex() const {  // 16 digits
+    std::uint64_t word() const {
         std::uint64_t mixed = state_;
         mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
         mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
-        return fmt::format("{:016x}", mixed ^ (mixed >> 31));
+        return mixed ^ (mixed >> 31);
     }
+    std::string hex() const { return fmt::format("{:016x}", word()); }  // 16 digits
 
   private:
     // Multiplication carries only to higher bits. The rotation brings high bits down again.

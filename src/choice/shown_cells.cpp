@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/parallel.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 namespace {
@@ -33,10 +34,10 @@ std::array<std::int64_t, 3> cells_of(const Grid& grid) {
 }
 
 // The cells of one row along x.
-template <typename T>
+template <typename Samples>
 class CellRow {
   public:
-    CellRow(const Grid& grid, const T* samples, std::int64_t y, std::int64_t z)
+    CellRow(const Grid& grid, const Samples& samples, std::int64_t y, std::int64_t z)
         : size_(grid.size[0]) {
         const auto [nx, ny, nz] = grid.size;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -48,7 +49,7 @@ class CellRow {
 
     ValueRange range(std::int64_t x) const {
         ValueRange range;
-        for (const T* line : lines_) {
+        for (const Samples& line : lines_) {
             for (const std::int64_t at : {x, std::min(x + 1, size_ - 1)}) {
                 const double value = static_cast<double>(line[at]);
                 if (!std::isfinite(value)) continue;
@@ -62,12 +63,12 @@ class CellRow {
 
   private:
     std::int64_t size_;
-    std::array<const T*, 4> lines_;
+    std::array<Samples, 4> lines_;
 };
 
 // Looks into bricks that show something alone, from both ends.
-template <typename T>
-Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
+template <typename Samples>
+Span shown_of_row(const CellRow<Samples>& row, std::int64_t cells,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {
     const auto shown = [&](std::int64_t x) {
         const ValueRange range = row.range(x);
@@ -88,9 +89,9 @@ Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
 }
 
 // For each row of cells along x, y fastest.
-template <typename T>
-std::vector<Span> shown_of_rows(const Grid& grid, const T* samples, const MinMaxBricks& bricks,
-                                const Shows& shows) {
+template <typename Samples>
+std::vector<Span> shown_of_rows(const Grid& grid, const Samples& samples,
+                                const MinMaxBricks& bricks, const Shows& shows) {
     const auto cells = cells_of(grid);
     std::vector<Span> spans(static_cast<std::size_t>(cells[1] * cells[2]));
     parallel_for(bricks.count[1] * bricks.count[2], 4, [&](std::int64_t brick_row) {
@@ -102,8 +103,8 @@ std::vector<Span> shown_of_rows(const Grid& grid, const T* samples, const MinMax
         }
         for (std::int64_t z = bz * edge; z < std::min(cells[2], (bz + 1) * edge); ++z) {
             for (std::int64_t y = by * edge; y < std::min(cells[1], (by + 1) * edge); ++y)
-                spans[static_cast<std::size_t>(z * cells[1] + y)] =
-                    shown_of_row(CellRow<T>(grid, samples, y, z), cells[0], shown_bricks, shows);
+                spans[static_cast<std::size_t>(z * cells[1] + y)] = shown_of_row(
+                    CellRow<Samples>(grid, samples, y, z), cells[0], shown_bricks, shows);
         }
     });
     return spans;
@@ -122,8 +123,8 @@ std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBr
                                             const Shows& shows) {
     const Grid& grid = volume.grid();
     const auto cells = cells_of(grid);
-    const std::vector<Span> rows = volume.visit(
-        [&](const auto* samples) { return shown_of_rows(grid, samples, bricks, shows); });
+    const std::vector<Span> rows = visit_samples(
+        volume, [&](const auto& samples) { return shown_of_rows(grid, samples, bricks, shows); });
     // A line of cells' edges lies between up to four rows.
     const std::int64_t lines_y = cells[1] + 1;
     std::vector<Span> lines(static_cast<std::size_t>(lines_y * (cells[2] + 1)));

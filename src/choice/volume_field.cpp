@@ -7,43 +7,24 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numeric>
-#include <type_traits>
 
 #include "choice/box_corners.h"
 #include "choice/shown_cells.h"
 #include "facts/facts.h"
-#include "volume/code_counts.h"
 
 namespace lamina {
 namespace {
 
-// Enough that a share of 1e-4 of the samples is known to 7 percent.
-constexpr std::int64_t most_float_samples = std::int64_t{1} << 21;
-
-// Integers are all counted.
-template <typename T>
-std::vector<WeightedValue> weighted_values(const T* samples, std::int64_t count) {
-    const Counts counts = count_codes(samples, count);
+std::vector<WeightedValue> weighted(const ValueCounts& counted, SampleType type) {
+    const double lowest =
+        type == SampleType::int16 ? double{std::numeric_limits<std::int16_t>::min()} : 0;
     std::vector<WeightedValue> values;
-    for (std::size_t code = 0; code < counts.size(); ++code) {
-        if (counts[code] > 0)
-            values.push_back({static_cast<double>(code) + std::numeric_limits<T>::min(),
-                              static_cast<double>(counts[code])});
+    for (std::size_t code = 0; code < counted.codes.size(); ++code) {
+        if (counted.codes[code] > 0)
+            values.push_back(
+                {static_cast<double>(code) + lowest, static_cast<double>(counted.codes[code])});
     }
-    return values;
-}
-
-// Every step-th sample. The step has no factor in common with the length of a row, so that all
-// columns take part.
-std::vector<WeightedValue> weighted_values(const float* samples, std::int64_t count,
-                                           std::int64_t row) {
-    std::int64_t step = (count + most_float_samples - 1) / most_float_samples;
-    while (step > 1 && std::gcd(step, row) > 1) ++step;
-    std::vector<WeightedValue> values;
-    for (std::int64_t i = 0; i < count; i += step) {
-        if (std::isfinite(samples[i])) values.push_back({samples[i], 1});
-    }
+    for (const float value : counted.some) values.push_back({value, 1});
     return values;
 }
 
@@ -59,13 +40,8 @@ double VolumeField::spacing() const {
 }
 
 ValueDistribution VolumeField::distribution() const {
-    const std::int64_t count = volume_.grid().sample_count();
-    return ValueDistribution(volume_.visit([&](const auto* samples) {
-        if constexpr (std::is_same_v<decltype(samples), const float*>)
-            return weighted_values(samples, count, volume_.grid().size[0]);
-        else
-            return weighted_values(samples, count);
-    }));
+    return ValueDistribution(
+        weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type()));
 }
 
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,

@@ -4,14 +4,21 @@
 #include "choice/field.h"
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
+#include "volume/value_counts.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 
-// A volume with its bricks, which must outlive this.
+// A volume with its bricks, and with its values where these are counted already. All must outlive
+// this.
 class VolumeField : public Field {
   public:
     VolumeField(const Volume& volume, const MinMaxBricks& bricks)
         : volume_(volume), bricks_(bricks) {}
+    explicit VolumeField(const VolumeData& data)
+        : volume_(data.volume),
+          bricks_(data.bricks),
+          values_(data.values ? &*data.values : nullptr) {}
 
     WorldAxes axes() const override { return volume_.grid().axes; }
     ValueRange range() const override { return bricks_.whole; }
@@ -28,6 +35,7 @@ class VolumeField : public Field {
   private:
     const Volume& volume_;
     const MinMaxBricks& bricks_;
+    const ValueCounts* values_ = nullptr;  // null: not counted yet
 };
 
 }  // namespace lamina

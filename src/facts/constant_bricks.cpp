@@ -34,20 +34,20 @@ class ConstantFinder {
         ConstantBricks constant;
         if (keys.empty()) return constant;
         const std::size_t count = bricks_.ranges.size();
-        constant.kind.resize(count);
-        constant.varied = {bricks_.count, std::vector<std::uint8_t>(count, 0)};
+        constant.kind = SparseBytes(count, 0);
+        constant.varied = {bricks_.count, SparseBytes(count, 0)};
         parallel_for(static_cast<std::int64_t>(count), 4096, [&](std::int64_t number) {
             const auto i = static_cast<std::size_t>(number);
             const std::optional<Key> key = constant_key(i);
             if (!key) return;
             const auto kind = std::ranges::find(keys, *key);
             if (kind == keys.end()) return;
-            constant.kind[i] = static_cast<std::uint8_t>(kind - keys.begin());
-            constant.varied.distance[i] = OccupiedBricks::farthest;
+            constant.kind.set(i, static_cast<std::uint8_t>(kind - keys.begin()));
+            constant.varied.distance.set(i, OccupiedBricks::farthest);
         });
-        constant.share = static_cast<double>(std::ranges::count(constant.varied.distance,
-                                                                OccupiedBricks::farthest)) /
-                         static_cast<double>(std::ranges::count(occupied_.distance, 0));
+        constant.share =
+            static_cast<double>(constant.varied.distance.count(OccupiedBricks::farthest)) /
+            static_cast<double>(occupied_.distance.count(0));
         constant.varied.measure_distances();
         for (const Key& key : keys) constant.kinds.push_back({{key[0], key[1], key[2]}, key[3]});
         return constant;
@@ -66,7 +66,7 @@ class ConstantFinder {
     // rounding might take it across a step.
     std::optional<Key> constant_key(std::size_t brick) const {
         if (occupied_.distance[brick] > 0) return {};
-        const ValueRange range = bricks_.ranges[brick];
+        const ValueRange range = bricks_.range(brick);
         const auto beside = [&](const TransferKnot& a, const TransferKnot& b) {
             return a.value == b.value && std::abs(a.value - range.lo) <= margin_;
         };

@@ -19,8 +19,8 @@ struct ConstantBricks {
 
     double share = 0;  // share of the bricks that show something
     std::vector<OpticalProperties> kinds;
-    std::vector<std::uint8_t> kind;  // for each constant brick an index into kinds; x fastest
-    OccupiedBricks varied;           // distance to the nearest brick that is not constant
+    SparseBytes kind;       // for each constant brick an index into kinds; x fastest
+    OccupiedBricks varied;  // distance to the nearest brick that is not constant
 
     std::uint8_t kind_at(const glm::dvec3& point) const { return kind[varied.place_of(point)]; }
 };

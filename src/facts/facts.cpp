@@ -2,6 +2,7 @@
 #include "facts/facts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,6 +15,7 @@
 #include "facts/world_unit.h"
 #include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
+#include "volume/code_counts.h"
 
 namespace lamina {
 namespace {
@@ -54,22 +56,32 @@ double side_ratio_of(const Grid& grid) {
 
 void measure_extinctions(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                          Facts& facts) {
-    const std::vector<std::uint8_t>& distance = facts.occupied_bricks.distance;
-    std::vector<float> extinctions(bricks.ranges.size());
+    const SparseBytes& distance = facts.occupied_bricks.distance;
+    const std::size_t count = bricks.ranges.size();
     const double unit = world_unit(box_diagonal(facts.grid));
-    parallel_for(static_cast<std::int64_t>(extinctions.size()), 4096, [&](std::int64_t number) {
-        const auto i = static_cast<std::size_t>(number);
-        const MinMaxBricks::Range& range = bricks.ranges[i];
-        if (distance[i] == 0)
-            extinctions[i] =
-                static_cast<float>(transfer_function.max_extinction(range.lo, range.hi) / unit);
-    });
+    // Counts by the leading bits of floats, which ascend with them where they are 0 or more.
+    constexpr int rest_bits = 12;
+    const auto leading = [&](double extinction) {
+        return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
+    };
+    const Counts counts = count_in_parts(
+        static_cast<std::int64_t>(count), std::size_t{1} << (31 - rest_bits),
+        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
+            for (std::int64_t number = first; number < end; ++number) {
+                const auto i = static_cast<std::size_t>(number);
+                double extinction = 0;
+                if (distance[i] == 0) {
+                    const BrickRange range = bricks.ranges[i];
+                    extinction = transfer_function.max_extinction(range.lo, range.hi);
+                }
+                ++into[leading(extinction)];
+            }
+        });
     const auto quantile = [&](double share) {
-        const auto last = static_cast<double>(extinctions.size() - 1);
-        const auto place =
-            extinctions.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * last));
-        std::nth_element(extinctions.begin(), place, extinctions.end());
-        return *place * unit;
+        auto rank = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(count - 1)));
+        std::uint32_t key = 0;
+        while (rank >= counts[key]) rank -= counts[key++];
+        return double{std::bit_cast<float>(key << rest_bits)} * unit;
     };
     facts.extinction_quantiles = {quantile(.5), quantile(.9), quantile(1)};
 }
@@ -110,11 +122,11 @@ void empty_cut_bricks(Facts& facts) {
     parallel_for(nz, 1, [&](std::int64_t z) {
         for (std::int64_t y = 0; y < rows; ++y) {
             for (std::int64_t x = 0; x < columns; ++x) {
-                std::uint8_t& distance = occupied.distance[occupied.place(x, y, z)];
+                const std::size_t place = occupied.place(x, y, z);
                 const std::array<std::int64_t, 3> brick{x, y, z};
-                if (distance == 0 &&
+                if (occupied.distance[place] == 0 &&
                     cut_away(box_of_bricks(facts.grid, occupied.count, brick, brick)))
-                    distance = OccupiedBricks::farthest;
+                    occupied.distance.set(place, OccupiedBricks::farthest);
             }
         }
     });
@@ -129,16 +141,15 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
         const double most = transfer_function.max_extinction(range.lo - margin, range.hi + margin);
         return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
     };
-    occupied = {bricks.count, {}};
-    occupied.distance.resize(bricks.ranges.size());
+    occupied = {bricks.count, SparseBytes(bricks.ranges.size(), OccupiedBricks::farthest)};
     parallel_for(static_cast<std::int64_t>(bricks.ranges.size()), 4096, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
-        occupied.distance[i] = shown(bricks.ranges[i]) ? 0 : OccupiedBricks::farthest;
+        if (shown(bricks.range(i))) occupied.distance.set(i, 0);
     });
     if (!facts.clip.empty()) {
-        const bool some = std::ranges::count(occupied.distance, 0) > 0;
+        const bool some = occupied.distance.count(0) > 0;
         empty_cut_bricks(facts);
-        facts.clipped_away = some && std::ranges::count(occupied.distance, 0) == 0;
+        facts.clipped_away = some && occupied.distance.count(0) == 0;
     }
     occupied.measure_distances();
 }

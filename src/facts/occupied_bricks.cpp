@@ -21,27 +21,37 @@ std::uint8_t one_more(std::uint8_t distance) {
 // Takes over what is near in rows that are known already, each brick and its two neighbours there.
 class RowSweep {
   public:
-    explicit RowSweep(std::int64_t count) : near_(static_cast<std::size_t>(count)) {}
+    RowSweep(SparseBytes& distance, std::int64_t count)
+        : distance_(distance),
+          near_(static_cast<std::size_t>(count)),
+          row_(static_cast<std::size_t>(count)) {}
 
     void begin() { std::ranges::fill(near_, std::uint8_t{OccupiedBricks::farthest}); }
 
-    void include(const std::uint8_t* row) {
-        for (std::size_t x = 0; x < near_.size(); ++x) near_[x] = std::min(near_[x], row[x]);
+    // Rows are told by the place of their first brick.
+    void include(std::size_t first) {
+        const std::uint8_t* const row = distance_.coded() + first;
+        const std::uint8_t background = distance_.background();
+        for (std::size_t x = 0; x < near_.size(); ++x)
+            near_[x] = std::min(near_[x], static_cast<std::uint8_t>(row[x] ^ background));
     }
 
-    void finish(std::uint8_t* row) const {
+    void finish(std::size_t first) {
         const std::size_t count = near_.size();
         for (std::size_t x = 0; x < count; ++x) {
             const std::uint8_t left = near_[x > 0 ? x - 1 : x];
             const std::uint8_t right = near_[x + 1 < count ? x + 1 : x];
-            row[x] = std::min(row[x], one_more(std::min({left, near_[x], right})));
+            row_[x] = std::min(distance_[first + x], one_more(std::min({left, near_[x], right})));
         }
-        for (std::size_t x = 1; x < count; ++x) row[x] = std::min(row[x], one_more(row[x - 1]));
-        for (std::size_t x = count - 1; x-- > 0;) row[x] = std::min(row[x], one_more(row[x + 1]));
+        for (std::size_t x = 1; x < count; ++x) row_[x] = std::min(row_[x], one_more(row_[x - 1]));
+        for (std::size_t x = count - 1; x-- > 0;)
+            row_[x] = std::min(row_[x], one_more(row_[x + 1]));
+        for (std::size_t x = 0; x < count; ++x) distance_.set(first + x, row_[x]);
     }
 
   private:
-    std::vector<std::uint8_t> near_;
+    SparseBytes& distance_;
+    std::vector<std::uint8_t> near_, row_;
 };
 
 }  // namespace
@@ -51,9 +61,9 @@ class RowSweep {
 void OccupiedBricks::measure_distances() {
     // No structured binding: clang below 16 has none in lambdas.
     const std::int64_t nx = count[0], ny = count[1], nz = count[2];
-    RowSweep sweep(nx);
+    RowSweep sweep(distance, nx);
     const auto row = [&](std::int64_t y, std::int64_t z) {
-        return distance.data() + (z * ny + y) * nx;
+        return static_cast<std::size_t>((z * ny + y) * nx);
     };
     const auto take_over = [&](std::int64_t y, std::int64_t z, std::int64_t back) {
         sweep.begin();
@@ -86,9 +96,9 @@ bool OccupiedBricks::any_in(const glm::dvec3& min, const glm::dvec3& max) const 
     }
     for (std::int64_t z = first[2]; z <= last[2]; ++z) {
         for (std::int64_t y = first[1]; y <= last[1]; ++y) {
-            const std::uint8_t* const row = distance.data() + (z * count[1] + y) * count[0];
+            const std::uint8_t* const row = distance.coded() + (z * count[1] + y) * count[0];
             for (std::int64_t x = first[0]; x <= last[0]; ++x) {
-                if (row[x] == 0) return true;
+                if (row[x] == distance.background()) return true;  // the code of 0
             }
         }
     }

@@ -5,8 +5,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "base/sparse_bytes.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -20,7 +20,7 @@ struct OccupiedBricks {
     // From each brick the distance to the nearest one that shows something: 0 for those that do. It
     // is counted in bricks along the axis on which the two are farthest apart, and is at most
     // `farthest`, also where no brick shows anything. x fastest.
-    std::vector<std::uint8_t> distance;
+    SparseBytes distance;
 
     // Computes the distances from an input of 0 (shows something) and `farthest` (shows nothing).
     void measure_distances();

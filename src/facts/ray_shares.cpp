@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "facts/facts.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 namespace {
@@ -64,8 +65,8 @@ class ShareCounter {
             const auto nearest = std::llround(at[static_cast<int>(axis)]);
             place = place * size[axis] + std::clamp<std::int64_t>(nearest, 0, size[axis] - 1);
         }
-        const double value =
-            volume_.visit([&](const auto* samples) { return static_cast<double>(samples[place]); });
+        const double value = visit_samples(
+            volume_, [&](const auto& samples) { return static_cast<double>(samples[place]); });
         return std::isfinite(value) ? transfer_function_.at(value).extinction : 0;
     }
 

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "facts/facts.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 namespace {
@@ -98,8 +99,8 @@ class RaySampler {
         return sum;
     }
     double sample_at(std::int64_t number) const {
-        return volume_.visit(
-            [&](const auto* samples) { return static_cast<double>(samples[number]); });
+        return visit_samples(
+            volume_, [&](const auto& samples) { return static_cast<double>(samples[number]); });
     }
 
     const Volume& volume_;

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint64_t max_header_bytes = 65536;
 constexpr std::size_t most_axes = 32;  // NumPy's own limit
 
-void read_header_bytes(std::ifstream& stream, const std::string& name, void* bytes, std::size_t count) {
+void read_header_bytes(std::ifstream& stream, const std::string& name, void* bytes,
+                       std::size_t count) {
     stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
     if (!stream) fail("{}: cannot read as NPY: the file ends too early", name);
 }

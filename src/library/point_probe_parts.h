@@ -8,8 +8,8 @@
 #include "lamina/point_probe.h"
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
-#include "render/volume_data.h"
 #include "scene/scene_mesh.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 

@@ -11,9 +11,11 @@
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
 #include "reference/scene_tracer.h"
+#include "render/context_choice.h"
 #include "render/picture_warnings.h"
 #include "scene/camera.h"
 #include "scene/lighting_check.h"
+#include "scene/scene_volume.h"
 
 namespace lamina {
 namespace {
@@ -47,6 +49,17 @@ Session::Parts::~Parts() {
     if (drawn) run([&] { drawn.reset(); });
 }
 
+// The data decide, where they do not fit the memory.
+void Session::Parts::open_context() {
+    ContextChoice for_data = choice;
+    if (scene.method == Method::slice && !scene.draws_mesh()) {
+        run([&] {
+            if (!volume_data().volume.in_memory()) for_data = context_for_files(choice);
+        });
+    }
+    threads.execute([&] { context = std::make_unique<DrawContext>(for_data); });
+}
+
 // A warning of a picture comes again with every picture.
 void Session::Parts::keep_warning(const std::string& text) {
     const std::lock_guard lock(keeping);
@@ -56,7 +69,7 @@ void Session::Parts::keep_warning(const std::string& text) {
 const VolumeData& Session::Parts::volume_data() {
     if (!volume) {
         if (!scene.has_volume()) fail("the session has no volume, and its scene names none");
-        volume = std::make_shared<const VolumeData>(load_volume(scene));
+        volume = std::make_shared<const VolumeData>(open_volume(scene));
     }
     return *volume;
 }
@@ -72,8 +85,7 @@ const SceneMesh& Session::Parts::mesh_data() {
 Scene Session::Parts::chosen() {
     if (!leaves_something_open(asked)) return asked;
     if (!asked.draws_mesh() || (!mesh_given && asked.mesh_file.empty())) {
-        const VolumeData& data = volume_data();
-        return choose(asked, VolumeField(data.volume, data.bricks));
+        return choose(asked, VolumeField(volume_data()));
     }
     // The mesh may be one that an earlier scene made from the volume.
     if (!mesh_given && scene.mesh_file.empty()) mesh.reset();
@@ -87,7 +99,7 @@ void Session::Parts::with_field(const Work& work) {
     if (scene.draws_mesh())
         work(MeshField(mesh_data()));
     else
-        work(VolumeField(volume_data().volume, volume->bricks));
+        work(VolumeField(volume_data()));
 }
 
 ValueHistogram Session::Parts::histogram(int bins) {

@@ -13,8 +13,8 @@
 #include "lamina/session.h"
 #include "render/draw_context.h"
 #include "render/scene_renderer.h"
-#include "render/volume_data.h"
 #include "scene/scene_mesh.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 
@@ -44,10 +44,11 @@ struct Session::Parts {
     template <typename Work>
     void run_drawing(const Work& work, std::stop_token stop = {},
                      const ProgressCallback& progress = {}) {
-        if (!context) threads.execute([&] { context = std::make_unique<DrawContext>(choice); });
+        if (!context) open_context();
         run(work, std::move(stop), progress);
     }
 
+    void open_context();
     void keep_warning(const std::string& text);
     const VolumeData& volume_data();
     const SceneMesh& mesh_data();

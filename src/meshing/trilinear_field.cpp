@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "volume/volume_store.h"
+#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {
@@ -23,9 +25,21 @@ std::vector<double> planes_along(std::int64_t samples, double first, double last
 std::vector<float> samples_of(const Volume& volume) {
     const std::int64_t count = volume.grid().sample_count();
     std::vector<float> copy(static_cast<std::size_t>(count));
-    volume.visit([&](const auto* samples) {
-        std::transform(samples, samples + count, copy.begin(),
-                       [](auto sample) { return static_cast<float>(sample); });
+    const auto convert = [](auto sample) { return static_cast<float>(sample); };
+    if (volume.in_memory()) {
+        volume.visit([&](const auto* samples) {
+            std::transform(samples, samples + count, copy.begin(), convert);
+        });
+        return copy;
+    }
+    const auto& size = volume.grid().size;
+    with_sample_type(volume.type(), [&](auto zero) {
+        std::vector<decltype(zero)> layer(static_cast<std::size_t>(size[0] * size[1]));
+        auto to = copy.begin();
+        for (std::int64_t z = 0; z < size[2]; ++z) {
+            volume.store().source().read({{0, 0, z}, {size[0], size[1], 1}}, layer.data());
+            to = std::transform(layer.begin(), layer.end(), to, convert);
+        }
     });
     return copy;
 }

@@ -20,10 +20,11 @@ using GradientAlong = std::array<Cubic, 3>;
 
 // The gradient field of a volume (docs/numerics.md, section 10): differences of neighbours at the
 // samples, trilinear between them, in scalar units per world unit.
-template <typename Sample>
+template <typename Samples>
 class GradientSamples {
   public:
-    GradientSamples(const Grid& grid, const Sample* samples) : samples_(samples), size_(grid.size) {
+    GradientSamples(const Grid& grid, const Samples& samples)
+        : samples_(samples), size_(grid.size) {
         stride_ = {1, size_[0], size_[0] * size_[1]};
         for (std::size_t axis = 0; axis < 3; ++axis)
             axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
@@ -72,7 +73,7 @@ class GradientSamples {
         return 0;
     }
 
-    const Sample* samples_;
+    Samples samples_;
     std::array<std::int64_t, 3> size_, stride_;
     std::array<glm::dvec3, 3> axes_;
 };

@@ -70,18 +70,18 @@ Cubic scalar_in(const CellCorners& corners, const CellIndex& cell, const Chord& 
     return corners.along(start, (to - from) * chord.direction);
 }
 
-template <typename Sample>
-std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sample* first_sample,
+template <typename Samples>
+std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Samples& first_sample,
                                  const View::Ray& ray) {
     const Chord chord = clip_to_box(grid, ray, half_spaces(scene.clip));
     if (!(chord.length_z > 0)) return {};
-    const CellSamples<Sample> samples(grid, first_sample);
+    const CellSamples<Samples> samples(grid, first_sample);
     const TransferIntervals transfer(scene.transfer_function);
     const auto integrate = [&](const CellIndex& cell, double from, double to,
                                RayIntegrator& integrator) {
         const CellCorners corners = samples.corners(cell);
         const auto [lo, hi] = corners.range();
-        if (!transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
+        if (!transfer.visible(lo, hi) || !CellSamples<Samples>::finite(corners)) return;
         integrator.add(scalar_in(corners, cell, chord, from, to), lo, hi,
                        (to - from) * chord.world_per_z);
     };
@@ -113,7 +113,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
 std::optional<SeenPoint> seen_point(const Scene& scene, const Volume& volume, double column,
                                     double row) {
     const View view(scene.camera, scene.width, scene.height);
-    return volume.visit([&](const auto* first_sample) {
+    return visit_samples(volume, [&](const auto& first_sample) {
         return seen_in(scene, volume.grid(), first_sample, view.ray(column, row));
     });
 }

@@ -11,6 +11,7 @@
 #include "lamina/grid.h"
 #include "reference/cell_walk.h"
 #include "reference/cubic.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 
@@ -52,18 +53,19 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume with samples of type Sample. Outside the samples the border value
-// repeats.
-template <typename Sample>
+// Access to the cells of a volume, whose samples are behind a pointer or StoredSamples. Outside the
+// samples the border value repeats.
+template <typename Samples>
 class CellSamples {
   public:
-    CellSamples(const Grid& grid, const Sample* samples)
+    CellSamples(const Grid& grid, const Samples& samples)
         : samples_(samples),
           last_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
           row_(grid.size[0]),
           slice_(grid.size[0] * grid.size[1]) {}
 
     CellCorners corners(const CellIndex& cell) const {
+        if constexpr (!std::is_pointer_v<Samples>) return stored_corners(cell);
         const std::int64_t x0 = clamped(cell[0], 0), x1 = clamped(cell[0] + 1, 0);
         const std::int64_t y0 = clamped(cell[1], 1) * row_, y1 = clamped(cell[1] + 1, 1) * row_;
         const std::int64_t z0 = clamped(cell[2], 2) * slice_;
@@ -75,19 +77,30 @@ class CellSamples {
     // NaN and infinite samples make the cells around them transparent (scene option nan:
     // transparent).
     static bool finite(const CellCorners& corners) {
-        if constexpr (!std::is_floating_point_v<Sample>) return true;
+        if constexpr (!std::is_floating_point_v<SampleOf<Samples>>) return true;
         double sum = 0;  // the sum of eight finite floats cannot overflow in double
         for (const double value : corners.v) sum += value;
         return std::isfinite(sum);
     }
 
   private:
+    CellCorners stored_corners(const CellIndex& cell) const requires(!std::is_pointer_v<Samples>) {
+        std::array<std::int64_t, 3> lower{}, upper{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lower[axis] = clamped(cell[axis], axis);
+            upper[axis] = clamped(cell[axis] + 1, axis);
+        }
+        const auto samples = samples_.corners(lower, upper);
+        CellCorners found;
+        for (std::size_t i = 0; i < 8; ++i) found.v[i] = static_cast<double>(samples[i]);
+        return found;
+    }
     double at(std::int64_t offset) const { return static_cast<double>(samples_[offset]); }
     std::int64_t clamped(std::int64_t index, std::size_t axis) const {
         return std::clamp<std::int64_t>(index, 0, last_[axis]);
     }
 
-    const Sample* samples_;
+    Samples samples_;
     std::array<std::int64_t, 3> last_;
     std::int64_t row_, slice_;
 };

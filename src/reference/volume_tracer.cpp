@@ -20,9 +20,9 @@ namespace lamina {
 namespace {
 
 // What all rays of a picture share.
-template <typename Sample>
+template <typename Samples>
 struct Traced {
-    Traced(const Volume& volume, const Sample* first_sample, const TransferIntervals& intervals,
+    Traced(const Volume& volume, const Samples& first_sample, const TransferIntervals& intervals,
            const TraceOptions& how)
         : grid(volume.grid()),
           samples(grid, first_sample),
@@ -31,19 +31,19 @@ struct Traced {
           options(how) {}
 
     const Grid& grid;
-    CellSamples<Sample> samples;
-    GradientSamples<Sample> gradients;
+    CellSamples<Samples> samples;
+    GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
     const TraceOptions& options;
 };
 
 // Adds the part of the chord inside one cell, from parameter `from` to `to`.
-template <typename Sample>
-void add_cell(const Traced<Sample>& traced, const Chord& chord, const CellIndex& cell, double from,
+template <typename Samples>
+void add_cell(const Traced<Samples>& traced, const Chord& chord, const CellIndex& cell, double from,
               double to, RayIntegrator& integrator) {
     const CellCorners corners = traced.samples.corners(cell);
     const auto [lo, hi] = corners.range();
-    if (!traced.transfer.visible(lo, hi) || !CellSamples<Sample>::finite(corners)) return;
+    if (!traced.transfer.visible(lo, hi) || !CellSamples<Samples>::finite(corners)) return;
     const glm::dvec3 corner(cell[0], cell[1], cell[2]);
     const glm::dvec3 start =
         glm::clamp(chord.entry + from * chord.direction - corner, glm::dvec3(0), glm::dvec3(1));
@@ -61,8 +61,8 @@ struct TracedRay {
     std::int64_t segments = 0;
 };
 
-template <typename Sample>
-TracedRay trace_ray(const Traced<Sample>& traced, const View::Ray& ray) {
+template <typename Samples>
+TracedRay trace_ray(const Traced<Samples>& traced, const View::Ray& ray) {
     const Chord chord = clip_to_box(traced.grid, ray, traced.options.clip);
     if (!(chord.length_z > 0)) return {};
     std::optional<RayLights> lights;
@@ -82,8 +82,8 @@ struct TileTotals {
     std::int64_t segments = 0;
 };
 
-template <typename Sample>
-TileTotals trace_tile(const Traced<Sample>& traced, const View& view, const PictureTile& tile,
+template <typename Samples>
+TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const PictureTile& tile,
                       PreciseImage& image) {
     TileTotals totals;
     for (int row = tile.row; row < tile.row + tile.height; ++row) {
@@ -108,13 +108,14 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
     const TransferIntervals transfer(transfer_function);
     const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
     std::vector<TileTotals> totals(tiles.size());
-    volume.visit([&](const auto* first_sample) {
+    visit_samples(volume, [&](const auto& first_sample) {
         const Traced traced(volume, first_sample, transfer, options);
         const auto trace = [&](const PictureTile& tile, std::size_t number) {
             totals[number] = trace_tile(traced, view, tile, result.image);
         };
         trace_tiles(tiles, trace, result.image, tile_done);
     });
+    check_unchanged(volume);
     for (const TileTotals& tile : totals) {
         result.error_estimate = std::max(result.error_estimate, tile.error_estimate);
         result.segments += tile.segments;
@@ -129,7 +130,7 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     const TransferIntervals transfer(transfer_function);
     std::vector<TracedRay> rays(pixels.size());
     Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
-    volume.visit([&](const auto* first_sample) {
+    visit_samples(volume, [&](const auto& first_sample) {
         const Traced traced(volume, first_sample, transfer, options);
         parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
             const auto i = static_cast<std::size_t>(number);

@@ -7,6 +7,7 @@
 
 #include "base/enum_words.h"
 #include "base/error.h"
+#include "base/memory_limit.h"
 #include "base/unreachable.h"
 #include "tiles/instruction_set.h"
 
@@ -30,6 +31,16 @@ const char* name_of(ContextChoice choice) {
 ContextChoice context_choice(const std::string& word) {
     if (const auto found = value_of_word<ContextChoice>(word)) return *found;
     throw UsageError(fmt::format("--context {}: expected {}", word, alternatives<ContextChoice>()));
+}
+
+ContextChoice context_for_files(ContextChoice choice) {
+    if (choice != ContextChoice::automatic && choice != ContextChoice::cpu) {
+        fail(
+            "--context {}: the volume does not fit the memory limit of {} bytes, and OpenGL draws "
+            "volumes in memory alone: expected cpu, or more memory (--memory)",
+            name_of(choice), memory_limit());
+    }
+    return ContextChoice::cpu;
 }
 
 gl::ContextKind opengl_kind(const std::string& word) {

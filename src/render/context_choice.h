@@ -13,6 +13,10 @@ const char* name_of(ContextChoice choice);
 // The same; throws UsageError where the word is unknown.
 ContextChoice context_choice(const std::string& word);
 
+// What draws a volume that stays in its files: the native engine alone. Throws Error where OpenGL
+// is chosen.
+ContextChoice context_for_files(ContextChoice choice);
+
 // The choice of a verb that needs OpenGL: throws UsageError for words that name no OpenGL context.
 gl::ContextKind opengl_kind(const std::string& word);
 

@@ -13,8 +13,8 @@
 #include "plan/capabilities.h"
 #include "plan/plan.h"
 #include "render/drawing.h"
-#include "render/volume_data.h"
 #include "scene/scene_mesh.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 

@@ -6,7 +6,7 @@
 
 #include "plan/sample_trials.h"
 #include "render/drawing.h"
-#include "render/volume_data.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 

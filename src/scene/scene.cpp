@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/scene.h"
 
+#include "scene/scene_volume.h"
 #include "volume/generate.h"
 #include "volume_files/volume_file.h"
 
@@ -138,6 +139,12 @@ const char* name_of(OverRounding rounding) {
 Volume load_volume(const Scene& scene) {
     if (scene.volume_request) return generate(*scene.volume_request);
     return read_volume(scene.volume_file, scene.volume_selection);
+}
+
+Volume open_volume(const Scene& scene) {
+    if (scene.volume_request) return generate(*scene.volume_request);
+    return open_volume(scene.volume_file, scene.volume_selection,
+                       {.residence = VolumeUse::Residence::as_fits, .lit = scene.lighting.has_value()});
 }
 
 }  // namespace lamina

@@ -10,12 +10,14 @@
 
 #include "mesh/scalar_range.h"
 #include "scene/scene_mesh.h"
+#include "scene/scene_volume.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 namespace {
 
 ValueRange measured(const Scene& scene) {
-    if (scene.has_volume()) return measure_bricks(load_volume(scene)).whole;
+    if (scene.has_volume()) return VolumeData(open_volume(scene)).bricks.whole;
     return measure_range(load_mesh(scene).scalar.values).range;
 }
 

@@ -23,7 +23,8 @@ FileKind kind_of_file(const std::filesystem::path& file) {
                        (first != std::string::npos && beginning[first] == '{');
     if (scene) return FileKind::scene;
     fail(
-        "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
+        "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, "
+        ".pvd, .vtk, "
         ".node, .ele)",
         file.string(), volume_format_names());
 }

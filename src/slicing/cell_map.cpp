@@ -13,7 +13,7 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
     if (any == nullptr) return map;
     map.count = any->count;
     const std::size_t bricks = any->distance.size();
-    map.kinds.resize(bricks + 3);
+    map.kinds = SparseBytes(bricks, occupied != nullptr ? CellMap::farthest : 0);
     const auto reach = [](std::uint8_t distance) {
         return std::min<int>(distance, CellMap::farthest);
     };
@@ -21,9 +21,9 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
         const auto i = static_cast<std::size_t>(number);
         const int empty = occupied != nullptr ? reach(occupied->distance[i]) : 0;
         const int constant = varied != nullptr ? reach(varied->distance[i]) : 0;
-        map.kinds[i] = static_cast<std::uint8_t>(empty > 0      ? empty
-                                                 : constant > 0 ? CellMap::constant + constant
-                                                                : 0);
+        map.kinds.set(i, static_cast<std::uint8_t>(empty > 0      ? empty
+                                                   : constant > 0 ? CellMap::constant + constant
+                                                                  : 0));
     });
     return map;
 }

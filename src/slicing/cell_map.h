@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "base/sparse_bytes.h"
 #include "facts/constant_bricks.h"
 #include "facts/occupied_bricks.h"
 
@@ -17,9 +17,8 @@ struct CellMap {
     static constexpr int constant = 128, farthest = 127;
 
     std::array<std::int64_t, 3> count{};  // bricks along each axis
-    // One byte a brick, x fastest, and three more, because vectors read four at a time. Empty where
-    // all bricks are of kind 0.
-    std::vector<std::uint8_t> kinds;
+    // One byte a brick, x fastest. Empty where all bricks are of kind 0.
+    SparseBytes kinds;
 };
 
 // `occupied`, `varied` (ConstantBricks): of the same bricks; null where they are not used.

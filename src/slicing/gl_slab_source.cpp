@@ -33,7 +33,9 @@ gl::Texture upload_distances(const OccupiedBricks& bricks) {
     const int width = static_cast<int>(bricks.count[0]), height = static_cast<int>(bricks.count[1]);
     const int depth = static_cast<int>(bricks.count[2]);
     gl::Texture texture = gl::Texture::make_3d(gl::TextureFormat::r8, width, height, depth);
-    texture.upload({0, 0, 0, width, height, depth}, std::span<const std::uint8_t>(bricks.distance));
+    std::vector<std::uint8_t> distances(bricks.distance.size());
+    for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = bricks.distance[i];
+    texture.upload({0, 0, 0, width, height, depth}, std::span<const std::uint8_t>(distances));
     return texture;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/gl_volume_textures.h"
 
+#include "base/error.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "facts/drawn_range.h"
@@ -108,6 +110,12 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
       parts_(plan.bricks),
       float_texture_(plan.float_texture),
       filtered_(plan.sampling != VolumeSampling::fetch) {
+    if (!volume.in_memory()) {
+        fail(
+            "the volume does not fit the memory limit of {} bytes, and OpenGL draws volumes in "
+            "memory alone: expected the native engine, or more memory",
+            memory_limit());
+    }
     std::int64_t layers = 0;
     for (const TextureBrick& brick : parts_) layers += brick.size[2];
     Progress progress("uploading the volume", plan.lighting ? 2 * layers : layers);
@@ -128,7 +136,7 @@ VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, co
 // Codes are as they are in the volume, whatever its range.
 bool VolumeTextures::serves(const Volume& volume, const ValueRange& range,
                             const SlicePlan& plan) const {
-    return volume.data() == volume_.data() && plan.bricks == parts_ &&
+    return volume.shares_samples(volume_) && plan.bricks == parts_ &&
            plan.float_texture == float_texture_ && (!float_texture_ || range == range_) &&
            (plan.sampling != VolumeSampling::fetch) == filtered_ &&
            plan.lighting.has_value() == !gradients_.empty();

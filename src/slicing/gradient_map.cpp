@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/parallel.h"
+#include "volume/brick_cache.h"
 
 namespace lamina {
 namespace {
@@ -20,8 +21,12 @@ constexpr int exponent_bias = 1023, mantissa_bits = 52;  // of doubles
 template <typename Sample>
 class Differences {
   public:
-    Differences(const Grid& grid, const Sample* samples)
-        : samples_(samples), size_(grid.size), stride_{1, size_[0], size_[0] * size_[1]} {
+    // `window`: holds the samples that are asked for and their neighbours in the volume.
+    Differences(const Grid& grid, const SampleWindow<Sample>& window)
+        : samples_(window.samples),
+          first_(window.box.first),
+          size_(grid.size),
+          stride_{1, window.box.size[0], window.box.size[0] * window.box.size[1]} {
         for (std::size_t axis = 0; axis < 3; ++axis)
             per_step_[axis] = 1 / glm::length(grid.step[axis]);
     }
@@ -31,7 +36,7 @@ class Differences {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             index[axis] = std::clamp<std::int64_t>(index[axis], 0, size_[axis] - 1);
-            offset += index[axis] * stride_[axis];
+            offset += (index[axis] - first_[axis]) * stride_[axis];
         }
         std::array<double, 3> gradient{};
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -57,9 +62,14 @@ class Differences {
     }
 
     const Sample* samples_;
-    std::array<std::int64_t, 3> size_, stride_;
+    std::array<std::int64_t, 3> first_, size_, stride_;
     std::array<double, 3> per_step_{};
 };
+
+template <typename Sample>
+SampleWindow<Sample> whole_window(const Grid& grid, const Sample* samples) {
+    return {{{0, 0, 0}, grid.size}, samples};
+}
 
 double power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + exponent_bias)
@@ -91,12 +101,33 @@ void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64
                       std::int64_t z, std::span<StoredGradient> row) {
     assert(row.size() == static_cast<std::size_t>(part.size[0]));
     volume.visit([&](const auto* samples) {
-        const Differences differences(volume.grid(), samples);
+        const Differences differences(volume.grid(), whole_window(volume.grid(), samples));
         std::int64_t x = part.first[0];
         for (StoredGradient& stored : row)
             stored = store_gradient(differences.at({x++, part.first[1] + y, part.first[2] + z}));
     });
 }
+
+template <typename Sample>
+void set_page_gradients(const Grid& grid, const SampleWindow<Sample>& window,
+                        const std::array<std::int64_t, 3>& first, StoredGradient* to) {
+    const Differences differences(grid, window);
+    for (std::int64_t z = 0; z < BrickCache::samples; ++z) {
+        for (std::int64_t y = 0; y < BrickCache::samples; ++y) {
+            for (std::int64_t x = 0; x < BrickCache::samples; ++x)
+                *to++ = store_gradient(differences.at({first[0] + x, first[1] + y, first[2] + z}));
+        }
+    }
+}
+
+template void set_page_gradients(const Grid&, const SampleWindow<std::uint8_t>&,
+                                 const std::array<std::int64_t, 3>&, StoredGradient*);
+template void set_page_gradients(const Grid&, const SampleWindow<std::int16_t>&,
+                                 const std::array<std::int64_t, 3>&, StoredGradient*);
+template void set_page_gradients(const Grid&, const SampleWindow<std::uint16_t>&,
+                                 const std::array<std::int64_t, 3>&, StoredGradient*);
+template void set_page_gradients(const Grid&, const SampleWindow<float>&,
+                                 const std::array<std::int64_t, 3>&, StoredGradient*);
 
 std::vector<StoredGradient> make_gradient_map(const Volume& volume, const TextureBrick& part) {
     const auto row_size = static_cast<std::size_t>(part.size[0]);

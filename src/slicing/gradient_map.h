@@ -8,6 +8,7 @@
 
 #include "lamina/volume.h"
 #include "plan/plan.h"
+#include "volume/sample_window.h"
 
 namespace lamina {
 
@@ -31,6 +32,12 @@ StoredGradient store_gradient(const std::array<double, 3>& gradient);
 // the grid's axes, which are orthogonal: lights are turned into them. `row`: part.size[0] of them.
 void set_gradient_row(const Volume& volume, const TextureBrick& part, std::int64_t y,
                       std::int64_t z, std::span<StoredGradient> row);
+
+// The same of a brick of BrickCache: BrickCache::samples along each axis from `first` on, of a
+// window that holds one sample more on each side, where the volume has one.
+template <typename Sample>
+void set_page_gradients(const Grid& grid, const SampleWindow<Sample>& window,
+                        const std::array<std::int64_t, 3>& first, StoredGradient* to);
 
 // Those of all samples of a brick, x fastest.
 std::vector<StoredGradient> make_gradient_map(const Volume& volume, const TextureBrick& part);

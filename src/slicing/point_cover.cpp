@@ -23,7 +23,7 @@ std::vector<std::size_t> bricks_with_points(const MinMaxBricks& bricks,
     const auto knots = transfer_function.knots();
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < bricks.ranges.size(); ++i) {
-        const ValueRange range = bricks.ranges[i];
+        const ValueRange range = bricks.range(i);
         const auto point = std::ranges::lower_bound(knots, range.lo, {}, &TransferKnot::value);
         if (range.lo < range.hi && point != knots.end() && point->value <= range.hi)
             found.push_back(i);

@@ -44,6 +44,31 @@ HWY_INLINE void for_each_lane(std::uint32_t set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
+// For each set of eight lanes its members, a byte each, the first lowest.
+inline constexpr std::array<std::uint64_t, 256> members_of = [] {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned set = 0; set < 256; ++set) {
+        unsigned count = 0;
+        for (unsigned lane = 0; lane < 8; ++lane)
+            if ((set >> lane & 1) != 0) table[set] |= std::uint64_t{lane} << (8 * count++);
+    }
+    return table;
+}();
+
+// The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with a table
+// that lies in memory once: Highway 1.0.3 copies its own to the stack at every call.
+HWY_INLINE Floats members_first(Floats v, FloatMask members) {
+    if constexpr (hn::MaxLanes(FloatTag()) > 8) {
+        return hn::Compress(v, members);
+    } else {
+        const hn::Rebind<std::uint8_t, IntTag> bytes;
+        const auto* const from =
+            reinterpret_cast<const std::uint8_t*>(&members_of[bits_of(members)]);
+        const Ints lanes = hn::PromoteTo(IntTag(), hn::LoadU(bytes, from));
+        return hn::TableLookupLanes(v, hn::IndicesFromVec(FloatTag(), lanes));
+    }
+}
+
 // A set of lanes, and where the parts of its members are stored. Lanes outside the set have
 // any place.
 struct StoredLanes {
@@ -96,11 +121,11 @@ struct CellParts {
 
 // Stores the members of a vector one after the other from `to` on. It writes a whole vector.
 HWY_INLINE void store_members(Floats v, FloatMask members, float* to) {
-    hn::StoreU(hn::Compress(v, members), FloatTag(), to);
+    hn::StoreU(members_first(v, members), FloatTag(), to);
 }
 HWY_INLINE void store_members(Ints v, FloatMask members, std::int32_t* to) {
-    const IntTag di;
-    hn::StoreU(hn::Compress(v, hn::RebindMask(di, members)), di, to);
+    const Floats moved = members_first(hn::BitCast(FloatTag(), v), members);
+    hn::StoreU(hn::BitCast(IntTag(), moved), IntTag(), to);
 }
 
 // Takes what store_members() stored back to its lanes; the others become 0.

@@ -13,6 +13,7 @@
 
 #include "slicing/cell_map.h"
 #include "slicing/tile_cell_parts-inl.h"
+#include "slicing/tile_pages-inl.h"
 #include "slicing/tile_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -175,8 +176,9 @@ class CellWalk {
         const auto slice = static_cast<std::int32_t>(map_->count[0] * map_->count[1]);
         const Ints place = hn::Add(hn::Add(bricks[0], hn::Mul(bricks[1], hn::Set(di, row))),
                                    hn::Mul(bricks[2], hn::Set(di, slice)));
-        const auto* const words = reinterpret_cast<const std::int32_t*>(map_->kinds.data());
-        const Ints kind = hn::And(hn::GatherOffset(di, words, place), hn::Set(di, 255));
+        const auto* const words = reinterpret_cast<const std::int32_t*>(map_->kinds.coded());
+        const Ints code = hn::And(hn::GatherOffset(di, words, place), hn::Set(di, 255));
+        const Ints kind = hn::Xor(code, hn::Set(di, map_->kinds.background()));
         const auto lanes = hn::Gt(kind, hn::Zero(di));
         const auto constant = hn::Gt(kind, hn::Set(di, CellMap::farthest));
         return {!hn::AllFalse(di, lanes), hn::RebindMask(d, lanes),
@@ -218,15 +220,13 @@ class CellWalk {
         if (lanes.set == 0) return lanes;
         const IntTag di;
         const std::size_t at = parts.count;
-        const std::int32_t steps[3] = {1, view_->brick.row, view_->brick.slice};
-        Ints index = hn::Zero(di);
+        Ints samples[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // Beyond the first and the last sample the border value repeats.
             const Ints cell = cells[axis], last = hn::Set(di, last_[axis]);
             const Ints most = hn::Set(di, std::max(last_[axis] - 1, 0));
-            const Ints sample = hn::Min(hn::Max(cell, hn::Zero(di)), most);
+            const Ints sample = samples[axis] = hn::Min(hn::Max(cell, hn::Zero(di)), most);
             const auto between = hn::And(hn::Gt(cell, hn::Set(di, -1)), hn::Lt(cell, last));
-            index = hn::Add(index, hn::Mul(sample, hn::Set(di, steps[axis])));
             const Number largest(last_[axis] > 0 ? 1.0f : 0.0f);
             const Number share = place_in_cell(axis, hn::Sub(sample, cell_[axis]));
             store_members(min(max(share, Number(0)), largest).v, shown, parts.place[axis] + at);
@@ -236,7 +236,8 @@ class CellWalk {
         }
         for (std::size_t axis = 0; lit_ && axis < 3; ++axis)
             store_members(eye_.to_eye[axis].v, shown, parts.to_eye[axis] + at);
-        store_members(index, shown, parts.index + at);
+        store_members(cell_index(view_->brick, samples[0], samples[1], samples[2]), shown,
+                      parts.index + at);
         store_members((thickness * Number(rays_->length_float)).v, shown, parts.length + at);
         parts.count += static_cast<std::size_t>(std::popcount(lanes.set));
         prefetch(parts, at);
@@ -246,6 +247,7 @@ class CellWalk {
     // Parts beside each other mostly lie in the same lines of the cache.
     HWY_INLINE void prefetch(const CellParts& parts, std::size_t from) const {
         const TileBrick& brick = view_->brick;
+        if (brick.pages != nullptr) return;
         const auto* const samples = static_cast<const std::byte*>(brick.samples);
         const std::size_t bytes = bytes_of_sample(brick.layout);
         for (std::size_t i = from; i < parts.count; i += TileGrid::block) {

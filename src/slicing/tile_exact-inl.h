@@ -126,7 +126,8 @@ class CellIntegrator {
 
     void set_cubics() {
         const TileBrick& brick = view_->brick;
-        const bool flat = brick.last_sample[0] == 0;  // samples have no neighbour along x
+        // Samples have no neighbour along x; those of pages always have one.
+        const bool flat = brick.last_sample[0] == 0 && brick.pages == nullptr;
         switch (brick.layout) {
             case TileLayout::bytes:
                 return flat ? set_cubics_by_gathers<TileLayout::bytes>(brick)

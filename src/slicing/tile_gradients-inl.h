@@ -23,6 +23,25 @@ namespace lamina::HWY_NAMESPACE {
 // each of a cell's four rows along x, in the order of Corners.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
+// Of cells in pages, whose samples always have a neighbour along x.
+inline HWY_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
+                                               std::uint32_t lanes, GradientRows& rows) {
+    constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,
+                                      BrickCache::slice + BrickCache::row};
+    constexpr std::size_t size = sizeof(StoredGradient);
+    std::int32_t wanted[most_lanes];
+    std::size_t lane_of[most_lanes], count = 0;
+    for_each_lane(lanes, [&](std::size_t lane) {
+        wanted[count] = index[lane];
+        lane_of[count++] = lane;
+    });
+    visit_pages(pages, wanted, count, [&](std::size_t i, const std::byte* page, std::size_t place) {
+        const std::byte* const from = page + pages.gradients_at + size * place;
+        for (std::size_t row = 0; row < 4; ++row)
+            std::memcpy(rows[row] + 4 * lane_of[i], from + size * steps[row], 2 * size);
+    });
+}
+
 // Loads pairs one by one, which is faster than gathers, for a set of lanes; the others keep what
 // they have. Where samples have no neighbour along x, they are their own.
 inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int32_t* index,
@@ -31,6 +50,7 @@ inline HWY_NOINLINE void fetch_gradients(const TileBrick& brick, const std::int3
                                   static_cast<std::size_t>(brick.slice),
                                   static_cast<std::size_t>(brick.row + brick.slice)};
     constexpr std::size_t size = sizeof(StoredGradient);
+    if (brick.pages != nullptr) return fetch_paged_gradients(*brick.pages, index, lanes, rows);
     const bool pairs = brick.last_sample[0] > 0;
     for_each_lane(lanes, [&](std::size_t lane) {
         const StoredGradient* const from = brick.gradients + static_cast<std::size_t>(index[lane]);

@@ -19,6 +19,7 @@ namespace lamina::HWY_NAMESPACE {
 
 // Fetches the gradients ahead, of one pixel in each row and column.
 HWY_INLINE void prefetch_gradients(const TileBrick& brick, const std::int32_t* index) {
+    if (brick.pages != nullptr) return;
     for (std::size_t lane = 0; lane < hn::Lanes(FloatTag()); lane += TileGrid::block + 1) {
         const auto* const at = brick.gradients + static_cast<std::size_t>(index[lane]);
         __builtin_prefetch(at);

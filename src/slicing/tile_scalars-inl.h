@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "base/unreachable.h"
+#include "slicing/tile_pages-inl.h"
 #include "slicing/tile_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,6 +95,7 @@ struct PairOf<TileLayout::words> {
 template <class Pair, std::size_t size>
 inline HWY_NOINLINE void fetch_pairs(const TileBrick& brick, const std::int32_t* indices,
                                      std::size_t count, Pair (&pairs)[4][size]) {
+    if (brick.pages != nullptr) return fetch_paged_pairs(*brick.pages, indices, count, pairs);
     const auto* const samples = static_cast<const std::byte*>(brick.samples);
     constexpr std::size_t bytes = sizeof(Pair) / 2;
     const std::size_t row = bytes * static_cast<std::size_t>(brick.row);
@@ -171,8 +173,7 @@ HWY_INLINE Cell cell_at(const TileBrick& brick, const Points& points) {
     };
     const Ints x = lower_along(0, points.x), y = lower_along(1, points.y),
                z = lower_along(2, points.z);
-    cell.index = hn::Add(hn::Add(x, hn::Mul(y, hn::Set(di, brick.row))),
-                         hn::Mul(z, hn::Set(di, brick.slice)));
+    cell.index = cell_index(brick, x, y, z);
     return cell;
 }
 
@@ -196,6 +197,7 @@ HWY_INLINE Floats scalar_in(const TileBrick& brick, Corners corners, const Float
 // it.
 template <TileLayout layout>
 HWY_INLINE void prefetch_cells(const TileBrick& brick, const std::int32_t* indices) {
+    if (brick.pages != nullptr) return;
     constexpr std::size_t bytes = bytes_of_sample(layout);
     const auto* const samples = static_cast<const std::byte*>(brick.samples);
     const std::size_t slice = bytes * static_cast<std::size_t>(brick.slice);
@@ -265,7 +267,7 @@ HWY_INLINE void sample_points(const TileBrick& brick, bool hardware, int first, 
                               const PointAt& point_at, float* scalars) {
     const auto sample = [&](auto kind_of_layout) HWY_ATTR {
         constexpr TileLayout layout = decltype(kind_of_layout)::value;
-        if (brick.last_sample[0] > 0)
+        if (brick.last_sample[0] > 0 || brick.pages != nullptr)
             return sample_in_stages<layout, kind>(brick, hardware, first, end, point_at, scalars);
         sample_by_gathers<layout, kind>(brick, hardware, first, end, point_at, scalars);
     };

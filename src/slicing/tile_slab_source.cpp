@@ -12,6 +12,7 @@
 #include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
+#include "slicing/shown_pages.h"
 #include "slicing/texture_bricks.h"
 
 namespace lamina {
@@ -69,6 +70,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         volume_ = std::make_shared<TileVolume>(volume, unit, plan_);
         upload_ms_ = upload.end();
     }
+    if (volume_->pages() != nullptr) shown_pages_ = pages_shown(*volume_, occupied_);
     set_light();
 }
 
@@ -95,6 +97,7 @@ void TileSlabSource::take_plan() {
 void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     set_rays(view, slabs);
     slabs_.bricks.clear();
+    load_pages(view);
     if (plan_.bricks.size() == 1) {
         add_brick(0, view, slabs);
         return;
@@ -103,6 +106,16 @@ void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     const Order order = plan_.has_tree(NodeArithmetic::shader) ? Order::front_to_back : plan_.order;
     set_visibility_order(plan_.bricks, grid_, view, order, order_);
     for (const std::size_t number : order_) add_brick(number, view, slabs);
+}
+
+// What this view shows, if that fits the memory: it is read on all cores, in the order of the
+// files. Else pages are read when rays come to them.
+void TileSlabSource::load_pages(const View& view) const {
+    if (!volume_ || volume_->pages() == nullptr) return;
+    const BrickCache& cache = *volume_->pages();
+    const std::vector<std::uint32_t> seen =
+        pages_seen(shown_pages_, cache.count(), volume_->first_of_pages(), grid_, view);
+    if (cache.fits(seen.size())) cache.load_ahead(seen);
 }
 
 void TileSlabSource::set_rays(const View& view, const Slabs& slabs) {
@@ -146,6 +159,10 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     brick.drawn.min -= first;
     brick.drawn.max -= first;
     slabs_.bricks.push_back(brick);
+}
+
+void TileSlabSource::check_unchanged() const {
+    if (volume_) volume_->check_unchanged();
 }
 
 std::int64_t TileSlabSource::byte_count() const {

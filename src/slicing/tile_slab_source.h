@@ -28,6 +28,9 @@ class TileSlabSource {
 
     const std::shared_ptr<const TileVolume>& volume() const { return volume_; }
 
+    // Throws Error where the files of a volume that stays in them have changed.
+    void check_unchanged() const;
+
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
     std::int64_t byte_count() const;
@@ -36,6 +39,7 @@ class TileSlabSource {
     void set_light();
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
+    void load_pages(const View& view) const;
 
     const SlicePlan& plan_;
     Grid grid_;
@@ -45,6 +49,7 @@ class TileSlabSource {
     bool cells_leave_out_empty_ = false;  // views differ in this
     std::optional<TileTransfer> transfer_;
     std::shared_ptr<const TileVolume> volume_;
+    std::vector<std::uint32_t> shown_pages_;  // that hold something to see, of a paged volume
     std::optional<TileLight> light_;
     TileSlabs slabs_;
     std::vector<std::size_t> order_;  // order of the bricks

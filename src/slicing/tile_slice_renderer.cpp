@@ -78,6 +78,7 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     });
     drawing.count("samples", static_cast<double>(samples_));
     draw_ms_ = drawing.end();
+    source_->check_unchanged();
 }
 
 std::int64_t TileSliceRenderer::draw_tile(int number) {

@@ -27,7 +27,11 @@ void for_each_row(const TextureBrick& part, const Visit& visit) {
 }  // namespace
 
 TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
-    : volume_(volume), range_(range), parts_(plan.bricks), float_texture_(plan.float_texture) {
+    : volume_(volume),
+      range_(range),
+      parts_(plan.bricks),
+      float_texture_(plan.float_texture),
+      lit_(plan.lighting.has_value()) {
     const bool whole = plan.bricks.size() == 1;
     for (const TextureBrick& part : plan.bricks) {
         TileBrick brick;
@@ -39,17 +43,22 @@ TileVolume::TileVolume(const Volume& volume, const ValueRange& range, const Slic
         brick.row = part.size[1] > 1 ? static_cast<std::int32_t>(part.size[0]) : 0;
         brick.slice = part.size[2] > 1 ? static_cast<std::int32_t>(part.size[0] * part.size[1]) : 0;
         normalise(range, brick);
+        if (!volume.in_memory()) {
+            bricks_.push_back(brick);
+            continue;
+        }
         if (whole && brick.layout != TileLayout::floats && volume.byte_count() >= 4) {
             refer_to_volume(brick);
         } else {
             copy_brick(part, brick);
         }
-        if (plan.lighting) {
+        if (lit_) {
             gradients_.push_back(make_gradient_map(volume, part));
             brick.gradients = gradients_.back().data();
         }
         bricks_.push_back(brick);
     }
+    if (!volume.in_memory()) page();
 }
 
 // As GL reads codes: code / largest, int16 from 0 on.
@@ -104,8 +113,8 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
 
 bool TileVolume::serves(const Volume& volume, const ValueRange& range,
                         const SlicePlan& plan) const {
-    return volume.data() == volume_.data() && range == range_ && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_ && plan.lighting.has_value() == !gradients_.empty();
+    return volume.shares_samples(volume_) && range == range_ && plan.bricks == parts_ &&
+           plan.float_texture == float_texture_ && plan.lighting.has_value() == lit_;
 }
 
 std::int64_t TileVolume::byte_count() const {
@@ -113,6 +122,7 @@ std::int64_t TileVolume::byte_count() const {
     for (const auto& map : gradients_)
         bytes += static_cast<std::int64_t>(sizeof(StoredGradient) * map.size());
     for (const auto& copy : copies_) bytes += static_cast<std::int64_t>(4 * copy.size());
+    if (cache_ != nullptr) bytes += static_cast<std::int64_t>(cache_->resident_bytes());
     return bytes;
 }
 

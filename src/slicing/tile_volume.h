@@ -3,13 +3,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/unreachable.h"
 #include "lamina/volume.h"
 #include "plan/plan.h"
 #include "slicing/gradient_map.h"
+#include "slicing/tile_pages.h"
 #include "volume/min_max_bricks.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 
@@ -45,9 +49,13 @@ struct TileBrick {
     // instead; then it is interpolated value * unit_scale + offset.
     float scale = 1, offset = 0, unit = 1, unit_scale = 1;
     const StoredGradient* gradients = nullptr;  // of lit volumes (slicing/gradient_map.h)
+    // Where the samples, and the gradients, are not all in memory: indices are those of pages then,
+    // and the pointers above are null.
+    const TilePages* pages = nullptr;
 };
 
-// The bricks of a plan. They may refer to the volume's own samples, which are kept alive.
+// The bricks of a plan. They may refer to the volume's own samples, which are kept alive. Those of
+// a volume that stays in its files are pages.
 class TileVolume {
   public:
     // `range`: the scalars that become [0, 1]; lo < hi.
@@ -57,20 +65,40 @@ class TileVolume {
     bool serves(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
+    // The pages of a volume that is not in memory; null where it is.
+    const BrickCache* pages() const { return cache_; }
+    // The sample of the volume, on each axis, with which the first page begins: -1 where bricks
+    // have a border.
+    const std::array<std::int64_t, 3>& first_of_pages() const { return parts_.front().first; }
+    // Throws Error where the files of a volume that stays in them have changed.
+    void check_unchanged() const { lamina::check_unchanged(volume_); }
     std::int64_t byte_count() const;  // memory beside the volume's own
 
   private:
     void copy_brick(const TextureBrick& part, TileBrick& brick);
     void refer_to_volume(TileBrick& brick);
+    void page();
+    void make_own_pages();
+    void fill_own_pages(std::span<const BrickCache::Wanted> wanted) const;
+    template <typename Sample>
+    void set_page_samples(const SampleWindow<Sample>& window,
+                          const std::array<std::int64_t, 3>& first, std::byte* to) const;
+    TilePages pages_of(const TextureBrick& part) const;
+    void share_memory(BrickCache& cache) const;
     void normalise(const ValueRange& range, TileBrick& brick) const;
 
     Volume volume_;
     ValueRange range_;
     std::vector<TextureBrick> parts_;
     bool float_texture_;
+    bool lit_;
     std::vector<std::vector<std::uint32_t>> copies_;
     std::vector<std::vector<StoredGradient>> gradients_;  // where the plan is lit
     std::vector<TileBrick> bricks_;
+    // Of a volume that is not in memory. Pages are the store's own where their form is the same.
+    std::unique_ptr<BrickCache> own_cache_;
+    const BrickCache* cache_ = nullptr;
+    std::vector<TilePages> pages_;
 };
 
 }  // namespace lamina

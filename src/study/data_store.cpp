@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/json_text.h"
+#include "scene/scene_volume.h"
 #include "scene_files/volume_selection_json.h"
 #include "study/picture_key.h"
 #include "volume/generate.h"
@@ -40,7 +41,7 @@ std::string mesh_name(const Scene& scene) {
 const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
     std::unique_ptr<StoredVolume>& stored = volumes_[volume_name(scene)];
     if (!stored) {
-        Volume volume = load_volume(scene);
+        Volume volume = open_volume(scene);
         std::string content = content_of(volume);
         stored = std::make_unique<StoredVolume>(StoredVolume{
             std::make_shared<const VolumeData>(std::move(volume)), std::move(content)});

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "render/volume_data.h"
 #include "study/traced_mesh.h"
+#include "volume/volume_data.h"
 
 namespace lamina::study {
 

@@ -5,6 +5,7 @@
 
 #include "base/content_hash.h"
 #include "scene/half_space.h"
+#include "volume/volume_store.h"
 
 namespace lamina::study {
 namespace {
@@ -65,7 +66,10 @@ std::string content_of(const Volume& volume) {
         hash.add(static_cast<double>(grid.size[axis]));
         hash.add(static_cast<double>(grid.centering[axis]));
     }
-    hash.add(volume.data(), volume.byte_count());
+    if (volume.in_memory())
+        hash.add(volume.data(), volume.byte_count());
+    else
+        hash.add(volume.store().source().identity());
     return hash.hex();
 }
 

@@ -16,7 +16,7 @@ Scene chosen_for(const Scene& scene, DataStore& data) {
     if (scene.draws_mesh() && !scene.mesh_file.empty())
         return choose(scene, MeshField(*data.mesh(scene).data.data()));
     const VolumeData& volume = *data.volume(scene).data;
-    return choose(scene, VolumeField(volume.volume, volume.bricks));
+    return choose(scene, VolumeField(volume));
 }
 
 std::unique_ptr<SceneRenderer> frames_of(const Scene& asked, DataStore& data,

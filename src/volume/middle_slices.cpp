@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "image/pixel_text.h"
+#include "volume/sample_access.h"
 
 namespace lamina {
 namespace {
@@ -58,9 +59,10 @@ std::string title_of(const Slice& slice, const Grid& grid) {
 }
 
 // Draws a slice with its bottom left pixel at (left, bottom).
-template <typename T>
-void draw_slice(const Grid& grid, const T* samples, const ValueRange& range, const Slice& slice,
-                const std::array<int, 3>& pixels, int left, int bottom, CodedImage& image) {
+template <typename Samples>
+void draw_slice(const Grid& grid, const Samples& samples, const ValueRange& range,
+                const Slice& slice, const std::array<int, 3>& pixels, int left, int bottom,
+                CodedImage& image) {
     std::array<std::int64_t, 3> index{grid.size[0] / 2, grid.size[1] / 2, grid.size[2] / 2};
     const auto nearest = [&](std::size_t axis, std::int64_t pixel) {
         return (2 * pixel + 1) * grid.size[axis] / (2 * pixels[axis]);
@@ -93,7 +95,7 @@ CodedImage middle_slices(const Volume& volume, const ValueRange& range) {
     fill_rectangle(image, 0, 0, image.width, image.height, paper);
     for (std::size_t i = 0; i < slice_axes.size(); ++i) {
         draw_text(image, left[i], room, title_of(slice_axes[i], grid), letter_dot, ink);
-        volume.visit([&](const auto* samples) {
+        visit_samples(volume, [&](const auto& samples) {
             draw_slice(grid, samples, range, slice_axes[i], pixels, left[i], bottom, image);
         });
     }

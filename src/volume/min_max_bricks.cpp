@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/parallel.h"
+#include "volume/volume_index.h"
 
 namespace lamina {
 namespace {
@@ -34,11 +35,15 @@ struct Extrema {
         }
     }
 
-    MinMaxBricks::Range range(std::int64_t first, std::int64_t count) const {
-        const T least = *std::min_element(lo.begin() + first, lo.begin() + first + count);
-        const T most = *std::max_element(hi.begin() + first, hi.begin() + first + count);
-        if (least > most) return {};
-        return {static_cast<float>(least), static_cast<float>(most)};
+    void set_range(std::int64_t first, std::int64_t count, std::size_t number,
+                   BrickRanges& ranges) const {
+        T least = *std::min_element(lo.begin() + first, lo.begin() + first + count);
+        T most = *std::max_element(hi.begin() + first, hi.begin() + first + count);
+        if (least > most) {
+            least = 1;
+            most = 0;
+        }
+        if (least != 0 || most != 0) ranges.set(number, least, most);
     }
 
     std::vector<T> lo, hi;
@@ -57,57 +62,97 @@ std::int64_t bricks_along(std::int64_t samples) {
     return std::max<std::int64_t>(1, (samples - 1 + edge - 1) / edge);
 }
 
-// Measures all bricks of one row along x; returns how many non-finite samples the row owns. A brick
-// owns its samples but the last along each axis, which the next brick owns where there is one.
-template <typename T>
-std::int64_t measure_row(const Grid& grid, const T* samples, std::int64_t by, std::int64_t bz,
-                         MinMaxBricks& bricks) {
-    const auto [nx, ny, nz] = grid.size;
-    const std::int64_t y_end = std::min(ny, (by + 1) * edge + 1);
-    const std::int64_t z_end = std::min(nz, (bz + 1) * edge + 1);
-    const std::int64_t owned_y_end = by + 1 == bricks.count[1] ? ny : (by + 1) * edge;
-    const std::int64_t owned_z_end = bz + 1 == bricks.count[2] ? nz : (bz + 1) * edge;
-    Extrema<T> row(static_cast<std::size_t>(nx));
-    std::int64_t non_finite = 0;
-    for (std::int64_t z = bz * edge; z < z_end; ++z) {
-        for (std::int64_t y = by * edge; y < y_end; ++y) {
-            const T* const line = samples + (z * ny + y) * nx;
-            row.include(line);
-            if (y < owned_y_end && z < owned_z_end) non_finite += count_non_finite(line, nx);
-        }
-    }
-    MinMaxBricks::Range* const out =
-        &bricks.ranges[static_cast<std::size_t>((bz * bricks.count[1] + by) * bricks.count[0])];
-    for (std::int64_t bx = 0; bx < bricks.count[0]; ++bx)
-        out[bx] = row.range(bx * edge, std::min(edge + 1, nx - bx * edge));
-    return non_finite;
-}
-
-void include(ValueRange& whole, const ValueRange& part) {
-    if (part.empty()) return;
-    whole =
-        whole.empty() ? part : ValueRange{std::min(whole.lo, part.lo), std::max(whole.hi, part.hi)};
+// The samples that a block's bricks touch on an axis, and those of them that they own: all but the
+// last, which the next brick owns where there is one.
+struct Touched {
+    std::int64_t begin, end, owned_end;
+};
+Touched touched(const Grid& grid, const MinMaxBricks& bricks, std::size_t axis, std::int64_t first,
+                std::int64_t count) {
+    const std::int64_t samples = grid.size[axis], last = first + count;
+    const std::int64_t end = std::min(samples, last * edge + 1);
+    return {first * edge, end, last == bricks.count[axis] ? samples : last * edge};
 }
 
 }  // namespace
 
-MinMaxBricks measure_bricks(const Volume& volume) {
+ValueRange joined(const ValueRange& a, const ValueRange& b) {
+    if (a.empty() || b.empty()) return a.empty() ? b : a;
+    return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
+
+MinMaxBricks MinMaxBricks::of(const Grid& grid, SampleType type) {
     MinMaxBricks bricks;
-    for (int axis = 0; axis < 3; ++axis)
-        bricks.count[axis] = bricks_along(volume.grid().size[axis]);
-    bricks.ranges.resize(
-        static_cast<std::size_t>(bricks.count[0] * bricks.count[1] * bricks.count[2]));
-    const std::int64_t rows = bricks.count[1] * bricks.count[2];
-    std::vector<std::int64_t> non_finite(static_cast<std::size_t>(rows));
-    volume.visit([&](const auto* samples) {
-        parallel_for(rows, 16, [&](std::int64_t row) {
-            non_finite[static_cast<std::size_t>(row)] = measure_row(
-                volume.grid(), samples, row % bricks.count[1], row / bricks.count[1], bricks);
-        });
-    });
-    for (const std::int64_t count : non_finite) bricks.non_finite += count;
-    for (const MinMaxBricks::Range& range : bricks.ranges) include(bricks.whole, range);
+    for (std::size_t axis = 0; axis < 3; ++axis) bricks.count[axis] = bricks_along(grid.size[axis]);
+    bricks.ranges = BrickRanges(
+        static_cast<std::size_t>(bricks.count[0] * bricks.count[1] * bricks.count[2]), type);
     return bricks;
 }
+
+template <typename T>
+BlockExtent measure_block(const Grid& grid, const SampleWindow<T>& window,
+                          const std::array<std::int64_t, 3>& first,
+                          const std::array<std::int64_t, 3>& count, MinMaxBricks& bricks) {
+    BlockExtent extent;
+    const Touched x = touched(grid, bricks, 0, first[0], count[0]);
+    for (std::int64_t bz = first[2]; bz < first[2] + count[2]; ++bz) {
+        const Touched z = touched(grid, bricks, 2, bz, 1);
+        for (std::int64_t by = first[1]; by < first[1] + count[1]; ++by) {
+            const Touched y = touched(grid, bricks, 1, by, 1);
+            Extrema<T> row(static_cast<std::size_t>(x.end - x.begin));
+            for (std::int64_t k = z.begin; k < z.end; ++k) {
+                for (std::int64_t j = y.begin; j < y.end; ++j) {
+                    const T* const line = window.row(j, k) + (x.begin - window.box.first[0]);
+                    row.include(line);
+                    if (j < y.owned_end && k < z.owned_end)
+                        extent.non_finite += count_non_finite(line, x.owned_end - x.begin);
+                }
+            }
+            std::size_t number =
+                static_cast<std::size_t>((bz * bricks.count[1] + by) * bricks.count[0] + first[0]);
+            for (std::int64_t bx = 0; bx < count[0]; ++bx, ++number) {
+                row.set_range(bx * edge, std::min(edge + 1, x.end - x.begin - bx * edge), number,
+                              bricks.ranges);
+                extent.whole = joined(extent.whole, bricks.range(number));
+            }
+        }
+    }
+    return extent;
+}
+
+MinMaxBricks measure_bricks(const Volume& volume) {
+    if (!volume.in_memory()) return index_of(volume).bricks;
+    const Grid& grid = volume.grid();
+    MinMaxBricks bricks = MinMaxBricks::of(grid, volume.type());
+    const std::int64_t rows = bricks.count[1] * bricks.count[2];
+    std::vector<BlockExtent> extents(static_cast<std::size_t>(rows));
+    volume.visit([&](const auto* samples) {
+        const SampleWindow<std::remove_cvref_t<decltype(*samples)>> window{{{0, 0, 0}, grid.size},
+                                                                           samples};
+        parallel_for(rows, 16, [&](std::int64_t row) {
+            extents[static_cast<std::size_t>(row)] =
+                measure_block(grid, window, {0, row % bricks.count[1], row / bricks.count[1]},
+                              {bricks.count[0], 1, 1}, bricks);
+        });
+    });
+    for (const BlockExtent& extent : extents) {
+        bricks.whole = joined(bricks.whole, extent.whole);
+        bricks.non_finite += extent.non_finite;
+    }
+    return bricks;
+}
+
+template BlockExtent measure_block(const Grid&, const SampleWindow<std::uint8_t>&,
+                                   const std::array<std::int64_t, 3>&,
+                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
+template BlockExtent measure_block(const Grid&, const SampleWindow<std::int16_t>&,
+                                   const std::array<std::int64_t, 3>&,
+                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
+template BlockExtent measure_block(const Grid&, const SampleWindow<std::uint16_t>&,
+                                   const std::array<std::int64_t, 3>&,
+                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
+template BlockExtent measure_block(const Grid&, const SampleWindow<float>&,
+                                   const std::array<std::int64_t, 3>&,
+                                   const std::array<std::int64_t, 3>&, MinMaxBricks&);
 
 }  // namespace lamina

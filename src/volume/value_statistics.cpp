@@ -6,10 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <type_traits>
+#include <memory>
+#include <mutex>
 
 #include "base/parallel.h"
 #include "volume/code_counts.h"
+#include "volume/volume_store.h"
 
 namespace lamina {
 namespace {
@@ -48,9 +50,36 @@ std::size_t key_of_rank(const Counts& counts, std::int64_t rank) {
     return ranked_key(counts, rank).key;
 }
 
+// Adds up what `count_part(samples, count, counts)` counts in parts of the samples, in parallel: of
+// those that stay in their files, layer by layer.
+template <typename CountPart>
+Counts count_floats(const Volume& volume, std::size_t counters, const CountPart& count_part) {
+    const Grid& grid = volume.grid();
+    if (volume.in_memory()) {
+        const auto* const samples = static_cast<const float*>(volume.data());
+        return count_in_parts(
+            grid.sample_count(), counters,
+            [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
+                count_part(samples + first, end - first, into);
+            });
+    }
+    Counts total(counters);
+    std::mutex adding;
+    const std::int64_t layer = grid.size[0] * grid.size[1];
+    parallel_for(grid.size[2], 1, [&](std::int64_t z) {
+        const auto samples =
+            std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(layer));
+        volume.store().source().read({{0, 0, z}, {grid.size[0], grid.size[1], 1}}, samples.get());
+        std::vector<std::uint32_t> counts(counters);
+        count_part(samples.get(), layer, counts);
+        const std::scoped_lock lock(adding);
+        for (std::size_t i = 0; i < counters; ++i) total[i] += counts[i];
+    });
+    return total;
+}
+
 // The values with these ranks. `leading`: how many samples have which leading bits.
-std::vector<double> values_of_ranks(const float* samples, std::int64_t count,
-                                    std::span<const std::int64_t> leading,
+std::vector<double> values_of_ranks(const Volume& volume, std::span<const std::int64_t> leading,
                                     const std::vector<std::int64_t>& ranks) {
     std::vector<RankedKey> wanted;
     for (const std::int64_t rank : ranks) wanted.push_back(ranked_key(leading, rank));
@@ -59,10 +88,10 @@ std::vector<double> values_of_ranks(const float* samples, std::int64_t count,
     for (const RankedKey& one : wanted) {
         if (keys.empty() || keys.back() != one.key) keys.push_back(one.key);
     }
-    const Counts rests = count_in_parts(
-        count, keys.size() * FloatKeys::rest_count,
-        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
-            for (std::int64_t i = first; i < end; ++i) {
+    const Counts rests = count_floats(
+        volume, keys.size() * FloatKeys::rest_count,
+        [&](const float* samples, std::int64_t count, std::vector<std::uint32_t>& into) {
+            for (std::int64_t i = 0; i < count; ++i) {
                 if (!std::isfinite(samples[i])) continue;
                 const auto place = std::ranges::lower_bound(keys, FloatKeys::leading(samples[i]));
                 if (place == keys.end() || *place != FloatKeys::leading(samples[i])) continue;
@@ -81,19 +110,17 @@ std::vector<double> values_of_ranks(const float* samples, std::int64_t count,
     return values;
 }
 
-template <typename T>
-ValueStatistics measure_whole(const T* samples, std::int64_t count) {
-    const Counts counts = count_codes(samples, count);
+// `lowest`: the value that is counted first.
+ValueStatistics measure_whole(const Counts& counts, int lowest) {
     ValueStatistics found;
-    found.count = count;
-    const auto value_of = [](std::size_t key) {
-        return static_cast<double>(key) + std::numeric_limits<T>::min();
-    };
+    for (const std::int64_t count : counts) found.count += count;
+    const auto value_of = [&](std::size_t key) { return static_cast<double>(key) + lowest; };
     for (const int place : ValueStatistics::places)
         found.percentiles.push_back(
-            value_of(key_of_rank(counts, ValueStatistics::rank(place, count))));
+            value_of(key_of_rank(counts, ValueStatistics::rank(place, found.count))));
 
-    const std::size_t lo = key_of_rank(counts, 1), values = key_of_rank(counts, count) - lo + 1;
+    const std::size_t lo = key_of_rank(counts, 1),
+                      values = key_of_rank(counts, found.count) - lo + 1;
     constexpr auto most = static_cast<std::size_t>(Histogram::most_intervals);
     const std::size_t width = (values + most - 1) / most;
     found.histogram.counts.resize((values + width - 1) / width);
@@ -103,21 +130,21 @@ ValueStatistics measure_whole(const T* samples, std::int64_t count) {
     return found;
 }
 
-ValueStatistics measure_floats(const float* samples, std::int64_t count, const ValueRange& range) {
+ValueStatistics measure_floats(const Volume& volume, const ValueRange& range) {
     ValueStatistics found;
     if (range.empty()) return found;
     found.histogram = Histogram::of_range(range);
     // The leading bits, then the intervals.
-    const Counts counts =
-        count_in_parts(count, FloatKeys::leading_count + found.histogram.counts.size(),
-                       [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
-                           for (std::int64_t i = first; i < end; ++i) {
-                               if (!std::isfinite(samples[i])) continue;
-                               ++into[FloatKeys::leading(samples[i])];
-                               const auto value = static_cast<double>(samples[i]);
-                               ++into[FloatKeys::leading_count + found.histogram.place(value)];
-                           }
-                       });
+    const Counts counts = count_floats(
+        volume, FloatKeys::leading_count + found.histogram.counts.size(),
+        [&](const float* samples, std::int64_t count, std::vector<std::uint32_t>& into) {
+            for (std::int64_t i = 0; i < count; ++i) {
+                if (!std::isfinite(samples[i])) continue;
+                ++into[FloatKeys::leading(samples[i])];
+                const auto value = static_cast<double>(samples[i]);
+                ++into[FloatKeys::leading_count + found.histogram.place(value)];
+            }
+        });
     for (std::size_t i = 0; i < found.histogram.counts.size(); ++i) {
         found.histogram.counts[i] = counts[FloatKeys::leading_count + i];
         found.count += found.histogram.counts[i];
@@ -126,22 +153,19 @@ ValueStatistics measure_floats(const float* samples, std::int64_t count, const V
     for (const int place : ValueStatistics::places)
         ranks.push_back(ValueStatistics::rank(place, found.count));
     found.percentiles = values_of_ranks(
-        samples, count, std::span<const std::int64_t>(counts).first(FloatKeys::leading_count),
-        ranks);
+        volume, std::span<const std::int64_t>(counts).first(FloatKeys::leading_count), ranks);
     for (double& value : found.percentiles) value += 0.0;  // makes a zero without a sign
     return found;
 }
 
 }  // namespace
 
-ValueStatistics measure_values(const Volume& volume, const ValueRange& range) {
-    const std::int64_t count = volume.grid().sample_count();
-    return volume.visit([&](const auto* samples) {
-        if constexpr (std::is_same_v<decltype(samples), const float*>)
-            return measure_floats(samples, count, range);
-        else
-            return measure_whole(samples, count);
-    });
+ValueStatistics measure_values(const VolumeData& data) {
+    const Volume& volume = data.volume;
+    if (volume.type() == SampleType::float32) return measure_floats(volume, data.bricks.whole);
+    const int lowest =
+        volume.type() == SampleType::int16 ? std::numeric_limits<std::int16_t>::min() : 0;
+    return measure_whole(data.values ? data.values->codes : count_values(volume).codes, lowest);
 }
 
 ValueStatistics measure_values(std::span<const double> values) {

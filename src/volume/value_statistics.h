@@ -8,6 +8,7 @@
 
 #include "lamina/volume.h"
 #include "volume/histogram.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 
@@ -30,9 +31,8 @@ struct ValueStatistics {
 };
 
 // Exact. In one parallel pass for samples of 8 and 16 bits, where the histogram's edges are whole
-// numbers, and an interval as many values. For float32 in two, with 4 MiB a thread. `range`: of the
-// finite samples.
-ValueStatistics measure_values(const Volume& volume, const ValueRange& range);
+// numbers, and an interval as many values. For float32 in two, with 4 MiB a thread.
+ValueStatistics measure_values(const VolumeData& data);
 
 // Exact; takes as much memory as the values.
 ValueStatistics measure_values(std::span<const double> values);

@@ -196,9 +196,13 @@ bool is_metaimage(const Path& path) {
 }
 
 Volume read_metaimage(const Path& path, const VolumeRequest& request) {
+    return open_metaimage(path, request, {});
+}
+
+Volume open_metaimage(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     const MetaImage image(path);
     const Grid grid = image.grid();
-    return drawn_volume(grid, read_stored(image.data(request)));
+    return open_stored(grid, image.data(request), use);
 }
 
 std::vector<Path> files_of_metaimage(const Path& path) {

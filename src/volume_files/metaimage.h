@@ -7,6 +7,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -21,6 +22,10 @@ bool is_metaimage(const std::filesystem::path& path);
 Volume read_metaimage(const std::filesystem::path& path, const VolumeRequest& request);
 
 // The file and its data files. Throws Error.
+// The same; it may stay in its files (volume_files/volume_opening.h).
+Volume open_metaimage(const std::filesystem::path& path, const VolumeRequest& request,
+                      const VolumeUse& use);
+
 std::vector<std::filesystem::path> files_of_metaimage(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -3,7 +3,6 @@
 
 #include "base/file_bytes.h"
 #include "volume_files/nrrd_header.h"
-#include "volume_files/stored_samples.h"
 
 namespace lamina {
 
@@ -12,8 +11,13 @@ bool is_nrrd(const std::filesystem::path& path) {
 }
 
 Volume read_nrrd(const std::filesystem::path& path, const VolumeRequest& request) {
+    return open_nrrd(path, request, {});
+}
+
+Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use) {
     const NrrdHeader header = read_nrrd_header(path, request);
-    return drawn_volume(header.grid, read_stored(header.data));
+    return open_stored(header.grid, header.data, use);
 }
 
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -24,6 +25,10 @@ bool is_nrrd(const std::filesystem::path& path);
 Volume read_nrrd(const std::filesystem::path& path, const VolumeRequest& request = {});
 
 // The file and its data files. Throws Error.
+// The same; it may stay in its files (volume_files/volume_opening.h).
+Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
+
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -8,6 +8,11 @@
 namespace lamina {
 
 Volume read_raw(const std::filesystem::path& path, const VolumeRequest& request) {
+    return open_raw(path, request, {});
+}
+
+Volume open_raw(const std::filesystem::path& path, const VolumeRequest& request,
+                const VolumeUse& use) {
     const RawLayout& raw = *request.raw;
     const auto type = value_type_of(raw.type);
     if (!type) {
@@ -26,7 +31,7 @@ Volume read_raw(const std::filesystem::path& path, const VolumeRequest& request)
     set_byte_order(data, raw.big_endian);
     data.files = {path};
     data.byte_skip = raw.offset;
-    return drawn_volume(plain_grid(raw.size), read_stored(data));
+    return open_stored(plain_grid(raw.size), data, use);
 }
 
 }  // namespace lamina

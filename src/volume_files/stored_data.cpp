@@ -85,6 +85,16 @@ class StoredReader {
         return samples;
     }
 
+    std::vector<std::int64_t> raw_offsets() const {
+        std::vector<std::int64_t> offsets;
+        for (const Path& path : data_.files) {
+            const OpenedFile file = open(path);
+            skip_bytes(file.get());
+            offsets.push_back(ftello(file.get()));
+        }
+        return offsets;
+    }
+
   private:
     OpenedFile open(const Path& path) const {
         OpenedFile file = open_to_read(path, data_.offset);
@@ -247,6 +257,10 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
 StoredSamples read_stored(const StoredData& data) {
     say_taken(data.path.string(), data.axes);
     return StoredReader(data).read();
+}
+
+std::vector<std::int64_t> raw_data_offsets(const StoredData& data) {
+    return StoredReader(data).raw_offsets();
 }
 
 }  // namespace lamina

@@ -45,4 +45,7 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
 // hold what the header promises; a warning counts what they hold more. Throws Error.
 StoredSamples read_stored(const StoredData& data);
 
+// Of raw data: the byte of each file with which its samples begin. Checks as read_stored() does.
+std::vector<std::int64_t> raw_data_offsets(const StoredData& data);
+
 }  // namespace lamina

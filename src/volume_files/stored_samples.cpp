@@ -27,12 +27,17 @@ void for_parts(std::int64_t count, const Part& part) {
                  [&](std::int64_t i) { part(i * chunk, std::min(count, (i + 1) * chunk)); });
 }
 
-template <typename Word, typename Swap>
-void swap_words(void* samples, std::int64_t count, Swap swap) {
-    auto* const words = static_cast<Word*>(samples);
-    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t i = begin; i < end; ++i) words[i] = swap(words[i]);
-    });
+template <typename Word>
+void turn_words(void* memory, std::int64_t count) {
+    auto* const words = static_cast<Word*>(memory);
+    for (std::int64_t i = 0; i < count; ++i) {
+        if constexpr (sizeof(Word) == 2)
+            words[i] = __builtin_bswap16(words[i]);
+        else if constexpr (sizeof(Word) == 4)
+            words[i] = __builtin_bswap32(words[i]);
+        else
+            words[i] = __builtin_bswap64(words[i]);
+    }
 }
 
 template <typename T>
@@ -201,34 +206,38 @@ std::shared_ptr<void> sample_memory(std::size_t bytes) {
 }
 
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes) {
-    if (word_bytes == 2) {
-        swap_words<std::uint16_t>(words, count,
-                                  [](std::uint16_t w) { return __builtin_bswap16(w); });
-    } else if (word_bytes == 4) {
-        swap_words<std::uint32_t>(words, count,
-                                  [](std::uint32_t w) { return __builtin_bswap32(w); });
-    } else if (word_bytes == 8) {
-        swap_words<std::uint64_t>(words, count,
-                                  [](std::uint64_t w) { return __builtin_bswap64(w); });
+    if (word_bytes == 1) return;
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        swap_bytes_alone(static_cast<char*>(words) + static_cast<std::size_t>(begin) * word_bytes,
+                         end - begin, word_bytes);
+    });
+}
+
+void swap_bytes_alone(void* words, std::int64_t count, std::size_t word_bytes) {
+    if (word_bytes == 2) turn_words<std::uint16_t>(words, count);
+    if (word_bytes == 4) turn_words<std::uint32_t>(words, count);
+    if (word_bytes == 8) turn_words<std::uint64_t>(words, count);
+}
+
+std::optional<SampleType> drawn_type(ValueType type) {
+    switch (type) {
+        case ValueType::uint8:
+            return SampleType::uint8;
+        case ValueType::int16:
+            return SampleType::int16;
+        case ValueType::uint16:
+            return SampleType::uint16;
+        case ValueType::float32:
+            return SampleType::float32;
+        default:
+            return std::nullopt;
     }
 }
 
 Volume drawn_volume(const Grid& grid, const StoredSamples& samples) {
     const bool plain = samples.scale == 1 && samples.offset == 0;
-    if (plain) {
-        switch (samples.type) {
-            case ValueType::uint8:
-                return Volume(grid, SampleType::uint8, samples.bytes);
-            case ValueType::int16:
-                return Volume(grid, SampleType::int16, samples.bytes);
-            case ValueType::uint16:
-                return Volume(grid, SampleType::uint16, samples.bytes);
-            case ValueType::float32:
-                return Volume(grid, SampleType::float32, samples.bytes);
-            default:
-                break;
-        }
-    }
+    if (const auto type = drawn_type(samples.type); plain && type)
+        return Volume(grid, *type, samples.bytes);
     return with_type(samples.type, [&](auto zero) {
         using From = decltype(zero);
         return plain ? narrowed<From>(grid, samples) : scaled<From>(grid, samples);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/value_type.h"
@@ -24,8 +25,13 @@ struct StoredSamples {
 // Throws std::bad_alloc.
 std::shared_ptr<void> sample_memory(std::size_t bytes);
 
-// Turns round the bytes of each of `count` words of 1, 2, 4 or 8 bytes.
+// Turns round the bytes of each of `count` words of 1, 2, 4 or 8 bytes: on all cores, or in this
+// thread alone.
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);
+void swap_bytes_alone(void* words, std::int64_t count, std::size_t word_bytes);
+
+// The type of the volume, where samples are drawn as they are.
+std::optional<SampleType> drawn_type(ValueType type);
 
 // The volume that is drawn. uint8, int16, uint16 and float samples stay as they are, int8 become
 // int16. Other integers, and integers scaled by integers, become the first of uint8, int16, uint16

@@ -16,7 +16,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr VolumeFormat raw_format{"raw", {}, {}, read_raw, {}, false, false, false, false};
+constexpr VolumeFormat raw_format{"raw", {},    {},    read_raw, {},
+                                  false, false, false, false,    open_raw};
 
 const VolumeFormat& expected_format(const Path& path) {
     const VolumeFormat* const format = format_of(path);
@@ -49,7 +50,7 @@ Volume placed(const Path& path, const Volume& volume, const VolumeRequest& reque
     }
     if (request.origin) grid.origin = *request.origin;
     check_grid(path.string(), grid, {"spacing", "origin"});
-    return Volume(grid, volume.type(), volume.shared_data());
+    return volume.on(grid);
 }
 
 }  // namespace
@@ -59,13 +60,17 @@ bool is_volume_file(const Path& path) {
 }
 
 Volume read_volume(const Path& path, const VolumeRequest& request) {
-    if (request.raw) {
-        expect_known_keys(path, raw_format, request);
-        return placed(path, read_raw(path, request), request);
-    }
-    const VolumeFormat& format = expected_format(path);
+    return open_volume(path, request, {});
+}
+
+Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
+    const VolumeFormat& format = request.raw ? raw_format : expected_format(path);
     expect_known_keys(path, format, request);
-    return placed(path, format.read(path, request), request);
+    if (format.open == nullptr && use.residence == VolumeUse::Residence::in_files)
+        expect_room(path.string(), 0, use, fmt::format("{} is read as a whole", format.name));
+    return placed(
+        path, format.open != nullptr ? format.open(path, request, use) : format.read(path, request),
+        request);
 }
 
 std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request) {

@@ -7,6 +7,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -17,6 +18,9 @@ bool is_volume_file(const std::filesystem::path& path);
 // was expected. What was taken of several, rounded or left over is said in warnings
 // (base/warning.h).
 Volume read_volume(const std::filesystem::path& path, const VolumeRequest& request = {});
+// The same for a volume that may stay in its files.
+Volume open_volume(const std::filesystem::path& path, const VolumeRequest& request,
+                   const VolumeUse& use);
 
 // The file and those that reading it means, too. Where it cannot be read, it alone.
 std::vector<std::filesystem::path> files_of_volume(const std::filesystem::path& path,

@@ -22,8 +22,17 @@ using Path = std::filesystem::path;
 
 // Content decides, in this order.
 constexpr VolumeFormat formats[] = {
-    {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, read_nrrd, files_of_nrrd, false, false, true, true},
-    {"Zarr", {".zarr"}, is_zarr, read_zarr, files_of_zarr, true, true, true, true},
+    {"NRRD",
+     {".nrrd", ".nhdr"},
+     is_nrrd,
+     read_nrrd,
+     files_of_nrrd,
+     false,
+     false,
+     true,
+     true,
+     open_nrrd},
+    {"Zarr", {".zarr"}, is_zarr, read_zarr, files_of_zarr, true, true, true, true, open_zarr},
 #ifdef LAMINA_HAS_HDF5
     {"HDF5", {".h5", ".hdf5", ".nc"}, is_hdf5, read_hdf5, files_of_hdf5, true, false, true, true},
 #endif
@@ -48,7 +57,8 @@ constexpr VolumeFormat formats[] = {
      false,
      false,
      true,
-     true},
+     true,
+     open_metaimage},
     {"NIfTI",
      {".nii", ".nii.gz", ".hdr", ".img"},
      is_nifti,

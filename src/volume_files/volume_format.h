@@ -7,6 +7,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -23,6 +24,10 @@ struct VolumeFormat {
     std::vector<std::filesystem::path> (*files)(const std::filesystem::path& path);
     // Whether such files may hold several of these; read() then heeds the request's key.
     bool has_arrays, has_levels, has_channels, has_times;
+    // The same as `read` for volumes that may stay in their files; null where such files are always
+    // read as a whole.
+    Volume (*open)(const std::filesystem::path& path, const VolumeRequest& request,
+                   const VolumeUse& use) = nullptr;
 };
 
 std::span<const VolumeFormat> volume_formats();

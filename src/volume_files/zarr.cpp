@@ -9,11 +9,13 @@
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/parallel.h"
+#include "base/warning.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/ome_zarr.h"
 #include "volume_files/stored_axes.h"
 #include "volume_files/stored_samples.h"
-#include "volume_files/zarr_array.h"
+#include "volume_files/zarr_source.h"
 
 namespace lamina {
 namespace {
@@ -113,6 +115,20 @@ PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRe
     return placed;
 }
 
+// All that is selected, in native byte order.
+std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
+    const std::size_t bytes = chunks.selected_bytes();
+    const std::shared_ptr<void> memory = sample_memory(bytes);
+    const auto& size = chunks.size();
+    const SampleBox whole{{0, 0, 0}, {size[2], size[1], size[0]}};
+    parallel_for(chunks.count(), 1, [&](std::int64_t chunk) {
+        chunks.copy(chunks.decoded(chunk), chunk, whole, static_cast<char*>(memory.get()));
+    });
+    const ZarrArray& array = chunks.array();
+    if (array.swap) swap_bytes(memory.get(), whole.count(), bytes_of(array.type));
+    return memory;
+}
+
 }  // namespace
 
 bool is_zarr(const Path& path) {
@@ -123,6 +139,10 @@ bool is_zarr(const Path& path) {
 }
 
 Volume read_zarr(const Path& path, const VolumeRequest& request) {
+    return open_zarr(path, request, {});
+}
+
+Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     ZarrImage image = image_in(path, request);
     const ZarrArray array = read_zarray(image.folder);
     if (image.axes.empty()) {
@@ -136,11 +156,18 @@ Volume read_zarr(const Path& path, const VolumeRequest& request) {
              (image.folder / ".zarray").string(), array.shape.size(), image.axes.size());
     }
     const PlacedArray placed = place(array, image, request);
-    StoredSamples samples;
-    samples.file = image.folder.string();
-    samples.type = array.type;
-    samples.bytes = read_zarr_samples(array, placed.selection);
-    return drawn_volume(placed.grid, samples);
+    ZarrChunks chunks(array, placed.selection);
+    if (chunks.missing() > 0) {
+        warn(fmt::format("{}: {} of {} chunks are not there: they have the fill value {}",
+                         array.folder.string(), chunks.missing(), chunks.count(), array.fill));
+    }
+    const auto type = drawn_type(array.type);
+    if (!type)
+        expect_room(path.string(), chunks.selected_bytes(), use,
+                    fmt::format("its samples are of type {}", name_of(array.type)));
+    else if (stays_in_files(placed.grid, *type, use))
+        return stored_volume(placed.grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
+    return drawn_volume(placed.grid, {image.folder.string(), array.type, samples_of(chunks)});
 }
 
 std::vector<Path> files_of_zarr(const Path& path) {

@@ -6,6 +6,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -18,6 +19,10 @@ bool is_zarr(const std::filesystem::path& path);
 Volume read_zarr(const std::filesystem::path& path, const VolumeRequest& request);
 
 // All files of the folder.
+// The same; it may stay in its files (volume_files/volume_opening.h).
+Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
+
 std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
 
 }  // namespace lamina

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,9 +39,5 @@ struct ZarrSelection {
     std::array<int, 3> axes{-1, -1, -1};  // of z, y, x
     std::vector<std::int64_t> index;      // of each axis of the array; those of `axes` do not count
 };
-
-// The samples, x fastest, in native byte order; those of missing chunks have the fill value. Throws
-// Error.
-std::shared_ptr<void> read_zarr_samples(const ZarrArray& array, const ZarrSelection& selection);
 
 }  // namespace lamina

@@ -22,11 +22,11 @@ void for_each_brick(const Place& count, const Visit& visit) {
 OccupiedBricks with_shown(const Place& count, const std::vector<Place>& shown) {
     OccupiedBricks bricks;
     bricks.count = count;
-    bricks.distance.assign(static_cast<std::size_t>(count[0] * count[1] * count[2]),
-                           OccupiedBricks::farthest);
+    bricks.distance = SparseBytes(static_cast<std::size_t>(count[0] * count[1] * count[2]),
+                                  OccupiedBricks::farthest);
     for (const Place& at : shown) {
-        bricks.distance[static_cast<std::size_t>((at[2] * count[1] + at[1]) * count[0] + at[0])] =
-            0;
+        bricks.distance.set(
+            static_cast<std::size_t>((at[2] * count[1] + at[1]) * count[0] + at[0]), 0);
     }
     bricks.measure_distances();
     return bricks;
@@ -66,7 +66,7 @@ TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
 
 TEST(OccupiedBricks, AllAreFarFromNothing) {
     const OccupiedBricks bricks = with_shown({3, 4, 5}, {});
-    EXPECT_EQ(std::ranges::count(bricks.distance, OccupiedBricks::farthest), 60);
+    EXPECT_EQ(bricks.distance.count(OccupiedBricks::farthest), 60u);
     EXPECT_FALSE(bricks.any_in({-9, -9, -9}, {99, 99, 99}));
 }
 

@@ -52,7 +52,7 @@ void expect_counts(const Histogram& histogram, const std::vector<double>& values
 }
 
 ValueStatistics measured(const Volume& volume) {
-    return measure_values(volume, measure_bricks(volume).whole);
+    return measure_values(VolumeData(volume));
 }
 
 TEST(ValueStatistics, WholeNumbersAreExact) {

@@ -5,6 +5,7 @@
 #include "clamped_colors.h"
 #include "gl/memory.h"
 #include "gl/query.h"
+#include "render/context_choice.h"
 #include "render/picture_warnings.h"
 
 namespace lamina {
@@ -14,7 +15,8 @@ FrameJob::FrameJob(const RenderRequest& request, std::unique_ptr<FrameMethod> me
 
 Plan FrameJob::plan(RenderStats& stats) {
     Stage opening("context");
-    context_.emplace(request_.context);
+    const bool in_files = request_.data.volume && !request_.data.volume->volume.in_memory();
+    context_.emplace(in_files ? context_for_files(request_.context) : request_.context);
     current_ = context_->make_current();
     stats.stages_ms["context"] = opening.end();
     stats.renderer = context_->capabilities().renderer;

@@ -12,6 +12,7 @@
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "file_report.h"
+#include "memory_option.h"
 #include "mesh_files/mesh_file.h"
 #include "raw_options.h"
 #include "scene_files.h"
@@ -76,6 +77,7 @@ void add_info(CLI::App& app, int& exit_code) {
     verb->add_option("FILE", options->file,
                      "Volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
+    add_memory_option(*verb);
     add_raw_options(*verb, options->raw);
     verb->add_flag("--json", options->json, "Print JSON instead of a table");
     verb->add_option(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "render/volume_data.h"
 #include "render_job.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 

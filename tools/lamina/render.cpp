@@ -15,6 +15,7 @@
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
 #include "data_series.h"
+#include "memory_option.h"
 #include "named_output.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
@@ -184,6 +185,7 @@ void add_render(CLI::App& app, int&) {
             "LAMINA_INSTRUCTIONS=SSE4, AVX2, AVX3 or NEON keeps it to these instructions, and it "
             "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)")
         ->option_text("auto|osmesa|egl|cpu");
+    add_memory_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         if (options->output.output.empty() && !options->explain) {

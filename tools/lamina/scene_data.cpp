@@ -6,6 +6,7 @@
 #include "base/stage.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
+#include "scene/scene_volume.h"
 #include "scene_files/scene_json.h"
 
 namespace lamina {
@@ -17,7 +18,7 @@ bool leaves_nothing_open(const Scene& scene, const Wishes& wishes) {
 
 std::shared_ptr<const VolumeData> load_volume_data(const Scene& scene, RenderStats& stats) {
     Stage loading("load");
-    Volume volume = load_volume(scene);
+    Volume volume = open_volume(scene);
     stats.stages_ms["load"] = loading.end();
     Stage measuring("measure");
     Stage measuring_bricks("bricks");
@@ -45,7 +46,7 @@ void choose(Scene& scene, const Field& field, const Wishes& wishes, RenderStats&
 
 std::unique_ptr<Field> SceneData::field() const {
     if (mesh) return std::make_unique<MeshField>(*mesh);
-    return std::make_unique<VolumeField>(volume->volume, volume->bricks);
+    return std::make_unique<VolumeField>(*volume);
 }
 
 // A mesh that is made from a volume follows the transfer function, which the volume decides.
@@ -58,7 +59,7 @@ SceneData load_data(Scene& scene, const Wishes& wishes, RenderStats& stats) {
     }
     if (scene.mesh_file.empty() && !leaves_nothing_open(scene, wishes)) {
         const auto volume = load_volume_data(scene, stats);
-        choose(scene, VolumeField(volume->volume, volume->bricks), wishes, stats);
+        choose(scene, VolumeField(*volume), wishes, stats);
         Stage loading("load");
         data.mesh = std::make_shared<const SceneMesh>(scene_mesh(scene, volume->volume));
         stats.stages_ms["load"] += loading.end();
@@ -73,7 +74,7 @@ void choose_for_volume(Scene& scene) {
     if (leaves_nothing_open(scene, {})) return;
     RenderStats ignored;
     const auto volume = load_volume_data(scene, ignored);
-    choose(scene, VolumeField(volume->volume, volume->bricks), {}, ignored);
+    choose(scene, VolumeField(*volume), {}, ignored);
 }
 
 nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document) {

@@ -8,9 +8,9 @@
 #include "choice/choose.h"
 #include "choice/field.h"
 #include "lamina/scene.h"
-#include "render/volume_data.h"
 #include "render_stats.h"
 #include "scene/scene_mesh.h"
+#include "volume/volume_data.h"
 
 namespace lamina {
 

@@ -16,6 +16,7 @@
 #include "command_line.h"
 #include "different_files.h"
 #include "git_commit.h"
+#include "memory_option.h"
 #include "output_folder.h"
 #include "render/context_choice.h"
 #include "scene_files.h"
@@ -186,6 +187,7 @@ void add_study(CLI::App& app, int&) {
         ->type_name("FOLDER");
     verb->add_flag("--yes", options->yes,
                    fmt::format("Run it though it has more than {} runs", study::most_runs_unasked));
+    add_memory_option(*verb);
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {

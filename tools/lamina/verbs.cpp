@@ -11,6 +11,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
     add_mesh(app, exit_code);
     add_generate(app, exit_code);
     add_info(app, exit_code);
+    add_index(app, exit_code);
     add_integrate(app, exit_code);
     add_order(app, exit_code);
     add_reproduce(app, exit_code);

@@ -15,6 +15,7 @@ void add_view(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_mesh(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
+void add_index(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_integrate(CLI::App& app, int& exit_code);
 void add_scene(CLI::App& app, int& exit_code);

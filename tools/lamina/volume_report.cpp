@@ -11,6 +11,7 @@
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_statistics.h"
+#include "volume/volume_data.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -56,9 +57,9 @@ nlohmann::ordered_json report_on_volume(const std::string& file, const std::stri
                                         const VolumeRequest& request) {
     std::optional<AtomicFile> picture;  // first: a path that cannot be written fails at once
     if (!png.empty()) picture.emplace(png);
-    const Volume volume = read_volume(file, request);
-    const MinMaxBricks bricks = measure_bricks(volume);
-    const ValueStatistics statistics = measure_values(volume, bricks.whole);
+    const VolumeData data(open_volume(file, request, {.residence = VolumeUse::Residence::as_fits}));
+    const auto& [volume, bricks, values] = data;
+    const ValueStatistics statistics = measure_values(data);
     if (picture) {
         write_png(*picture, picture_of(volume, bricks.whole, statistics));
         picture->commit();

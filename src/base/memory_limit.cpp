@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/memory_limit.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+
+namespace lamina {
+namespace {
+
+std::atomic<std::uint64_t> told_limit{0};
+
+std::uint64_t memory_of_machine() {
+    const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    std::uint64_t bytes = page * static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
+    // "max", or no such file, where the control group has no limit.
+    std::uint64_t group = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> group) bytes = std::min(bytes, group);
+    return bytes;
+}
+
+}  // namespace
+
+std::uint64_t memory_limit() {
+    static const std::uint64_t machine = memory_of_machine();
+    const std::uint64_t told = told_limit.load();
+    return told > 0 ? told : machine / 2;
+}
+
+void set_memory_limit(std::uint64_t bytes) {
+    told_limit.store(bytes);
+}
+
+bool memory_limit_is_told() {
+    return told_limit.load() > 0;
+}
+
+std::uint64_t resident_memory() {
+    std::uint64_t pages = 0, resident = 0;
+    if (!(std::ifstream("/proc/self/statm") >> pages >> resident)) return 0;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t memory_left() {
+    const std::uint64_t allowed = memory_limit() + own_memory, taken = resident_memory();
+    return allowed - std::min(allowed, taken);
+}
+
+}  // namespace lamina

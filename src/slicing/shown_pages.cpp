@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slicing/shown_pages.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "base/parallel.h"
+
+namespace lamina {
+namespace {
+
+// The pages on one axis that hold cells of a brick.
+struct PageSpan {
+    std::int64_t first, last;
+};
+PageSpan pages_of_brick(std::int64_t brick, std::int64_t first_sample, std::int64_t pages) {
+    constexpr std::int64_t edge = MinMaxBricks::edge;
+    const std::int64_t begin = brick * edge - first_sample;
+    // The outermost bricks also stand for what lies beyond the samples.
+    const std::int64_t from = brick == 0 ? 0 : begin / BrickCache::edge;
+    const std::int64_t to = (begin + edge) / BrickCache::edge;
+    return {std::min(from, pages - 1), std::min(to, pages - 1)};
+}
+
+// How far a point lies outside each of a view's five planes: behind the eye, and beside the
+// picture's edges by a pixel and more. Below 0: inside.
+std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
+    const glm::dvec3 way = point - view.eye;
+    const double depth = glm::dot(way, view.forward);
+    const double across = glm::dot(way, view.right), up = glm::dot(way, view.up);
+    const double scale = view.projection == Projection::perspective ? depth : 1;
+    const double half_width = (0.5 * view.width + 1) * view.pixel * scale;
+    const double half_height = (0.5 * view.height + 1) * view.pixel * scale;
+    return {-depth, across - half_width, -across - half_width, up - half_height, -up - half_height};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied) {
+    const BrickCache& cache = *volume.pages();
+    const auto& count = cache.count();
+    std::vector<std::uint8_t> shown(cache.brick_count());
+    const auto mark = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+        const auto span = [&](std::size_t axis, std::int64_t brick) {
+            return pages_of_brick(brick, volume.first_of_pages()[axis], count[axis]);
+        };
+        const PageSpan across = span(0, x), along = span(1, y), deep = span(2, z);
+        for (std::int64_t pz = deep.first; pz <= deep.last; ++pz) {
+            for (std::int64_t py = along.first; py <= along.last; ++py) {
+                for (std::int64_t px = across.first; px <= across.last; ++px)
+                    shown[cache.number(px, py, pz)] = 1;
+            }
+        }
+    };
+    for (std::int64_t z = 0; z < occupied.count[2]; ++z) {
+        for (std::int64_t y = 0; y < occupied.count[1]; ++y) {
+            const std::size_t row = occupied.place(0, y, z);
+            for (std::int64_t x = 0; x < occupied.count[0]; ++x) {
+                if (occupied.distance[row + static_cast<std::size_t>(x)] == 0) mark(x, y, z);
+            }
+        }
+    }
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t page = 0; page < shown.size(); ++page)
+        if (shown[page] != 0) numbers.push_back(page);
+    return numbers;
+}
+
+std::vector<std::uint32_t> pages_seen(const std::vector<std::uint32_t>& pages,
+                                      const std::array<std::int64_t, 3>& count,
+                                      const std::array<std::int64_t, 3>& first, const Grid& grid,
+                                      const View& view) {
+    std::vector<std::uint32_t> seen;
+    for (const std::uint32_t page : pages) {
+        const glm::dvec3 place{page % count[0], page / count[0] % count[1],
+                               page / (count[0] * count[1])};
+        const glm::dvec3 begin =
+            glm::dvec3(first[0], first[1], first[2]) + place * double{BrickCache::edge};
+        std::array<double, 5> least;
+        least.fill(1);
+        for (int corner = 0; corner < 8; ++corner) {
+            // A sample more on each side, for what lies beyond the volume's samples.
+            const glm::dvec3 step{corner & 1, corner >> 1 & 1, corner >> 2};
+            const glm::dvec3 at = begin - 1.0 + step * double(BrickCache::edge + 2);
+            const auto outside = outside_of(view, grid.to_world(at));
+            for (std::size_t i = 0; i < least.size(); ++i)
+                least[i] = corner == 0 ? outside[i] : std::min(least[i], outside[i]);
+        }
+        if (std::ranges::all_of(least, [](double by) { return by <= 0; })) seen.push_back(page);
+    }
+    return seen;
+}
+
+}  // namespace lamina

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "facts/occupied_bricks.h"
+#include "lamina/grid.h"
+#include "scene/camera.h"
+#include "slicing/tile_volume.h"
+
+namespace lamina {
+
+// The numbers of the pages of a volume with cells in bricks that show something, ascending.
+std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied);
+
+// Those of them that the view may see. `count`: pages along each axis; `first`: the volume's sample
+// with which the first begins.
+std::vector<std::uint32_t> pages_seen(const std::vector<std::uint32_t>& pages,
+                                      const std::array<std::int64_t, 3>& count,
+                                      const std::array<std::int64_t, 3>& first, const Grid& grid,
+                                      const View& view);
+
+}  // namespace lamina

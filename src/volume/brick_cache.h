@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "base/reserved_memory.h"
+
+namespace lamina {
+
+// A volume in bricks of edge^3 cells, of which as many are in memory as it may take; the least
+// recently used ones make room for others. A brick has one more sample along each axis than cells,
+// so that each cell lies in one brick; beyond the volume's last sample that repeats. Safe from any
+// thread.
+class BrickCache {
+  public:
+    static constexpr std::int64_t edge = 32, shift = 5;
+    static constexpr std::int64_t samples = edge + 1;  // along each axis
+    static constexpr std::int64_t row = samples, slice = samples * samples;
+    static constexpr std::int64_t sample_count = samples * samples * samples;
+
+    struct Wanted {
+        std::uint32_t brick;
+        std::byte* to;
+    };
+    // Fills bricks, in ascending order, of which several may lie beside each other along x. It is
+    // called from several threads at a time, and may throw.
+    using Fill = std::function<void(std::span<const Wanted>)>;
+
+    // `size`: samples of the volume along each axis.
+    BrickCache(const std::array<std::int64_t, 3>& size, std::size_t brick_bytes, Fill fill);
+
+    const std::array<std::int64_t, 3>& count() const { return count_; }
+    std::uint32_t brick_count() const { return static_cast<std::uint32_t>(slots_.size()); }
+    std::uint32_t number(std::int64_t x, std::int64_t y, std::int64_t z) const {  // of bricks
+        return static_cast<std::uint32_t>((z * count_[1] + y) * count_[0] + x);
+    }
+
+    // How much memory bricks may take; at least `fewest_bytes()` are taken. What is in memory
+    // already stays there.
+    void set_capacity(std::uint64_t bytes);
+    std::uint64_t capacity() const;
+    static constexpr std::size_t most_held = 64;  // bricks in one call of hold()
+    std::uint64_t fewest_bytes() const;
+    std::uint64_t resident_bytes() const;
+    bool fits(std::size_t bricks) const { return bricks * brick_bytes_ <= capacity(); }
+
+    // While a hold lives, its bricks stay in memory.
+    using Hold = std::unique_lock<std::mutex>;
+    // Holds the bricks number_of(i), i = 0 .. count - 1, of which at most most_held differ. A
+    // thread holds once at a time. It reads what is missing.
+    template <typename NumberOf>
+    Hold hold(std::size_t count, const NumberOf& number_of) const {
+        std::array<std::uint32_t, most_held> missing;
+        while (true) {
+            Hold held(stripe());
+            std::size_t lacking = 0;
+            std::uint32_t before = no_brick;
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::uint32_t brick = number_of(i);
+                if (brick == before) continue;
+                before = brick;
+                if (slots_[brick].load(std::memory_order_acquire) == no_slot) {
+                    if (lacking < most_held) missing[lacking++] = brick;
+                } else {
+                    used_[brick].store(clock_.load(std::memory_order_relaxed),
+                                       std::memory_order_relaxed);
+                }
+            }
+            if (lacking == 0) return held;
+            held.unlock();
+            load(std::span(missing).first(lacking));
+        }
+    }
+    // Of a brick that is held.
+    const std::byte* at(std::uint32_t brick) const {
+        return memory_.data() +
+               std::size_t{slots_[brick].load(std::memory_order_relaxed)} * brick_bytes_;
+    }
+
+    void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
+    // Reads bricks that are to be used soon, if they are not in memory, in ascending order on all
+    // cores. As many as fit.
+    void load_ahead(std::span<const std::uint32_t> bricks) const;
+    // How many bricks were read so far.
+    std::int64_t bricks_read() const { return bricks_read_.load(); }
+
+  private:
+    static constexpr std::uint32_t no_slot = ~std::uint32_t{0}, no_brick = ~std::uint32_t{0};
+
+    struct alignas(64) Stripe {
+        std::mutex mutex;
+    };
+
+    std::mutex& stripe() const;
+    void load(std::span<std::uint32_t> bricks) const;
+    std::vector<Wanted> claim(std::span<const std::uint32_t> bricks) const;
+    void publish(std::span<const Wanted> bricks, bool filled) const;
+    std::uint32_t take_slot(std::unique_lock<std::mutex>& lock) const;
+    void evict() const;
+    std::uint32_t slot_of(const std::byte* at) const;
+
+    std::array<std::int64_t, 3> count_{};
+    std::size_t brick_bytes_;
+    Fill fill_;
+    mutable std::vector<std::atomic<std::uint32_t>> slots_;  // of each brick
+    mutable std::vector<std::atomic<std::uint32_t>> used_;   // when last, by the clock, each brick
+    mutable std::atomic<std::uint32_t> clock_{0};            // counts calls of fill_
+    mutable std::atomic<std::int64_t> bricks_read_{0};
+    mutable std::array<Stripe, 32> stripes_;
+
+    mutable std::mutex access_;  // of all below
+    mutable std::condition_variable changed_;
+    mutable ReservedMemory memory_;
+    std::uint32_t capacity_ = 0;                     // in slots
+    mutable std::vector<std::uint32_t> owners_;      // the brick of each slot that was made
+    mutable std::vector<std::uint32_t> free_;        // slots
+    mutable std::vector<std::uint32_t> being_read_;  // bricks
+};
+
+}  // namespace lamina

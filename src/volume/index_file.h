@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "volume/volume_index.h"
+
+namespace lamina {
+
+// A volume's index in a file: a header in text, which ends with the line "end"; the values' counts
+// or values; and the ranges of bricks in pieces, each behind a byte that says whether the piece is
+// 0 and left out. Numbers are those of a little-endian machine. `identity`: of the samples
+// (SampleSource).
+void write_index_file(const std::filesystem::path& file, const std::string& identity,
+                      const Grid& grid, SampleType type, const VolumeIndex& index);
+
+// Nothing where the file is not there, is damaged, or is of other samples; `stale` then says
+// whether it is a whole index of others.
+struct FoundIndex {
+    std::optional<VolumeIndex> index;
+    bool stale = false;
+};
+FoundIndex read_index_file(const std::filesystem::path& file, const std::string& identity,
+                           const Grid& grid, SampleType type);
+
+}  // namespace lamina

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lamina {
+
+// The samples first .. first + size - 1 of a grid.
+struct SampleBox {
+    std::array<std::int64_t, 3> first{0, 0, 0};
+    std::array<std::int64_t, 3> size{1, 1, 1};
+
+    std::int64_t count() const { return size[0] * size[1] * size[2]; }
+};
+
+// Samples of a volume that stay in files and are read when they are needed. Safe from any thread.
+class SampleSource {
+  public:
+    SampleSource() = default;
+    virtual ~SampleSource() = default;
+    SampleSource(const SampleSource&) = delete;
+    SampleSource& operator=(const SampleSource&) = delete;
+
+    // Reads a box inside the volume, in the volume's type and native byte order, x fastest. Throws
+    // Error where the files do not have it any more.
+    virtual void read(const SampleBox& box, void* to) const = 0;
+
+    // Boxes of this size, and on multiples of it, are read at the least cost. 0: any size.
+    virtual std::array<std::int64_t, 3> block() const { return {0, 0, 0}; }
+
+    // The most bytes that it keeps in memory.
+    virtual std::uint64_t memory() const { return 0; }
+
+    // Whether all samples of the box are 0, as far as that is known without reading them: true of
+    // holes in sparse files.
+    virtual bool known_as_zero(const SampleBox& /*box*/) const { return false; }
+
+    // Throws Error where the files have changed since they were opened.
+    virtual void check_unchanged() const = 0;
+
+    // The file or folder that stands for them, and the names of all files with what of them is
+    // taken.
+    virtual std::filesystem::path main_file() const = 0;
+    virtual std::string name() const = 0;
+    // Tells these samples, as they are now, from others: also by the files' sizes and times, and a
+    // hash of some samples.
+    virtual std::string identity() const = 0;
+};
+
+}  // namespace lamina

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace lamina {
+
+// A file as it was when it was opened.
+struct FileState {
+    // Throws Error where there is no such file.
+    static FileState of(const std::filesystem::path& path);
+
+    // Throws Error where the file has another size or time now.
+    void check_unchanged() const;
+    std::string text() const;  // its name, size and time
+
+    std::filesystem::path path;
+    std::uint64_t bytes = 0;
+    std::int64_t modified = 0;  // nanoseconds
+};
+
+}  // namespace lamina

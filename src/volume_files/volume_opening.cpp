@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/volume_opening.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+#include "volume/volume_store.h"
+#include "volume_files/file_source.h"
+
+namespace lamina {
+namespace {
+
+// Bytes that drawing takes for each min/max brick of 64 samples beside its range: what it shows,
+// whether it is constant, and how rays pass it.
+constexpr double bytes_per_brick = 4, samples_per_brick = 64;
+
+constexpr double gradient_bytes = 8, float_bytes = 4;  // of a sample
+
+}  // namespace
+
+bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
+    if (use.residence != VolumeUse::Residence::as_fits)
+        return use.residence == VolumeUse::Residence::in_files;
+    const auto samples = static_cast<double>(grid.sample_count());
+    const auto each = static_cast<double>(bytes_of(type));
+    double bytes = samples * (each + (2 * each + bytes_per_brick) / samples_per_brick);
+    if (type == SampleType::float32)
+        bytes += samples * float_bytes;  // normalised
+    else if (samples * each > std::numeric_limits<std::int32_t>::max())
+        bytes += samples * each;  // in parts
+    if (use.lit) bytes += samples * gradient_bytes;
+    return bytes > static_cast<double>(memory_limit());
+}
+
+void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& use,
+                 const std::string& why) {
+    if (use.residence == VolumeUse::Residence::in_memory) return;
+    if (use.residence == VolumeUse::Residence::in_files) {
+        fail(
+            "{}: {}, so it cannot stay in its file: expected raw data of uint8, int16, uint16 or "
+            "float samples (NRRD, MetaImage, --raw), or Zarr",
+            name, why);
+    }
+    if (memory_limit_is_told() && bytes > memory_limit()) {
+        fail(
+            "{}: {}, so all {} bytes of its samples would be in memory, more than the limit of {}: "
+            "raw data (NRRD, MetaImage, --raw) and Zarr are read by parts",
+            name, why, bytes, memory_limit());
+    }
+}
+
+Volume stored_volume(const Grid& grid, SampleType type,
+                     std::unique_ptr<const SampleSource> source) {
+    return Volume(grid, type, std::make_shared<const VolumeStore>(grid, type, std::move(source)));
+}
+
+Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use) {
+    if (FileSource::can_read(data)) {
+        const SampleType type = *drawn_type(data.type);
+        if (stays_in_files(grid, type, use))
+            return stored_volume(grid, type, std::make_unique<FileSource>(data, grid.size));
+    } else {
+        const bool raw = data.encoding == DataEncoding::raw;
+        expect_room(data.path.string(),
+                    static_cast<std::uint64_t>(grid.sample_count()) * bytes_of(data.type), use,
+                    raw ? fmt::format("its samples are of type {}", name_of(data.type))
+                        : "its data are not raw");
+    }
+    return drawn_volume(grid, read_stored(data));
+}
+
+}  // namespace lamina

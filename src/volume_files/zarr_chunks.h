@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/byte_buffer.h"
+#include "volume/sample_source.h"
+#include "volume_files/zarr_array.h"
+
+namespace lamina {
+
+// The chunks of an array that hold what is selected of it. Safe from any thread.
+class ZarrChunks {
+  public:
+    using Triple = std::array<std::int64_t, 3>;  // of z, y, x
+
+    // Throws Error where the files cannot hold what is selected.
+    ZarrChunks(ZarrArray array, ZarrSelection selection);
+
+    const ZarrArray& array() const { return array_; }
+    const Triple& size() const { return size_; }  // samples that are selected
+    const Triple& edge() const { return edge_; }  // of a chunk
+    std::int64_t count() const { return counts_[0] * counts_[1] * counts_[2]; }
+    std::int64_t number_of(const Triple& place) const {
+        return (place[0] * counts_[1] + place[1]) * counts_[2] + place[2];
+    }
+    std::size_t selected_bytes() const;
+    std::size_t chunk_bytes() const {
+        return static_cast<std::size_t>(array_.chunk_samples()) * bytes_;
+    }
+
+    // Which of the files, as they were at first, a chunk is: a hash of its size and time; 0 where
+    // there is none, and the fill value counts.
+    std::uint64_t state(std::int64_t chunk) const {
+        return states_[static_cast<std::size_t>(chunk)];
+    }
+    std::int64_t missing() const;
+    std::string selection_text() const;  // tells what is selected from what else might be
+
+    // A chunk's samples, decoded, in the byte order of the file. Throws Error where it is damaged
+    // or not the one that was there at first.
+    ByteBuffer decoded(std::int64_t chunk) const;
+    // Copies what a decoded chunk has of a box of the selected samples, which is at `to`, x
+    // fastest.
+    void copy(const ByteBuffer& samples, std::int64_t chunk, const SampleBox& box, char* to) const;
+
+  private:
+    Triple place_of(std::int64_t chunk) const;
+    std::filesystem::path file_of(std::int64_t chunk) const;
+    std::uint64_t state_now(std::int64_t chunk, std::uint64_t& bytes) const;
+    std::size_t step_of(std::size_t axis) const;
+    void fill(ByteBuffer& samples) const;
+    template <typename Value>
+    Value fill_as() const;
+    void copy_samples(const char* from, std::size_t step, char* to, std::int64_t count) const;
+
+    ZarrArray array_;
+    ZarrSelection selection_;
+    std::size_t bytes_;  // of a sample
+    Triple size_{1, 1, 1}, edge_{1, 1, 1}, counts_{1, 1, 1};
+    std::vector<std::uint64_t> states_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/progress.h"
+#include "base/standard_streams.h"
+#include "memory_option.h"
+#include "raw_options.h"
+#include "verbs.h"
+#include "volume/volume_index.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+struct IndexOptions {
+    std::string file;
+    RawOptions raw;
+    bool quiet = false;
+};
+
+void run(const IndexOptions& options) {
+    const Volume volume = open_volume(options.file, request_of(options.raw),
+                                      {.residence = VolumeUse::Residence::in_files});
+    const std::filesystem::path file = index_file_of(volume);
+    const VolumeIndex index = measure_index(volume);
+    write_index(volume, index, file);
+    if (options.quiet) return;
+    print_message("lamina: wrote {} ({} bytes, {} bricks of {}^3 cells, values from {} to {})\n",
+                  file.string(), std::filesystem::file_size(file), index.bricks.ranges.size(),
+                  MinMaxBricks::edge, index.bricks.whole.lo, index.bricks.whole.hi);
+}
+
+}  // namespace
+
+void add_index(CLI::App& app, int&) {
+    const auto options = std::make_shared<IndexOptions>();
+    CLI::App* const verb = app.add_subcommand(
+        "index", "Measure a volume once, for pictures of it that take less memory than it has");
+    verb->footer(
+        "Writes FILE.lamina-index beside the volume: the least and the largest value of each brick "
+        "of 4^3 cells, and how often each value occurs. Without it the first picture of a volume "
+        "that does not fit the memory (--memory) makes one in the cache folder "
+        "($XDG_CACHE_HOME/lamina).");
+    verb->add_option("FILE", options->file,
+                     "A volume that can stay in its files: raw NRRD or MetaImage, Zarr, or with "
+                     "--raw")
+        ->required();
+    add_raw_options(*verb, options->raw);
+    add_memory_option(*verb);
+    verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
+    verb->callback([options] {
+        Progress::set_quiet(options->quiet);
+        run(*options);
+    });
+}
+
+}  // namespace lamina

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lamina {
+
+// --memory SIZE: sets the memory limit (base/memory_limit.h) when the command line is read.
+void add_memory_option(CLI::App& verb);
+
+}  // namespace lamina
