@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "base/parallel.h"
-#include "volume/sample_access.h"
+#include "volume/volume_store.h"
+#include "volume/with_sample_type.h"
 
 namespace lamina {
 namespace {
@@ -33,25 +36,24 @@ std::array<std::int64_t, 3> cells_of(const Grid& grid) {
     return cells;
 }
 
-// The cells of one row along x.
-template <typename Samples>
+// The cells of one row along x, in a window that holds their samples.
+template <typename T>
 class CellRow {
   public:
-    CellRow(const Grid& grid, const Samples& samples, std::int64_t y, std::int64_t z)
-        : size_(grid.size[0]) {
-        const auto [nx, ny, nz] = grid.size;
+    CellRow(const Grid& grid, const SampleWindow<T>& window, std::int64_t y, std::int64_t z)
+        : first_(window.box.first[0]), last_(grid.size[0] - 1) {
         for (std::size_t i = 0; i < 4; ++i) {
-            const std::int64_t at_y = std::min(y + std::int64_t(i % 2), ny - 1);
-            const std::int64_t at_z = std::min(z + std::int64_t(i / 2), nz - 1);
-            lines_[i] = samples + (at_z * ny + at_y) * nx;
+            const std::int64_t at_y = std::min(y + std::int64_t(i % 2), grid.size[1] - 1);
+            const std::int64_t at_z = std::min(z + std::int64_t(i / 2), grid.size[2] - 1);
+            lines_[i] = window.row(at_y, at_z);
         }
     }
 
     ValueRange range(std::int64_t x) const {
         ValueRange range;
-        for (const Samples& line : lines_) {
-            for (const std::int64_t at : {x, std::min(x + 1, size_ - 1)}) {
-                const double value = static_cast<double>(line[at]);
+        for (const T* line : lines_) {
+            for (const std::int64_t at : {x, std::min(x + 1, last_)}) {
+                const double value = static_cast<double>(line[at - first_]);
                 if (!std::isfinite(value)) continue;
                 range = range.empty()
                             ? ValueRange{value, value}
@@ -62,13 +64,13 @@ class CellRow {
     }
 
   private:
-    std::int64_t size_;
-    std::array<Samples, 4> lines_;
+    std::int64_t first_, last_;
+    std::array<const T*, 4> lines_;
 };
 
 // Looks into bricks that show something alone, from both ends.
-template <typename Samples>
-Span shown_of_row(const CellRow<Samples>& row, std::int64_t cells,
+template <typename T>
+Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {
     const auto shown = [&](std::int64_t x) {
         const ValueRange range = row.range(x);
@@ -88,27 +90,99 @@ Span shown_of_row(const CellRow<Samples>& row, std::int64_t cells,
     }
 }
 
-// For each row of cells along x, y fastest.
-template <typename Samples>
-std::vector<Span> shown_of_rows(const Grid& grid, const Samples& samples,
-                                const MinMaxBricks& bricks, const Shows& shows) {
-    const auto cells = cells_of(grid);
-    std::vector<Span> spans(static_cast<std::size_t>(cells[1] * cells[2]));
-    parallel_for(bricks.count[1] * bricks.count[2], 4, [&](std::int64_t brick_row) {
-        const std::int64_t by = brick_row % bricks.count[1], bz = brick_row / bricks.count[1];
-        std::vector<std::int64_t> shown_bricks;
-        for (std::int64_t bx = 0; bx < bricks.count[0]; ++bx) {
-            const ValueRange range = bricks.at(bx, by, bz);
-            if (!range.empty() && shows(range)) shown_bricks.push_back(bx);
+// Finds what the rows of cells show, a block of rows of bricks at a time: a block's samples are
+// read at once where the volume stays in its files.
+template <typename T>
+class RowSpans {
+  public:
+    RowSpans(const Volume& volume, const MinMaxBricks& bricks, const Shows& shows)
+        : volume_(volume),
+          grid_(volume.grid()),
+          bricks_(bricks),
+          shows_(shows),
+          cells_(cells_of(grid_)),
+          spans_(static_cast<std::size_t>(cells_[1] * cells_[2])) {}
+
+    // For each row of cells along x, y fastest.
+    std::vector<Span> find() {
+        const std::int64_t along = blocks(1);
+        parallel_for(along * blocks(2), 1, [&](std::int64_t block) {
+            find_in_block(block % along * block_edge, block / along * block_edge);
+        });
+        return std::move(spans_);
+    }
+
+  private:
+    static constexpr std::int64_t block_edge = 8;  // bricks
+
+    struct BrickRow {
+        std::int64_t y, z;
+        std::vector<std::int64_t> shown;  // along x
+    };
+
+    std::int64_t blocks(std::size_t axis) const {
+        return (bricks_.count[axis] + block_edge - 1) / block_edge;
+    }
+
+    void find_in_block(std::int64_t first_y, std::int64_t first_z) {
+        std::vector<BrickRow> rows;
+        Span columns;
+        ValueRange before;  // most bricks have the range of their neighbour: a hole
+        bool shown = false;
+        for (std::int64_t z = first_z; z < std::min(first_z + block_edge, bricks_.count[2]); ++z) {
+            for (std::int64_t y = first_y; y < std::min(first_y + block_edge, bricks_.count[1]);
+                 ++y) {
+                BrickRow row{y, z, {}};
+                for (std::int64_t x = 0; x < bricks_.count[0]; ++x) {
+                    const ValueRange range = bricks_.at(x, y, z);
+                    if (range != before) shown = !range.empty() && shows_(range);
+                    before = range;
+                    if (shown) row.shown.push_back(x);
+                }
+                if (row.shown.empty()) continue;
+                columns.include({row.shown.front(), row.shown.back() + 1});
+                rows.push_back(std::move(row));
+            }
         }
-        for (std::int64_t z = bz * edge; z < std::min(cells[2], (bz + 1) * edge); ++z) {
-            for (std::int64_t y = by * edge; y < std::min(cells[1], (by + 1) * edge); ++y)
-                spans[static_cast<std::size_t>(z * cells[1] + y)] = shown_of_row(
-                    CellRow<Samples>(grid, samples, y, z), cells[0], shown_bricks, shows);
+        if (rows.empty()) return;
+        std::unique_ptr<T[]> samples;
+        const SampleWindow<T> window = window_of(columns, first_y, first_z, samples);
+        for (const BrickRow& row : rows) find_in_row(row, window);
+    }
+
+    // `columns`: of bricks. `samples`: memory for those of a volume that stays in its files.
+    SampleWindow<T> window_of(const Span& columns, std::int64_t first_y, std::int64_t first_z,
+                              std::unique_ptr<T[]>& samples) const {
+        if (volume_.in_memory())
+            return {{{0, 0, 0}, grid_.size}, static_cast<const T*>(volume_.data())};
+        const std::array<std::int64_t, 3> first{columns.first, first_y, first_z};
+        const std::array<std::int64_t, 3> end{columns.last, first_y + block_edge,
+                                              first_z + block_edge};
+        SampleBox box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.first[axis] = first[axis] * edge;
+            box.size[axis] = std::min(end[axis] * edge + 1, grid_.size[axis]) - box.first[axis];
         }
-    });
-    return spans;
-}
+        samples = std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(box.count()));
+        volume_.store().source().read(box, samples.get());
+        return {box, samples.get()};
+    }
+
+    void find_in_row(const BrickRow& row, const SampleWindow<T>& window) {
+        for (std::int64_t z = row.z * edge; z < std::min(cells_[2], (row.z + 1) * edge); ++z) {
+            for (std::int64_t y = row.y * edge; y < std::min(cells_[1], (row.y + 1) * edge); ++y)
+                spans_[static_cast<std::size_t>(z * cells_[1] + y)] =
+                    shown_of_row(CellRow<T>(grid_, window, y, z), cells_[0], row.shown, shows_);
+        }
+    }
+
+    const Volume& volume_;
+    const Grid& grid_;
+    const MinMaxBricks& bricks_;
+    const Shows& shows_;
+    std::array<std::int64_t, 3> cells_;
+    std::vector<Span> spans_;
+};
 
 // The index of the plane between cells number `plane - 1` and `plane` along an axis.
 double plane_at(const Grid& grid, int axis, std::int64_t plane, std::int64_t cells) {
@@ -123,8 +197,9 @@ std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBr
                                             const Shows& shows) {
     const Grid& grid = volume.grid();
     const auto cells = cells_of(grid);
-    const std::vector<Span> rows = visit_samples(
-        volume, [&](const auto& samples) { return shown_of_rows(grid, samples, bricks, shows); });
+    const std::vector<Span> rows = with_sample_type(volume.type(), [&](auto zero) {
+        return RowSpans<decltype(zero)>(volume, bricks, shows).find();
+    });
     // A line of cells' edges lies between up to four rows.
     const std::int64_t lines_y = cells[1] + 1;
     std::vector<Span> lines(static_cast<std::size_t>(lines_y * (cells[2] + 1)));

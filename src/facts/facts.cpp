@@ -142,10 +142,21 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
         return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
     };
     occupied = {bricks.count, SparseBytes(bricks.ranges.size(), OccupiedBricks::farthest)};
-    parallel_for(static_cast<std::int64_t>(bricks.ranges.size()), 4096, [&](std::int64_t number) {
-        const auto i = static_cast<std::size_t>(number);
-        if (shown(bricks.range(i))) occupied.distance.set(i, 0);
-    });
+    // Most bricks have the range of their neighbour: a hole.
+    constexpr std::size_t together = 1 << 14;
+    const std::size_t count = bricks.ranges.size();
+    parallel_for(static_cast<std::int64_t>((count + together - 1) / together), 1,
+                 [&](std::int64_t part) {
+                     const std::size_t first = static_cast<std::size_t>(part) * together;
+                     ValueRange before;
+                     bool shows = false;
+                     for (std::size_t i = first; i < std::min(count, first + together); ++i) {
+                         const ValueRange range = bricks.range(i);
+                         if (range != before) shows = shown(range);
+                         before = range;
+                         if (shows) occupied.distance.set(i, 0);
+                     }
+                 });
     if (!facts.clip.empty()) {
         const bool some = occupied.distance.count(0) > 0;
         empty_cut_bricks(facts);

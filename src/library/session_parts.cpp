@@ -50,13 +50,12 @@ Session::Parts::~Parts() {
 }
 
 // The data decide, where they do not fit the memory.
-void Session::Parts::open_context() {
+void Session::Parts::open_context(const std::stop_token& stop, const ProgressCallback& progress) {
     ContextChoice for_data = choice;
-    if (scene.method == Method::slice && !scene.draws_mesh()) {
-        run([&] {
-            if (!volume_data().volume.in_memory()) for_data = context_for_files(choice);
-        });
-    }
+    const auto choose_for_data = [&] {
+        if (!volume_data().volume.in_memory()) for_data = context_for_files(choice);
+    };
+    if (scene.method == Method::slice && !scene.draws_mesh()) run(choose_for_data, stop, progress);
     threads.execute([&] { context = std::make_unique<DrawContext>(for_data); });
 }
 

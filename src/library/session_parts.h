@@ -44,11 +44,11 @@ struct Session::Parts {
     template <typename Work>
     void run_drawing(const Work& work, std::stop_token stop = {},
                      const ProgressCallback& progress = {}) {
-        if (!context) open_context();
+        if (!context) open_context(stop, progress);
         run(work, std::move(stop), progress);
     }
 
-    void open_context();
+    void open_context(const std::stop_token& stop, const ProgressCallback& progress);
     void keep_warning(const std::string& text);
     const VolumeData& volume_data();
     const SceneMesh& mesh_data();

@@ -70,7 +70,10 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         volume_ = std::make_shared<TileVolume>(volume, unit, plan_);
         upload_ms_ = upload.end();
     }
-    if (volume_->pages() != nullptr) shown_pages_ = pages_shown(*volume_, occupied_);
+    if (volume_->pages() != nullptr) {
+        shown_pages_ = pages_shown(*volume_, occupied_);
+        volume_->pages()->expect(shown_pages_);
+    }
     set_light();
 }
 

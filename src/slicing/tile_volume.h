@@ -66,7 +66,7 @@ class TileVolume {
 
     const std::vector<TileBrick>& bricks() const { return bricks_; }
     // The pages of a volume that is not in memory; null where it is.
-    const BrickCache* pages() const { return cache_; }
+    BrickCache* pages() const { return cache_; }
     // The sample of the volume, on each axis, with which the first page begins: -1 where bricks
     // have a border.
     const std::array<std::int64_t, 3>& first_of_pages() const { return parts_.front().first; }
@@ -97,7 +97,7 @@ class TileVolume {
     std::vector<TileBrick> bricks_;
     // Of a volume that is not in memory. Pages are the store's own where their form is the same.
     std::unique_ptr<BrickCache> own_cache_;
-    const BrickCache* cache_ = nullptr;
+    BrickCache* cache_ = nullptr;
     std::vector<TilePages> pages_;
 };
 

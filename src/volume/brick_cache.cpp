@@ -15,6 +15,9 @@ namespace {
 // Bricks read at a time ahead of their use.
 constexpr std::size_t together = 64;
 
+// Bricks along x of which those that are expected are read together.
+constexpr std::uint32_t neighbours = 8;
+
 std::int64_t cache_bricks_along(std::int64_t size) {
     return std::max<std::int64_t>(1, (size - 1 + BrickCache::edge - 1) / BrickCache::edge);
 }
@@ -71,11 +74,36 @@ std::uint32_t BrickCache::slot_of(const std::byte* at) const {
     return static_cast<std::uint32_t>(static_cast<std::size_t>(at - memory_.data()) / brick_bytes_);
 }
 
-void BrickCache::load(std::span<std::uint32_t> bricks) const {
-    std::ranges::sort(bricks);
-    const auto repeated = std::ranges::unique(bricks);
-    const std::vector<Wanted> wanted =
-        claim(bricks.first(bricks.size() - static_cast<std::size_t>(repeated.size())));
+void BrickCache::expect(std::span<const std::uint32_t> bricks) {
+    expected_.assign(slots_.size(), 0);
+    for (const std::uint32_t brick : bricks) expected_[brick] = 1;
+}
+
+// In ascending order, each once.
+std::vector<std::uint32_t> BrickCache::with_neighbours(
+    std::span<const std::uint32_t> bricks) const {
+    std::vector<std::uint32_t> all(bricks.begin(), bricks.end());
+    if (capacity() >= neighbours * fewest_bytes()) {
+        const auto columns = static_cast<std::uint32_t>(count_[0]);
+        for (const std::uint32_t brick : bricks) {
+            const std::uint32_t x = brick % columns, first = x / neighbours * neighbours;
+            for (std::uint32_t other = first; other < std::min(first + neighbours, columns);
+                 ++other) {
+                const std::uint32_t number = brick - x + other;
+                if ((expected_.empty() || expected_[number] != 0) &&
+                    slots_[number].load(std::memory_order_relaxed) == no_slot)
+                    all.push_back(number);
+            }
+        }
+    }
+    std::ranges::sort(all);
+    const auto repeated = std::ranges::unique(all);
+    all.erase(repeated.begin(), repeated.end());
+    return all;
+}
+
+void BrickCache::load(std::span<const std::uint32_t> bricks) const {
+    const std::vector<Wanted> wanted = claim(with_neighbours(bricks));
     if (wanted.empty()) return;
     try {
         fill_(wanted);

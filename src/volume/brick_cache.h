@@ -87,6 +87,10 @@ class BrickCache {
     }
 
     void clear();  // forgets all bricks, and gives their memory back; nobody may hold any
+    // Bricks that will be used sooner or later, ascending: where one is missing, its neighbours
+    // along x among these are read with it, because they lie beside each other in files. Without
+    // this, all neighbours are.
+    void expect(std::span<const std::uint32_t> bricks);
     // Reads bricks that are to be used soon, if they are not in memory, in ascending order on all
     // cores. As many as fit.
     void load_ahead(std::span<const std::uint32_t> bricks) const;
@@ -101,7 +105,8 @@ class BrickCache {
     };
 
     std::mutex& stripe() const;
-    void load(std::span<std::uint32_t> bricks) const;
+    void load(std::span<const std::uint32_t> bricks) const;
+    std::vector<std::uint32_t> with_neighbours(std::span<const std::uint32_t> bricks) const;
     std::vector<Wanted> claim(std::span<const std::uint32_t> bricks) const;
     void publish(std::span<const Wanted> bricks, bool filled) const;
     std::uint32_t take_slot(std::unique_lock<std::mutex>& lock) const;
@@ -115,6 +120,7 @@ class BrickCache {
     mutable std::vector<std::atomic<std::uint32_t>> used_;   // when last, by the clock, each brick
     mutable std::atomic<std::uint32_t> clock_{0};            // counts calls of fill_
     mutable std::atomic<std::int64_t> bricks_read_{0};
+    std::vector<std::uint8_t> expected_;  // 1: this brick; empty: all
     mutable std::array<Stripe, 32> stripes_;
 
     mutable std::mutex access_;  // of all below

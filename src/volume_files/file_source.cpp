@@ -17,8 +17,9 @@
 namespace lamina {
 namespace {
 
-// Rows are read with what lies between them where that is at most so many times as much.
-constexpr std::uint64_t most_between = 8;
+// Rows are read with what lies between them where they begin at most so far from each other, or so
+// many times as far as they are long: a call of the system takes as long as to copy as much.
+constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
 constexpr std::size_t most_extents = 1 << 20;
 
 constexpr std::uint64_t hashed_places = 64, hashed_bytes = 4096;
@@ -149,7 +150,8 @@ void FileSource::read(const SampleBox& box, void* to) const {
         std::memset(at, 0, row_bytes * static_cast<std::size_t>(box.size[1] * box.size[2]));
         return;
     }
-    const bool together = step_[1] <= most_between * row_bytes;
+    const bool together = step_[1] <= std::max<std::uint64_t>(most_between_bytes,
+                                                              most_between_rows * row_bytes);
     const std::int64_t rows = together ? box.size[1] : 1;
     for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
         for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; y += rows) {

@@ -18,7 +18,7 @@ glm::dvec3 at(const GradientAlong& gradient, double t) {
 template <typename Sample>
 glm::dvec3 gradient_at(const Grid& grid, const std::vector<Sample>& samples, const CellIndex& cell,
                        const glm::dvec3& place) {
-    return at(GradientSamples<Sample>(grid, samples.data()).along(cell, place, glm::dvec3(0)), 0);
+    return at(GradientSamples(grid, samples.data()).along(cell, place, glm::dvec3(0)), 0);
 }
 
 // Turned and mirrored, with three spacings; lengths are exact.

@@ -171,7 +171,7 @@ void compare_brick(const Volume& volume, const TextureBrick& brick, gl::Program&
     program.set("last_sample",
                 glm::vec3(glm::dvec3(brick.size[0], brick.size[1], brick.size[2]) - 1.0));
     const std::vector<float> pixels = run(program);
-    const GradientSamples<Sample> samples(grid, static_cast<const Sample*>(volume.data()));
+    const GradientSamples samples(grid, static_cast<const Sample*>(volume.data()));
     for (int i = 0; i < edge * edge; ++i) {
         const CellIndex cell{first.x + i % cells.x, first.y + i / cells.x % cells.y,
                              first.z + i / (cells.x * cells.y) % cells.z};

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume/volume_index.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/stored_volume.h"
+#include "support/temporary_folder.h"
+#include "support/volume_of.h"
+#include "volume/index_file.h"
+
+namespace lamina {
+namespace {
+
+const Grid grid = test::grid_of({70, 37, 45}, Centering::node);
+
+template <typename Sample>
+Volume waves() {
+    return test::volume_of<Sample>(grid, [](double x, double y, double z) {
+        const double value = 100 + 90 * std::sin(x / 5) * std::cos(y / 7 + z / 3);
+        return x > 30 && y > 10 && y < 20 ? 0 : value;
+    });
+}
+
+Volume holes() {
+    return test::volume_of<float>(grid, [](double x, double y, double z) {
+        if (x < 9 && y < 9 && z < 9) return std::numeric_limits<double>::quiet_NaN();
+        return x * y - 40 * z;
+    });
+}
+
+void expect_equal(const VolumeIndex& index, const Volume& volume) {
+    const MinMaxBricks bricks = measure_bricks(volume);
+    ValueCounts values = count_values(volume);
+    std::ranges::sort(values.some);
+    ASSERT_EQ(index.bricks.ranges.size(), bricks.ranges.size());
+    for (std::size_t i = 0; i < bricks.ranges.size(); ++i)
+        EXPECT_EQ(index.bricks.range(i), bricks.range(i)) << i;
+    EXPECT_EQ(index.bricks.count, bricks.count);
+    EXPECT_EQ(index.bricks.whole, bricks.whole);
+    EXPECT_EQ(index.bricks.non_finite, bricks.non_finite);
+    EXPECT_EQ(index.values.codes, values.codes);
+    EXPECT_EQ(index.values.some, values.some);
+}
+
+// Against what is measured in memory, in whole rows and in blocks.
+TEST(VolumeIndex, IsWhatIsMeasuredInMemory) {
+    for (const Volume& volume : {waves<std::uint8_t>(), waves<std::int16_t>(),
+                                 waves<std::uint16_t>(), waves<float>(), holes()}) {
+        for (const std::array<std::int64_t, 3>& block :
+             {std::array<std::int64_t, 3>{0, 0, 0}, {16, 33, 10}, {100, 100, 100}})
+            expect_equal(measure_index(test::stored(volume, block)), volume);
+    }
+}
+
+class VolumeIndexFile : public ::testing::Test {
+  protected:
+    std::filesystem::path file() const { return folder_ / "volume.lamina-index"; }
+    FoundIndex read(const std::string& identity) const {
+        return read_index_file(file(), identity, grid, SampleType::float32);
+    }
+    void write() {
+        write_index_file(file(), "here", grid, SampleType::float32,
+                         measure_index(test::stored(holes())));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(VolumeIndexFile, IsReadAsItWasWritten) {
+    write();
+    const FoundIndex found = read("here");
+    ASSERT_TRUE(found.index);
+    expect_equal(*found.index, holes());
+}
+
+TEST_F(VolumeIndexFile, OfOtherSamplesIsStale) {
+    write();
+    EXPECT_FALSE(read("elsewhere").index);
+    EXPECT_TRUE(read("elsewhere").stale);
+    EXPECT_TRUE(read_index_file(file(), "here", grid, SampleType::uint8).stale);
+    EXPECT_FALSE(read_index_file(folder_ / "none", "here", grid, SampleType::uint8).stale);
+}
+
+// Cut short at any place, and with any byte changed, it is no index.
+TEST_F(VolumeIndexFile, ThatIsDamagedIsNotUsed) {
+    write();
+    const std::string bytes = read_bytes_of(file());
+    const auto put = [&](const std::string& text) { write_bytes_to(file(), text); };
+    for (std::size_t kept = 0; kept < bytes.size(); kept += 1 + bytes.size() / 300) {
+        put(bytes.substr(0, kept));
+        EXPECT_FALSE(read("here").index) << kept;
+    }
+    const std::size_t data = bytes.find("end\n");
+    for (std::size_t at = data; at < bytes.size(); at += 1 + bytes.size() / 300) {
+        std::string changed = bytes;
+        changed[at] = static_cast<char>(changed[at] ^ 64);
+        put(changed);
+        EXPECT_FALSE(read("here").index) << at;
+    }
+}
+
+}  // namespace
+}  // namespace lamina
