@@ -53,8 +53,8 @@ struct CellCorners {
     }
 };
 
-// Access to the cells of a volume, whose samples are behind a pointer or StoredSamples. Outside the
-// samples the border value repeats.
+// Access to the cells of a volume, whose samples are behind a pointer or SamplesInFiles. Outside
+// the samples the border value repeats.
 template <typename Samples>
 class CellSamples {
   public:

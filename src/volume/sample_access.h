@@ -15,10 +15,10 @@ namespace lamina {
 // Samples of a volume that stays in its files, one by one, as a pointer to the first would give
 // them: x changes fastest.
 template <typename T>
-class StoredSamples {
+class SamplesInFiles {
   public:
-    StoredSamples() = default;  // of no volume
-    explicit StoredSamples(const VolumeStore& store, std::int64_t first = 0)
+    SamplesInFiles() = default;  // of no volume
+    explicit SamplesInFiles(const VolumeStore& store, std::int64_t first = 0)
         : store_(&store), first_(first) {}
 
     T operator[](std::int64_t number) const {
@@ -32,8 +32,8 @@ class StoredSamples {
                              const std::array<std::int64_t, 3>& upper) const {
         return store_->template corners<T>(lower, upper);
     }
-    friend StoredSamples operator+(const StoredSamples& samples, std::int64_t steps) {
-        return StoredSamples(*samples.store_, samples.first_ + steps);
+    friend SamplesInFiles operator+(const SamplesInFiles& samples, std::int64_t steps) {
+        return SamplesInFiles(*samples.store_, samples.first_ + steps);
     }
 
   private:
@@ -41,17 +41,17 @@ class StoredSamples {
     std::int64_t first_ = 0;
 };
 
-// The type of the samples behind a pointer or StoredSamples.
+// The type of the samples behind a pointer or SamplesInFiles.
 template <typename Samples>
 using SampleOf = std::remove_cvref_t<decltype(std::declval<const Samples&>()[0])>;
 
-// Calls visitor(samples) with a pointer to the first sample, or with StoredSamples: for work that
+// Calls visitor(samples) with a pointer to the first sample, or with SamplesInFiles: for work that
 // looks at single samples here and there.
 template <typename Visitor>
 decltype(auto) visit_samples(const Volume& volume, const Visitor& visitor) {
     if (volume.in_memory()) return volume.visit(visitor);
     return with_sample_type(volume.type(), [&](auto zero) {
-        return visitor(StoredSamples<decltype(zero)>(volume.store()));
+        return visitor(SamplesInFiles<decltype(zero)>(volume.store()));
     });
 }
 

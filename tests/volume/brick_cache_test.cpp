@@ -37,7 +37,7 @@ BrickCache numbered(std::atomic<int>& filled) {
 
 TEST(BrickCache, BricksHaveTheSamplesOfTheVolume) {
     const Volume volume = test::stored(numbers());
-    const auto samples = StoredSamples<std::uint16_t>(volume.store());
+    const auto samples = SamplesInFiles<std::uint16_t>(volume.store());
     std::mt19937 random(1);
     for (int i = 0; i < 20000; ++i) {
         const std::int64_t x = random() % 300, y = random() % 130, z = random() % 70;
