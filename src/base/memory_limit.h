@@ -7,15 +7,15 @@
 
 namespace lamina {
 
-// What the process may have resident beside the data that memory_limit() is about.
+// How much memory the process may take for itself, beside memory_limit() for data.
 constexpr std::uint64_t own_memory = 200'000'000;
 
-bool memory_limit_is_told();  // not the default
+bool memory_limit_is_told();  // whether somebody has set one
 
-// What the process has resident, in bytes; 0 where that is not known.
+// The process's resident memory in bytes; 0 where that is not known.
 std::uint64_t resident_memory();
 
-// What may still be taken: memory_limit() + own_memory - resident_memory(), 0 or more.
+// How much memory may still be taken: memory_limit() + own_memory - resident_memory(), 0 or more.
 std::uint64_t memory_left();
 
 }  // namespace lamina

@@ -24,8 +24,7 @@ FileKind kind_of_file(const std::filesystem::path& file) {
     if (scene) return FileKind::scene;
     fail(
         "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, "
-        ".pvd, .vtk, "
-        ".node, .ele)",
+        ".pvd, .vtk, .node, .ele)",
         file.string(), volume_format_names());
 }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "base/parallel.h"
-
 namespace lamina {
 namespace {
 

@@ -23,7 +23,7 @@ namespace lamina::HWY_NAMESPACE {
 // each of a cell's four rows along x, in the order of Corners.
 using GradientRows = std::uint32_t[4][4 * most_lanes];
 
-// Of cells in pages, whose samples always have a neighbour along x.
+// The same as fetch_gradients() for cells in pages, whose samples always have a neighbour along x.
 inline HWY_NOINLINE void fetch_paged_gradients(const TilePages& pages, const std::int32_t* index,
                                                std::uint32_t lanes, GradientRows& rows) {
     constexpr std::size_t steps[4] = {0, BrickCache::row, BrickCache::slice,

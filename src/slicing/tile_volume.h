@@ -95,7 +95,8 @@ class TileVolume {
     std::vector<std::vector<std::uint32_t>> copies_;
     std::vector<std::vector<StoredGradient>> gradients_;  // where the plan is lit
     std::vector<TileBrick> bricks_;
-    // Of a volume that is not in memory. Pages are the store's own where their form is the same.
+    // The pages of a volume that is not in memory: the store's own bricks where their form is the
+    // same.
     std::unique_ptr<BrickCache> own_cache_;
     BrickCache* cache_ = nullptr;
     std::vector<TilePages> pages_;

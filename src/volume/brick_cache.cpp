@@ -114,7 +114,7 @@ void BrickCache::load(std::span<const std::uint32_t> bricks) const {
     publish(wanted, true);
 }
 
-// Takes the bricks that nobody reads yet. Where others read all of them, waits for one to be read.
+// Takes the bricks that nobody reads yet. Where others read all of them, it waits for these.
 std::vector<BrickCache::Wanted> BrickCache::claim(std::span<const std::uint32_t> bricks) const {
     std::unique_lock lock(access_);
     std::vector<Wanted> wanted;

@@ -80,7 +80,7 @@ class BrickCache {
             load(std::span(missing).first(lacking));
         }
     }
-    // Of a brick that is held.
+    // The samples of a brick that is held.
     const std::byte* at(std::uint32_t brick) const {
         return memory_.data() +
                std::size_t{slots_[brick].load(std::memory_order_relaxed)} * brick_bytes_;
@@ -91,8 +91,8 @@ class BrickCache {
     // along x among these are read with it, because they lie beside each other in files. Without
     // this, all neighbours are.
     void expect(std::span<const std::uint32_t> bricks);
-    // Reads bricks that are to be used soon, if they are not in memory, in ascending order on all
-    // cores. As many as fit.
+    // Reads bricks that are to be used soon, and that fit, if they are not in memory, in ascending
+    // order on all cores.
     void load_ahead(std::span<const std::uint32_t> bricks) const;
     // How many bricks were read so far.
     std::int64_t bricks_read() const { return bricks_read_.load(); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/atomic_file.h"
@@ -15,14 +16,21 @@
 namespace lamina {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr const char* magic = "lamina index 1";
 constexpr std::size_t piece_bytes = std::size_t{1} << 16;
 
-std::string header_of(const Grid& grid, SampleType type, const VolumeIndex& index) {
-    return fmt::format("size {} {} {}\ntype {}\nnon_finite {}\nrange {:a} {:a}\nvalues {} {}\n",
-                       grid.size[0], grid.size[1], grid.size[2], name_of(type),
-                       index.bricks.non_finite, index.bricks.whole.lo, index.bricks.whole.hi,
-                       index.values.codes.size(), index.values.some.size());
+Json header_of(const std::string& identity, const Grid& grid, SampleType type,
+               const VolumeIndex& index) {
+    const MinMaxBricks& bricks = index.bricks;
+    return {{"identity", identity},
+            {"size", grid.size},
+            {"type", name_of(type)},
+            {"non_finite", bricks.non_finite},
+            {"range", {bricks.whole.lo, bricks.whole.hi}},
+            {"codes", index.values.codes.size()},
+            {"some", index.values.some.size()}};
 }
 
 template <typename Value>
@@ -39,45 +47,6 @@ void for_each_piece(Bytes* data, std::size_t count, const Visit& visit) {
 
 bool all_zero(const std::byte* bytes, std::size_t count) {
     return bytes[0] == std::byte{0} && std::memcmp(bytes, bytes + 1, count - 1) == 0;
-}
-
-// What stands in the header, as far as it is right.
-struct IndexHeader {
-    std::string identity;
-    std::array<std::int64_t, 3> size{};
-    std::string type;
-    std::int64_t non_finite = 0;
-    double lo = 1, hi = 0;
-    std::size_t codes = 0, some = 0;
-};
-
-std::optional<IndexHeader> read_header(std::ifstream& stream) {
-    std::string line;
-    if (!std::getline(stream, line) || line != magic) return {};
-    IndexHeader header;
-    while (std::getline(stream, line) && line != "end") {
-        const std::size_t space = line.find(' ');
-        const std::string key = line.substr(0, space);
-        const char* const rest = space == std::string::npos ? "" : line.c_str() + space + 1;
-        if (key == "identity") header.identity = rest;
-        if (key == "type") header.type = rest;
-        char* next = nullptr;
-        if (key == "size") {
-            next = const_cast<char*>(rest);
-            for (std::int64_t& number : header.size) number = std::strtoll(next, &next, 10);
-        }
-        if (key == "non_finite") header.non_finite = std::strtoll(rest, nullptr, 10);
-        if (key == "range") {
-            header.lo = std::strtod(rest, &next);
-            header.hi = std::strtod(next, nullptr);
-        }
-        if (key == "values") {
-            header.codes = std::strtoull(rest, &next, 10);
-            header.some = std::strtoull(next, nullptr, 10);
-        }
-    }
-    if (!stream) return {};
-    return header;
 }
 
 template <typename Value>
@@ -110,10 +79,10 @@ void write_index_file(const std::filesystem::path& file, const std::string& iden
                       const Grid& grid, SampleType type, const VolumeIndex& index) {
     AtomicFile output(file);
     const auto put = [&](std::string_view text) { output.write(text.data(), text.size()); };
-    put(fmt::format("{}\nidentity {}\n", magic, identity));
-    put(header_of(grid, type, index));
-    put("end\n");
+    const std::string header = header_of(identity, grid, type, index).dump();
+    put(fmt::format("{}\n{}\n", magic, header));
     ContentHash hash;
+    hash.add(header);
     const auto put_values = [&](const auto& values) {
         output.write(values.data(), bytes_of_all(values));
         hash.add(values.data(), bytes_of_all(values));
@@ -133,25 +102,31 @@ void write_index_file(const std::filesystem::path& file, const std::string& iden
 }
 
 FoundIndex read_index_file(const std::filesystem::path& file, const std::string& identity,
-                           const Grid& grid, SampleType type) {
+                           const Grid& grid, SampleType type) try {
     std::ifstream stream(file, std::ios::binary);
-    const std::optional<IndexHeader> header = read_header(stream);
-    if (!header) return {};
-    if (header->identity != identity || header->size != grid.size || header->type != name_of(type))
+    std::string line, text;
+    if (!std::getline(stream, line) || line != magic || !std::getline(stream, text)) return {};
+    const Json header = Json::parse(text);
+    if (header.at("identity") != identity || header.at("size") != Json(grid.size) ||
+        header.at("type") != name_of(type))
         return {{}, true};
     constexpr std::size_t most_values = std::size_t{1} << 22;  // more than there ever are
-    if (header->codes > most_values || header->some > most_values) return {};
+    const std::size_t codes = header.at("codes"), some = header.at("some");
+    if (codes > most_values || some > most_values) return {};
     VolumeIndex index{MinMaxBricks::of(grid, type), {}};
-    index.bricks.non_finite = header->non_finite;
-    index.bricks.whole = {header->lo, header->hi};
+    index.bricks.non_finite = header.at("non_finite");
+    index.bricks.whole = {header.at("range").at(0), header.at("range").at(1)};
     ContentHash hash;
-    if (!read_values(stream, header->codes, index.values.codes, hash) ||
-        !read_values(stream, header->some, index.values.some, hash) ||
+    hash.add(text);
+    if (!read_values(stream, codes, index.values.codes, hash) ||
+        !read_values(stream, some, index.values.some, hash) ||
         !read_ranges(stream, index.bricks.ranges, hash))
         return {};
     std::string end(16, ' ');
     if (!stream.read(end.data(), 16) || end != hash.hex()) return {};
     return {std::move(index), false};
+} catch (const Json::exception&) {
+    return {};  // the header is damaged
 }
 
 }  // namespace lamina

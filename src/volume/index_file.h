@@ -9,10 +9,10 @@
 
 namespace lamina {
 
-// A volume's index in a file: a header in text, which ends with the line "end"; the values' counts
-// or values; and the ranges of bricks in pieces, each behind a byte that says whether the piece is
-// 0 and left out. Numbers are those of a little-endian machine. `identity`: of the samples
-// (SampleSource).
+// A volume's index in a file: a line that names the format; a header of one line, in JSON; the
+// values' counts or values; the ranges of bricks in pieces, each behind a byte that is 0 where the
+// piece is 0 and left out; and a hash of all that follows the first line. Binary numbers are those
+// of a little-endian machine. `identity`: of the samples (SampleSource).
 void write_index_file(const std::filesystem::path& file, const std::string& identity,
                       const Grid& grid, SampleType type, const VolumeIndex& index);
 

@@ -26,7 +26,7 @@ using Triple = std::array<std::int64_t, 3>;
 
 constexpr std::int64_t edge = MinMaxBricks::edge;
 
-// Of a block's samples, which a thread holds in memory.
+// The most bytes of a block's samples, which a thread holds in memory.
 constexpr std::int64_t block_bytes = std::int64_t{1} << 23;
 
 std::int64_t up_to_multiple(std::int64_t number, std::int64_t of) {

@@ -94,8 +94,8 @@ TEST_F(VolumeIndexFile, ThatIsDamagedIsNotUsed) {
         put(bytes.substr(0, kept));
         EXPECT_FALSE(read("here").index) << kept;
     }
-    const std::size_t data = bytes.find("end\n");
-    for (std::size_t at = data; at < bytes.size(); at += 1 + bytes.size() / 300) {
+    const std::size_t header = bytes.find('\n', bytes.find('\n') + 1);
+    for (std::size_t at = 0; at < bytes.size(); at += at < header ? 1 : 1 + bytes.size() / 300) {
         std::string changed = bytes;
         changed[at] = static_cast<char>(changed[at] ^ 64);
         put(changed);

@@ -39,8 +39,8 @@ void add_memory_option(CLI::App& verb) {
                 set_memory_limit(static_cast<std::uint64_t>(bytes_of(text)));
             },
             "How much memory the data may take, as 800M or 1.5G (of 1024^3 bytes), beside 200 MB "
-            "of "
-            "the program itself: parts of larger volumes are read when they are drawn (raw NRRD, "
+            "of the program itself: parts of larger volumes are read when they are drawn (raw "
+            "NRRD, "
             "MetaImage and --raw, Zarr); half of the machine's memory where this is not given")
         ->option_text("SIZE");
 }
