@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <string>
 
 namespace lamina {
 namespace {
@@ -41,6 +42,14 @@ std::uint64_t resident_memory() {
     std::uint64_t pages = 0, resident = 0;
     if (!(std::ifstream("/proc/self/statm") >> pages >> resident)) return 0;
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::uint64_t peak_resident_memory() {
+    std::ifstream status("/proc/self/status");
+    const std::string name = "VmHWM:";
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with(name)) return std::stoull(line.substr(name.size())) * 1024;  // KiB
+    return 0;
 }
 
 std::uint64_t memory_left() {

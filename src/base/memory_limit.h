@@ -15,6 +15,10 @@ bool memory_limit_is_told();  // whether somebody has set one
 // The process's resident memory in bytes; 0 where that is not known.
 std::uint64_t resident_memory();
 
+// The largest that it was, as the kernel keeps it for the program alone: that of getrusage()
+// includes what the process held before it became lamina.
+std::uint64_t peak_resident_memory();
+
 // How much memory may still be taken: memory_limit() + own_memory - resident_memory(), 0 or more.
 std::uint64_t memory_left();
 

@@ -85,6 +85,10 @@ struct SlicePlan : CompositingPlan {
     // Marched rays end at this optical depth, because what lies behind it cannot be seen.
     double opaque_depth = std::numeric_limits<double>::infinity();
     std::vector<TextureBrick> bricks;
+    // The part of the volume that this renderer draws of a picture that several draw together
+    // (volume_shares.h), in the volume's index space; none: all of it. Exact segments end at its
+    // faces. Slabs are drawn whole by the renderer in whose share the middle of the segment lies.
+    std::optional<IndexBox> share;
     std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
     // Parts of rays along which light bends by more are cut (slicing/tile_light-inl.h).
     double most_bend = 0;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
@@ -35,6 +36,11 @@ class Drawing {
     // The scene with every "auto" replaced by what the plan has chosen.
     virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
+
+    // Of renderers that draw one picture together, once a view is measured: the parts of the volume
+    // that they draw; and their numbers, nearer ones first.
+    virtual std::vector<IndexBox> shares() const { return {}; }
+    virtual std::vector<int> front_to_back(const Scene& /*scene*/) const { return {0}; }
 
     // `before`: the renderer that the new one replaces, or null. Data that both need is kept.
     virtual std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,

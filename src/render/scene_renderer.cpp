@@ -13,12 +13,14 @@
 namespace lamina {
 
 SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
-                             const Capabilities& capabilities, OmissionSwitch omissions)
+                             const Capabilities& capabilities, OmissionSwitch omissions,
+                             const PictureShare& share)
     : asked_(std::move(scene)),
       capabilities_(capabilities),
       omissions_(std::move(omissions)),
-      drawing_(std::make_unique<SliceDrawing>(std::move(volume))) {
+      drawing_(std::make_unique<SliceDrawing>(std::move(volume), share)) {
     assert(asked_.method == Method::slice);
+    assert(share.count == 1 || capabilities_.tiles);
 }
 
 SceneRenderer::SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
@@ -125,6 +127,16 @@ const Plan& SceneRenderer::plan() {
 
 std::string SceneRenderer::explanation() {
     return drawing_->explanation(plan(), capabilities_);
+}
+
+std::vector<IndexBox> SceneRenderer::shares() {
+    plan();
+    return drawing_->shares();
+}
+
+std::vector<int> SceneRenderer::front_to_back() {
+    plan();
+    return drawing_->front_to_back(*resolved_);
 }
 
 void SceneRenderer::set_up() {

@@ -8,11 +8,13 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "lamina/image.h"
 #include "plan/capabilities.h"
 #include "plan/plan.h"
 #include "render/drawing.h"
+#include "render/picture_share.h"
 #include "scene/scene_mesh.h"
 #include "volume/volume_data.h"
 
@@ -40,8 +42,11 @@ class SceneRenderer {
     // `capabilities`: of the native engine, or of an OpenGL context that is current whenever the
     // renderer is called and when it ends (DrawContext::make_current()), and outlives it. Renderers
     // of several contexts may draw at the same time, each in a thread of its own.
+    // `share`: of several renderers of one picture, of the native engine; all must be told of the
+    // same changes.
     SceneRenderer(Scene scene, std::shared_ptr<const VolumeData> volume,
-                  const Capabilities& capabilities, OmissionSwitch omissions = {});
+                  const Capabilities& capabilities, OmissionSwitch omissions = {},
+                  const PictureShare& share = {});
     SceneRenderer(Scene scene, std::shared_ptr<const SceneMesh> mesh,
                   const Capabilities& capabilities, OmissionSwitch omissions = {});
     SceneRenderer(const SceneRenderer&) = delete;
@@ -65,6 +70,10 @@ class SceneRenderer {
     // Throws Error where the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan();
     std::string explanation();
+    // Of renderers that share a picture: the parts of the volume that they draw, in its index
+    // space; and their numbers, nearer ones first.
+    std::vector<IndexBox> shares();
+    std::vector<int> front_to_back();
     const Capabilities& capabilities() const { return capabilities_; }
 
     // Makes what a frame needs. draw() calls it if necessary.

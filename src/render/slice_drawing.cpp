@@ -17,6 +17,7 @@ TreeSettings settings_of(const TreePlan& tree) {
 void SliceDrawing::measure_data(const Scene& scene) {
     facts_ = lamina::measure_data(scene, data_->volume, data_->bricks);
     trials_ = {};
+    shares_.reset();
 }
 
 // The scene of a later view has its table already, so no rays are needed to choose one.
@@ -28,6 +29,8 @@ void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
     } else {
         measure_rays(scene, data_->volume, facts_);
     }
+    // Shares stay when the view changes, so that the data do.
+    if (share_.count > 1 && !shares_) shares_.emplace(scene, facts_, data_->bricks, share_.count);
 }
 
 void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities,
@@ -37,8 +40,10 @@ void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilit
 
 Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
                         const OmissionSwitch& omissions, bool for_people) const {
-    return for_people ? make_plan(scene, facts_, capabilities, omissions, trials_)
-                      : plan_alone(scene, facts_, capabilities, omissions, trials_);
+    Plan plan = for_people ? make_plan(scene, facts_, capabilities, omissions, trials_)
+                           : plan_alone(scene, facts_, capabilities, omissions, trials_);
+    if (shares_) take_share(shares_->boxes()[static_cast<std::size_t>(share_.number)], plan.slice);
+    return plan;
 }
 
 Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
@@ -60,6 +65,15 @@ Scene SliceDrawing::resolved(Scene scene, const Plan& plan) const {
     scene.target = slice.target;
     scene.automatic_target = false;
     return scene;
+}
+
+std::vector<IndexBox> SliceDrawing::shares() const {
+    return shares_ ? shares_->boxes() : std::vector<IndexBox>();
+}
+
+std::vector<int> SliceDrawing::front_to_back(const Scene& scene) const {
+    if (!shares_) return {0};
+    return shares_->front_to_back(facts_.grid, View(scene.camera, scene.width, scene.height));
 }
 
 std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {

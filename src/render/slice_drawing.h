@@ -2,17 +2,21 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "plan/sample_trials.h"
+#include "plan/volume_shares.h"
 #include "render/drawing.h"
+#include "render/picture_share.h"
 #include "volume/volume_data.h"
 
 namespace lamina {
 
 class SliceDrawing : public Drawing {
   public:
-    explicit SliceDrawing(std::shared_ptr<const VolumeData> data) : data_(std::move(data)) {}
+    SliceDrawing(std::shared_ptr<const VolumeData> data, const PictureShare& share)
+        : data_(std::move(data)), share_(share) {}
 
     const char* activity() const override { return "slicing"; }
     void measure_data(const Scene& scene) override;
@@ -27,8 +31,13 @@ class SliceDrawing : public Drawing {
                                                  const Capabilities& capabilities,
                                                  FrameRenderer* before) const override;
 
+    std::vector<IndexBox> shares() const override;
+    std::vector<int> front_to_back(const Scene& scene) const override;
+
   private:
     std::shared_ptr<const VolumeData> data_;
+    PictureShare share_;
+    std::optional<VolumeShares> shares_;
     Facts facts_;
     SampleTrials trials_;
 };

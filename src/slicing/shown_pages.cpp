@@ -2,6 +2,7 @@
 #include "slicing/shown_pages.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace lamina {
@@ -20,6 +21,22 @@ PageSpan pages_of_brick(std::int64_t brick, std::int64_t first_sample, std::int6
     return {std::min(from, pages - 1), std::min(to, pages - 1)};
 }
 
+// The bricks on one axis that touch a share.
+struct BrickSpan {
+    std::int64_t first, end;
+};
+BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
+                    const OccupiedBricks& occupied) {
+    const std::int64_t count = occupied.count[static_cast<std::size_t>(axis)];
+    if (!share) return {0, count};
+    const auto brick_at = [&](double place) {
+        const double brick = std::floor(place / double{MinMaxBricks::edge});
+        return static_cast<std::int64_t>(std::clamp(brick, 0.0, static_cast<double>(count)));
+    };
+    return {std::min(brick_at(share->min[axis]), count - 1),
+            std::min(brick_at(share->max[axis]) + 1, count)};
+}
+
 // How far a point lies outside each of a view's five planes: behind the eye, and beside the
 // picture's edges by a pixel and more. Below 0: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
@@ -34,7 +51,8 @@ std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
 
 }  // namespace
 
-std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied) {
+std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied,
+                                       const std::optional<IndexBox>& share) {
     const BrickCache& cache = *volume.pages();
     const auto& count = cache.count();
     std::vector<std::uint8_t> shown(cache.brick_count());
@@ -50,10 +68,12 @@ std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedB
             }
         }
     };
-    for (std::int64_t z = 0; z < occupied.count[2]; ++z) {
-        for (std::int64_t y = 0; y < occupied.count[1]; ++y) {
+    const BrickSpan wide = bricks_of(share, 0, occupied), high = bricks_of(share, 1, occupied),
+                    far = bricks_of(share, 2, occupied);
+    for (std::int64_t z = far.first; z < far.end; ++z) {
+        for (std::int64_t y = high.first; y < high.end; ++y) {
             const std::size_t row = occupied.place(0, y, z);
-            for (std::int64_t x = 0; x < occupied.count[0]; ++x) {
+            for (std::int64_t x = wide.first; x < wide.end; ++x) {
                 if (occupied.distance[row + static_cast<std::size_t>(x)] == 0) mark(x, y, z);
             }
         }

@@ -3,9 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-#include "facts/occupied_bricks.h"
+#include "facts/facts.h"
 #include "lamina/grid.h"
 #include "scene/camera.h"
 #include "slicing/tile_volume.h"
@@ -13,7 +14,9 @@
 namespace lamina {
 
 // The numbers of the pages of a volume with cells in bricks that show something, ascending.
-std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied);
+// `share`: of these bricks, those that touch this box (SlicePlan::share).
+std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedBricks& occupied,
+                                       const std::optional<IndexBox>& share);
 
 // Those of them that the view may see. `count`: pages along each axis; `first`: the volume's sample
 // with which the first begins.

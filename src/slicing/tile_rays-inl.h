@@ -36,6 +36,7 @@ struct PacketRays {
     TwoDoubles origin[3], direction[3];
     TwoDoubles length_per_depth;  // world units
     DepthSpan box, drawn;         // boxes of the brick, for pixels of the image
+    DepthSpan share;              // of the middles of segments to draw, where the brick says so
     TwoDoubles enter, leave;      // enter = leave where the ray misses the box or the slabs
     Floats direction_float[3], length_float;
     int first_slab, end_slab;  // slabs that may show something; first >= end where there are none
@@ -127,6 +128,18 @@ HWY_INLINE bool depth_hull(const DepthSpan& span, double& first, double& last) {
     return last > first;
 }
 
+// The part of `span` in which segments lie whose middles lie in `share`.
+HWY_INLINE DepthSpan with_half_slabs(const TileRays& frame, const DepthSpan& share,
+                                     const DepthSpan& span) {
+    const auto half = hn::Set(DoubleTag(), 0.5 * frame.slab_thickness);
+    const auto later = [&](HalfDoubles a, HalfDoubles b)
+                           HWY_ATTR { return hn::Max(a, hn::Sub(b, half)); };
+    const auto earlier = [&](HalfDoubles a, HalfDoubles b)
+                             HWY_ATTR { return hn::Min(a, hn::Add(b, half)); };
+    return {each_half<FloatTag>(later, span.enter, share.enter),
+            each_half<FloatTag>(earlier, span.leave, share.leave)};
+}
+
 // The rays of the pixels from (column, row) on, in the order of a tile, through one brick.
 HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& brick, int column,
                                   int row) {
@@ -175,6 +188,11 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     rays.drawn = rays.box;
     clip_to_box(rays, brick.box, rays.box);
     clip_to_box(rays, brick.drawn, rays.drawn);
+    if (brick.share) {
+        rays.share = {all(-1e30), all(1e30)};
+        clip_to_box(rays, *brick.share, rays.share);
+        rays.drawn = with_half_slabs(frame, rays.share, rays.drawn);
+    }
     return rays;
 }
 

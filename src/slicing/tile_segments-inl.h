@@ -97,6 +97,24 @@ HWY_INLINE std::int64_t set_lengths(const TileRays& frame, const BlockRays& rays
     return segments;
 }
 
+// Leaves out segments whose middles lie in the share of another renderer. All renderers compute the
+// same middles and the same crossings of the planes between shares, so each segment has one.
+HWY_INLINE void keep_share(const TileRays& frame, const PacketRays& packet, bool inside,
+                           SlabBlock& block) {
+    const FloatTag d;
+    const auto front = hn::Set(DoubleTag(), block.first_slab * frame.slab_thickness);
+    const auto from_front = [&](HalfDoubles v) HWY_ATTR { return hn::Sub(v, front); };
+    const Floats enter = to_floats(d, each_half<FloatTag>(from_front, packet.share.enter));
+    const Floats leave = to_floats(d, each_half<FloatTag>(from_front, packet.share.leave));
+    for (int i = block.from; i < block.end; ++i) {
+        const Floats middle = inside ? hn::Set(d, frame.middles[static_cast<std::size_t>(i)])
+                                     : hn::Load(d, block.middles + at(i));
+        const auto own = hn::And(hn::Ge(middle, enter), hn::Lt(middle, leave));
+        hn::Store(hn::IfThenElseZero(own, hn::Load(d, block.lengths + at(i))), d,
+                  block.lengths + at(i));
+    }
+}
+
 // Calls use(kind of points, middle, edge): middle(i) is the point in the middle of slab i, edge(i)
 // the one in front of it.
 template <class Use>
@@ -192,6 +210,7 @@ inline std::int64_t set_run(const TileSlabs& slabs, const TileBrickView& brick,
     const bool sampled = plan.sampling != VolumeSampling::none;
     const bool inside = sampled && is_inside(slabs.rays, brick.brick, block, rays, packet);
     const std::int64_t segments = set_lengths(slabs.rays, rays, packet.length_float, inside, block);
+    if (brick.share) keep_share(slabs.rays, packet, inside, block);
     if (!sampled) {
         set_constant(slabs, block);
         return segments;

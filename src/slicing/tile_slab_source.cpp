@@ -71,7 +71,7 @@ TileSlabSource::TileSlabSource(const Volume& volume, const TransferFunction& tra
         upload_ms_ = upload.end();
     }
     if (volume_->pages() != nullptr) {
-        shown_pages_ = pages_shown(*volume_, occupied_);
+        shown_pages_ = pages_shown(*volume_, occupied_, plan_.share);
         volume_->pages()->expect(shown_pages_);
     }
     set_light();
@@ -161,7 +161,20 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     brick.box = {glm::dvec3(glm::vec3(box.min - first)), glm::dvec3(glm::vec3(box.max - first))};
     brick.drawn.min -= first;
     brick.drawn.max -= first;
+    if (plan_.share && !take_share({plan_.share->min - first, plan_.share->max - first}, brick))
+        return;
     slabs_.bricks.push_back(brick);
+}
+
+// Cells lie in one share each: rays are clipped to it. False: the brick has nothing of it.
+bool TileSlabSource::take_share(const IndexBox& share, TileBrickView& brick) const {
+    if (!plan_.integrates_cells()) {
+        brick.share = share;
+        return true;
+    }
+    for (IndexBox* const box : {&brick.box, &brick.drawn})
+        *box = {glm::max(box->min, share.min), glm::min(box->max, share.max)};
+    return !brick.drawn.empty();
 }
 
 void TileSlabSource::check_unchanged() const {

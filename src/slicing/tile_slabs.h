@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "executors/tile_light.h"
@@ -43,6 +44,9 @@ struct TileBrickView {
     std::vector<IndexPlane> clip;
     glm::dvec3 first{0};  // the volume's sample at the brick's origin
     double margin = 0;    // largest error of a point in float, in voxels
+    // Where slabs are drawn whole: the box that holds the middles of the segments to draw
+    // (SlicePlan::share).
+    std::optional<IndexBox> share;
 };
 
 // All that the segments of slabs depend on.

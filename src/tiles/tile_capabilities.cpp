@@ -2,8 +2,10 @@
 #include "tiles/tile_capabilities.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -15,7 +17,10 @@ Capabilities tile_capabilities() {
     constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
     capabilities.renderer = fmt::format("cpu: {}", instruction_set());
-    capabilities.threads = tbb::this_task_arena::max_concurrency();
+    const auto allowed =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    capabilities.threads =
+        std::min(tbb::this_task_arena::max_concurrency(), static_cast<int>(allowed));
     capabilities.tiles = true;
     capabilities.max_texture_size = largest_edge;
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();

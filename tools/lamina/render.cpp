@@ -21,6 +21,7 @@
 #include "render/context_choice.h"
 #include "render_job.h"
 #include "render_output.h"
+#include "render_verb.h"
 #include "scene_data.h"
 #include "scene_options.h"
 #include "verbs.h"
@@ -59,7 +60,7 @@ void message(const RenderOptions& options, const std::string& text) {
     if (!options.quiet) print_message("lamina: {}\n", text);
 }
 
-std::unique_ptr<RenderJob> make_job(const RenderRequest& request) {
+std::unique_ptr<RenderJob> make_any_job(const RenderRequest& request) {
     if (request.scene.method == Method::slice) return make_slice_job(request);
     if (request.scene.method == Method::project) return make_project_job(request);
     return request.scene.draws_mesh() ? make_mesh_trace_job(request)
@@ -83,7 +84,7 @@ void print_explanation(const RenderOptions& options, const std::string& explanat
 }
 
 // Does one `lamina render`, from the files to the picture and the statistics.
-void run(const RenderOptions& options) {
+void run(const RenderOptions& options, const RenderJobMaker& make_job) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);
     const Stopwatch watch;
@@ -147,6 +148,10 @@ void run(const RenderOptions& options) {
 }  // namespace
 
 void add_render(CLI::App& app, int&) {
+    add_render_with(app, make_any_job);
+}
+
+CLI::App& add_render_with(CLI::App& app, const RenderJobMaker& make_job) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* const verb =
         app.add_subcommand("render", "Render a scene, a volume or a mesh to a picture");
@@ -187,7 +192,7 @@ void add_render(CLI::App& app, int&) {
         ->option_text("auto|osmesa|egl|cpu");
     add_memory_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
-    verb->callback([options] {
+    verb->callback([options, make_job] {
         if (options->output.output.empty() && !options->explain) {
             throw UsageError("render: expected -o FILE (only --explain works without a picture)");
         }
@@ -195,8 +200,9 @@ void add_render(CLI::App& app, int&) {
         if (options->output.output.empty() && !options->profile.empty())
             throw UsageError("--profile: expected -o FILE, too");
         Progress::set_quiet(options->quiet);
-        run(*options);
+        run(*options, make_job);
     });
+    return *verb;
 }
 
 }  // namespace lamina

@@ -2,26 +2,16 @@
 #include "render_stats.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "base/median.h"
+#include "base/memory_limit.h"
 #include "base/unreachable.h"
 
 namespace lamina {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// The kernel keeps this peak for the program alone; that of getrusage() includes what the process
-// held before it became lamina.
-double peak_rss_mb() {
-    std::ifstream status("/proc/self/status");
-    const std::string name = "VmHWM:";
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with(name)) return std::stod(line.substr(name.size())) / 1024;  // KiB
-    return 0;
-}
 
 const char* word_of(VolumeSampling sampling) {
     switch (sampling) {
@@ -170,7 +160,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     json["tets_drawn"] = stats.tets_drawn;
     json["bytes_gpu"] = stats.bytes_gpu;
     json["bytes_host"] = stats.bytes_host;
-    json["peak_rss_mb"] = peak_rss_mb();
+    json["peak_rss_mb"] = static_cast<double>(peak_resident_memory()) / (1 << 20);
     json["context"] = stats.context;
     json["plan"] = plan_to_json(plan);
     json["omitted"] = Json::array();
@@ -181,6 +171,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     }
     json["work"] = {{"predicted", to_json(plan.work)}, {"actual", actual_work(stats, plan)}};
     json["counts"] = stats.counts;
+    if (stats.ranks) json["ranks"] = *stats.ranks;
     if (stats.mesh_error) json["mesh_error"] = *stats.mesh_error;
     if (stats.error_estimate) json["error_estimate"] = *stats.error_estimate;
     return json;

@@ -22,13 +22,14 @@ struct RenderStats {
     std::uint64_t fragments = 0;  // of the scene's own frame
     std::int64_t tets_drawn = 0;  // that cover the centre of a pixel in that frame
     std::int64_t bytes_gpu = 0;
-    std::int64_t bytes_host = 0;                 // of the native engine, beside the data itself
-    std::string renderer;                        // what drew
-    std::string context;                         // with its threads
-    bool on_tiles = false;                       // the native engine drew
-    std::optional<double> error_estimate;        // trace
-    std::optional<double> mesh_error;            // of a mesh made from a volume, of the range
-    std::map<std::string, std::int64_t> counts;  // what was clamped, dropped, ...
+    std::int64_t bytes_host = 0;                  // of the native engine, beside the data itself
+    std::string renderer;                         // what drew
+    std::string context;                          // with its threads
+    bool on_tiles = false;                        // the native engine drew
+    std::optional<double> error_estimate;         // trace
+    std::optional<double> mesh_error;             // of a mesh made from a volume, of the range
+    std::optional<nlohmann::ordered_json> ranks;  // what each rank of several took
+    std::map<std::string, std::int64_t> counts;   // what was clamped, dropped, ...
 };
 
 // Raises each of `largest` to what `counts` has of its name.

@@ -20,11 +20,6 @@ void add_verbs(CLI::App& app, int& exit_code) {
     add_selftest(app, exit_code);
     add_completion(app, exit_code);
     add_man(app, exit_code);
-    // A name that says what it is needs no type beside it in --help.
-    for (CLI::App* const verb : app.get_subcommands({})) {
-        for (CLI::Option* const option : verb->get_options())
-            if (option->get_positional()) option->type_name("");
-    }
 }
 
 }  // namespace lamina

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/agreement.h"
+
+#include <cstdio>
+#include <new>
+#include <string>
+
+#include "base/error.h"
+
+namespace lamina {
+namespace {
+
+// Takes no memory.
+const char* message_of(const std::exception& error) {
+    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    return memory ? "out of memory" : error.what();
+}
+
+}  // namespace
+
+void agree(const Ranks& ranks, const std::function<void()>& work) {
+    std::exception_ptr failure;
+    std::string message;
+    try {
+        work();
+    } catch (const std::exception& error) {
+        failure = std::current_exception();
+        message = message_of(error);
+    }
+    int first = failure ? ranks.number() : ranks.count();
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks.comm());
+    if (first == ranks.count()) return;
+    if (first == 0) {
+        if (failure && ranks.leads()) std::rethrow_exception(failure);
+        fail("rank 0 has failed");
+    }
+    auto size = static_cast<int>(message.size());
+    MPI_Bcast(&size, 1, MPI_INT, first, ranks.comm());
+    message.resize(static_cast<std::size_t>(size));
+    MPI_Bcast(message.data(), size, MPI_CHAR, first, ranks.comm());
+    fail("{} (rank {} of {})", message, first, ranks.count());
+}
+
+void do_or_abort(const Ranks& ranks, const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "lamina: %s (rank %d of %d)\n", message_of(error), ranks.number(),
+                     ranks.count());
+        MPI_Abort(ranks.comm(), 1);
+    }
+}
+
+}  // namespace lamina

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lamina/camera.h"
+#include "parallel/wire.h"
+
+namespace lamina {
+
+// What rank 0 tells the others to do; sent as bytes.
+struct Command {
+    enum class Kind { open, draw, close, end };
+
+    Kind kind = Kind::end;
+    int scene = 0;                        // its number
+    Wire wire = Wire::float32;            // open
+    unsigned long long memory_limit = 0;  // open; bytes, 0: as it is
+    Camera camera{};                      // draw
+};
+
+}  // namespace lamina

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/followers.h"
+
+#include <map>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "base/error.h"
+#include "base/json_text.h"
+#include "base/memory_limit.h"
+#include "base/progress.h"
+#include "base/standard_streams.h"
+#include "base/unreachable.h"
+#include "parallel/agreement.h"
+#include "parallel/command.h"
+#include "parallel/plan_digest.h"
+#include "parallel/shared_renderer.h"
+#include "render/context_choice.h"
+#include "scene/scene_volume.h"
+#include "scene_files/scene_reader.h"
+
+namespace lamina {
+namespace {
+
+// Rank 0 may take minutes to read and to choose. MPI itself waits with a processor at full load,
+// which other ranks need.
+Command next_command(const Ranks& ranks) {
+    Command command;
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Ibcast(&command, sizeof command, MPI_BYTE, 0, ranks.comm(), &request);
+    for (int arrived = 0, tries = 0;; ++tries) {
+        MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+        if (arrived != 0) return command;
+        if (tries > 1000) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+}
+
+OmissionSwitch omissions_of(const std::string& kept) {
+    OmissionSwitch omissions;
+    omissions.none = kept == "all";
+    std::istringstream names(kept);
+    for (std::string name; !omissions.none && names >> name;) omissions.kept.insert(name);
+    return omissions;
+}
+
+std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command) {
+    std::string name, text, kept, digest;
+    for (std::string* const sent : {&name, &text, &kept, &digest}) ranks.broadcast(*sent);
+    std::unique_ptr<SharedRenderer> renderer;
+    agree(ranks, [&] {
+        if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
+        const Scene scene = read_scene(parse_json(text), name);
+        auto volume = std::make_shared<const VolumeData>(open_volume(scene));
+        renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, std::move(volume),
+                                                    omissions_of(kept));
+        const Plan& plan = renderer->own().plan();
+        if (digest_of(plan.slice, renderer->own().shares()) != digest)
+            fail("{}: rank 0 plans another picture than rank {}: expected the same data on all",
+                 name, ranks.number());
+    });
+    return renderer;
+}
+
+class Follower {
+  public:
+    explicit Follower(const Ranks& ranks) : ranks_(ranks) {}
+
+    // Does one thing. False: that was all.
+    bool follow(const Command& command) {
+        switch (command.kind) {
+            case Command::Kind::open:
+                renderers_[command.scene] = open(ranks_, command);
+                return true;
+            case Command::Kind::draw:
+                renderers_.at(command.scene)->draw(command.camera);
+                return true;
+            case Command::Kind::close:
+                renderers_.erase(command.scene);
+                return true;
+            case Command::Kind::end:
+                return false;
+        }
+        unreachable_enum();
+    }
+
+  private:
+    const Ranks& ranks_;
+    std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
+};
+
+}  // namespace
+
+int run_follower(const Ranks& ranks) {
+    make_streams_safe();
+    Progress::set_quiet(true);
+    restrict_instructions_as_asked();
+    Follower follower(ranks);
+    int exit_code = 0;
+    for (;;) {
+        const Command command = next_command(ranks);
+        try {
+            if (!follower.follow(command)) return exit_code;
+        } catch (const Error&) {
+            exit_code = 1;  // all ranks know of it
+        }
+    }
+}
+
+}  // namespace lamina

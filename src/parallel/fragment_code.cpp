@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/fragment_code.h"
+
+#include <Imath/half.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <cstring>
+
+#include "base/unreachable.h"
+
+namespace lamina {
+namespace {
+
+using Pixel = std::array<float, 4>;
+
+bool shows(const float* pixel) {
+    return pixel[0] != 0 || pixel[1] != 0 || pixel[2] != 0 || pixel[3] != 0;
+}
+
+void put_behind(const Pixel& pixel, float* front) {
+    const float left = 1 - front[3];
+    for (std::size_t channel = 0; channel < 4; ++channel) front[channel] += left * pixel[channel];
+}
+
+template <typename Code>
+Code code_of(float share) {
+    constexpr float most = std::numeric_limits<Code>::max();
+    return static_cast<Code>(std::clamp(share * most + 0.5f, 0.0f, most));
+}
+template <typename Code>
+float share_of(Code code) {
+    return static_cast<float>(code) * (1.0f / std::numeric_limits<Code>::max());
+}
+
+// Each format: its bytes of a pixel, and both ways.
+struct Float32 {
+    static constexpr std::size_t size = 16;
+    static void encode(const float* pixel, float, std::byte* bytes) {
+        std::memcpy(bytes, pixel, size);
+    }
+    static Pixel decode(const std::byte* bytes, float) {
+        Pixel pixel;
+        std::memcpy(pixel.data(), bytes, size);
+        return pixel;
+    }
+};
+
+struct Half {
+    static constexpr std::size_t size = 8;
+    static void encode(const float* pixel, float, std::byte* bytes) {
+        std::array<std::uint16_t, 4> halves;
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            halves[channel] = Imath::half(pixel[channel]).bits();
+        std::memcpy(bytes, halves.data(), size);
+    }
+    static Pixel decode(const std::byte* bytes, float) {
+        std::array<std::uint16_t, 4> halves;
+        std::memcpy(halves.data(), bytes, size);
+        Pixel pixel;
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            pixel[channel] = Imath::half(Imath::half::FromBits, halves[channel]);
+        return pixel;
+    }
+};
+
+struct Fixed16 {
+    static constexpr std::size_t size = 8;
+    static void encode(const float* pixel, float largest, std::byte* bytes) {
+        std::array<std::uint16_t, 4> codes;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            codes[channel] = code_of<std::uint16_t>(pixel[channel] / largest);
+        codes[3] = code_of<std::uint16_t>(pixel[3]);
+        std::memcpy(bytes, codes.data(), size);
+    }
+    static Pixel decode(const std::byte* bytes, float largest) {
+        std::array<std::uint16_t, 4> codes;
+        std::memcpy(codes.data(), bytes, size);
+        return {share_of(codes[0]) * largest, share_of(codes[1]) * largest,
+                share_of(codes[2]) * largest, share_of(codes[3])};
+    }
+};
+
+struct Fixed8 {
+    static constexpr std::size_t size = 5;
+    static void encode(const float* pixel, float largest, std::byte* bytes) {
+        const float scale = pixel[3] > 0 ? 1 / (pixel[3] * largest) : 0;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            bytes[channel] = std::byte{code_of<std::uint8_t>(pixel[channel] * scale)};
+        const auto opacity = code_of<std::uint16_t>(pixel[3]);
+        std::memcpy(bytes + 3, &opacity, sizeof opacity);
+    }
+    static Pixel decode(const std::byte* bytes, float largest) {
+        std::uint16_t code;
+        std::memcpy(&code, bytes + 3, sizeof code);
+        const float opacity = share_of(code), scale = opacity * largest;
+        const auto color = [&](std::size_t channel) {
+            return share_of(std::to_integer<std::uint8_t>(bytes[channel])) * scale;
+        };
+        return {color(0), color(1), color(2), opacity};
+    }
+};
+
+template <typename Use>
+void with_format(FragmentFormat format, const Use& use) {
+    switch (format) {
+        case FragmentFormat::float32:
+            return use(Float32());
+        case FragmentFormat::half:
+            return use(Half());
+        case FragmentFormat::fixed16:
+            return use(Fixed16());
+        case FragmentFormat::fixed8:
+            return use(Fixed8());
+    }
+    unreachable_enum();
+}
+
+// Whole numbers of 7 bits a byte, lowest first; the highest bit says that more follow.
+constexpr std::size_t most_number_bytes = 5;
+std::byte* write_number(std::uint32_t number, std::byte* to) {
+    for (; number >= 0x80; number >>= 7) *to++ = std::byte(number | 0x80);
+    *to++ = std::byte(number);
+    return to;
+}
+std::uint32_t read_number(const std::byte*& from) {
+    std::uint32_t number = 0;
+    for (int shift = 0;; shift += 7) {
+        const auto byte = std::to_integer<std::uint32_t>(*from++);
+        number |= (byte & 0x7f) << shift;
+        if (byte < 0x80) return number;
+    }
+}
+
+// The first pixel from `column` on that shows something, or not, as asked.
+int next(const float* row, int column, int width, bool shown) {
+    while (column < width && shows(row + 4 * static_cast<std::size_t>(column)) != shown) ++column;
+    return column;
+}
+
+// A row ends with a run of no pixels.
+template <typename Format>
+std::byte* encode_row(const float* row, int width, float largest, std::byte* to) {
+    for (int end = 0;;) {
+        const int first = next(row, end, width, true);
+        const int skipped = first - end;
+        end = next(row, first, width, false);
+        if (first == end) break;
+        to = write_number(static_cast<std::uint32_t>(end - first), to);
+        to = write_number(static_cast<std::uint32_t>(skipped), to);
+        for (int column = first; column < end; ++column, to += Format::size)
+            Format::encode(row + 4 * static_cast<std::size_t>(column), largest, to);
+    }
+    return write_number(0, to);
+}
+
+template <typename Format>
+const std::byte* put_row_behind(const std::byte* from, float largest, float* row) {
+    for (std::uint32_t count = read_number(from); count > 0; count = read_number(from)) {
+        row += 4 * static_cast<std::size_t>(read_number(from));
+        for (; count > 0; --count, from += Format::size, row += 4)
+            put_behind(Format::decode(from, largest), row);
+    }
+    return from;
+}
+
+}  // namespace
+
+// A run and the gap before it take at most as many bytes of numbers as there are in `most_of_row`.
+void encode_rows(const Image& picture, const RowSpan& rows, FragmentFormat format, float largest,
+                 std::vector<std::byte>& bytes) {
+    with_format(format, [&](auto chosen) {
+        using Format = decltype(chosen);
+        const auto width = static_cast<std::size_t>(picture.width);
+        const std::size_t most_of_row =
+            width * Format::size + (width / 2 + 1) * 2 * most_number_bytes + 1;
+        std::size_t used = 0;
+        for (int row = rows.first; row < rows.end; ++row) {
+            if (bytes.size() < used + most_of_row) bytes.resize(2 * used + most_of_row);
+            std::byte* const end = encode_row<Format>(picture.pixel(0, row), picture.width, largest,
+                                                      bytes.data() + used);
+            used = static_cast<std::size_t>(end - bytes.data());
+        }
+        bytes.resize(used);
+    });
+}
+
+void put_rows_behind(const std::vector<std::byte>& bytes, const RowSpan& rows,
+                     FragmentFormat format, float largest, Image& front) {
+    with_format(format, [&](auto chosen) {
+        const std::byte* from = bytes.data();
+        for (int row = rows.first; row < rows.end; ++row)
+            from = put_row_behind<decltype(chosen)>(from, largest, front.pixel(0, row));
+        assert(from == bytes.data() + bytes.size());
+    });
+}
+
+void put_rows_behind(const Image& picture, const RowSpan& rows, Image& front) {
+    for (int row = rows.first; row < rows.end; ++row) {
+        const float* behind = picture.pixel(0, row);
+        float* there = front.pixel(0, row);
+        for (int column = 0; column < front.width; ++column, behind += 4, there += 4)
+            put_behind({behind[0], behind[1], behind[2], behind[3]}, there);
+    }
+}
+
+}  // namespace lamina

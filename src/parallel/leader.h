@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+
+#include "lamina/memory.h"
+#include "parallel/shared_renderer.h"
+
+namespace lamina {
+
+// Rank 0's view of the other ranks, which follow it (followers.h) until it is gone. They are told
+// of every scene that it opens, and of every frame.
+class Leader {
+  public:
+    explicit Leader(const Ranks& ranks) : ranks_(ranks), memory_before_(memory_limit()) {}
+    Leader(const Leader&) = delete;
+    Leader& operator=(const Leader&) = delete;
+    ~Leader();
+
+    const Ranks& ranks() const { return ranks_; }
+    void set_wire(Wire wire) { wire_ = wire; }  // of scenes that are opened from now on
+
+    // Opens a scene on all ranks and returns its number. `volume`: the scene's; the other ranks
+    // open it for themselves. Throws Error where ranks cannot share the scene or one of them fails.
+    int open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
+             const OmissionSwitch& omissions, bool many_frames);
+    SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
+    // Draws a frame on all ranks.
+    void draw(int scene, const Camera& camera);
+    void close(int scene);
+
+  private:
+    const Ranks& ranks_;
+    Wire wire_ = Wire::float32;
+    std::uint64_t memory_before_;  // the limit, before somebody asks for another
+    int next_ = 0;
+    std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/picture_composer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lamina {
+namespace {
+
+void clear(Image& image, int width, int height) {
+    image.resize(width, height);
+    std::ranges::fill(image.rgba, 0.0f);
+}
+
+// The first hop, and those behind it.
+FragmentFormat first_format(Wire wire) {
+    if (wire == Wire::coded) return FragmentFormat::fixed8;
+    return wire == Wire::half ? FragmentFormat::half : FragmentFormat::float32;
+}
+FragmentFormat later_format(Wire wire) {
+    if (wire == Wire::coded) return FragmentFormat::fixed16;
+    return first_format(wire);
+}
+
+}  // namespace
+
+// Who composites which rows. Groups are runs of ranks in depth. The rows are divided among the
+// members of a group; the rows of one member are divided again among the groups.
+class PictureComposer::Layout {
+  public:
+    Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights)
+        : order_(order) {
+        const int count = static_cast<int>(order.size());
+        size_ = count <= most_in_group
+                    ? count
+                    : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
+        groups_ = (count + size_ - 1) / size_;
+        for (const RowSpan& rows :
+             divide_rows(weights, {0, static_cast<int>(weights.size())}, size_))
+            rows_.push_back(divide_rows(weights, rows, groups_));
+    }
+
+    int groups() const { return groups_; }
+
+    // Within the group of a rank.
+    std::vector<Transfer> in_group(int rank) const {
+        const auto place = std::ranges::find(order_, rank) - order_.begin();
+        const int group = static_cast<int>(place) / size_;
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            const RowSpan rows{rows_of(part).front().first, rows_of(part).back().end};
+            for (int member = 0; member < members(group); ++member)
+                transfers.push_back({rank_of(group, member), owner(group, part), rows});
+        }
+        return transfers;
+    }
+
+    std::vector<Transfer> among_groups() const {
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            for (int to = 0; to < groups_; ++to) {
+                for (int from = 0; from < groups_; ++from)
+                    transfers.push_back({owner(from, part), owner(to, part), rows_of(part, to)});
+            }
+        }
+        return transfers;
+    }
+
+    std::vector<Transfer> to_first() const {
+        std::vector<Transfer> transfers;
+        for (int part = 0; part < size_; ++part) {
+            for (int group = 0; group < groups_; ++group)
+                transfers.push_back({owner(group, part), 0, rows_of(part, group)});
+        }
+        return transfers;
+    }
+
+  private:
+    int members(int group) const {
+        return std::min(size_, static_cast<int>(order_.size()) - group * size_);
+    }
+    int rank_of(int group, int member) const {
+        return order_[static_cast<std::size_t>(group * size_ + member)];
+    }
+    // The last group may have fewer members.
+    int owner(int group, int part) const { return rank_of(group, part % members(group)); }
+    const std::vector<RowSpan>& rows_of(int part) const {
+        return rows_[static_cast<std::size_t>(part)];
+    }
+    const RowSpan& rows_of(int part, int group) const {
+        return rows_of(part)[static_cast<std::size_t>(group)];
+    }
+
+    const std::vector<int>& order_;
+    int size_ = 1, groups_ = 1;
+    std::vector<std::vector<RowSpan>> rows_;  // by part of a group, then by group
+};
+
+void PictureComposer::compose(const std::vector<int>& order, Image& picture) {
+    bytes_sent_ = messages_sent_ = 0;
+    if (ranks_.count() == 1) return;
+    measure(picture);
+    const Layout layout(order, row_weights_);
+    clear(composed_, picture.width, picture.height);
+    exchange(layout.in_group(ranks_.number()), first_format(wire_), picture, composed_);
+    if (layout.groups() > 1) {
+        clear(picture, picture.width, picture.height);
+        exchange(layout.among_groups(), later_format(wire_), composed_, picture);
+        std::swap(composed_, picture);
+    }
+    if (ranks_.leads()) clear(picture, picture.width, picture.height);
+    exchange(layout.to_first(), later_format(wire_), composed_, picture);
+}
+
+void PictureComposer::measure(const Image& picture) {
+    row_weights_.assign(static_cast<std::size_t>(picture.height), 0);
+    largest_ = 1;
+    for (int row = 0; row < picture.height; ++row) {
+        const float* pixel = picture.pixel(0, row);
+        std::int64_t shown = 0;
+        for (int column = 0; column < picture.width; ++column, pixel += 4) {
+            shown += pixel[3] > 0;
+            // An associated colour of more than its opacity is one of more than 1.
+            for (int channel = 0; channel < 3; ++channel)
+                if (pixel[channel] > largest_ * pixel[3]) largest_ = pixel[channel] / pixel[3];
+        }
+        row_weights_[static_cast<std::size_t>(row)] = shown;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, row_weights_.data(), picture.height, MPI_INT64_T, MPI_SUM,
+                  ranks_.comm());
+    if (wire_ == Wire::coded)
+        MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_FLOAT, MPI_MAX, ranks_.comm());
+}
+
+void PictureComposer::exchange(const std::vector<Transfer>& transfers, FragmentFormat format,
+                               const Image& picture, Image& front) {
+    const int own = ranks_.number();
+    std::vector<std::vector<std::byte>> sent;
+    std::vector<MPI_Request> requests;
+    for (const Transfer& transfer : transfers) {
+        if (transfer.from != own || transfer.to == own) continue;
+        std::vector<std::byte>& bytes = sent.emplace_back();
+        encode_rows(picture, transfer.rows, format, largest_, bytes);
+        bytes_sent_ += static_cast<std::int64_t>(bytes.size());
+        ++messages_sent_;
+        MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, transfer.to, 0,
+                  ranks_.comm(), &requests.emplace_back());
+    }
+    std::vector<std::byte> bytes;
+    for (const Transfer& transfer : transfers) {
+        if (transfer.to != own) continue;
+        if (transfer.from == own) {
+            put_rows_behind(picture, transfer.rows, front);
+            continue;
+        }
+        MPI_Status status;
+        MPI_Probe(transfer.from, 0, ranks_.comm(), &status);
+        int size = 0;
+        MPI_Get_count(&status, MPI_BYTE, &size);
+        bytes.resize(static_cast<std::size_t>(size));
+        MPI_Recv(bytes.data(), size, MPI_BYTE, transfer.from, 0, ranks_.comm(), MPI_STATUS_IGNORE);
+        put_rows_behind(bytes, transfer.rows, format, largest_, front);
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+}  // namespace lamina

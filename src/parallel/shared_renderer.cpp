@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/shared_renderer.h"
+
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+#include "base/stage.h"
+#include "parallel/agreement.h"
+#include "tiles/tile_capabilities.h"
+
+namespace lamina {
+namespace {
+
+[[noreturn]] void refuse(const Scene& scene, const char* key, const std::string& found,
+                         const char* expected) {
+    fail("{}: {}: found {}, expected {}: several ranks draw one picture in float32",
+         scene.file.string(), key, found, expected);
+}
+
+// OVER is associative in float alone; codes are those of slabs one by one, from the first to the
+// last.
+Scene checked(Scene scene) {
+    if (!scene.automatic_target && scene.target != Target::float32)
+        refuse(scene, "render.target", name_of(scene.target), "float32");
+    if (scene.slice.tree) refuse(scene, "render.slice.tree", "a tree", "none");
+    if (scene.slice.dither) refuse(scene, "render.slice.dither", "dithering", "none");
+    scene.target = Target::float32;
+    scene.automatic_target = false;
+    return scene;
+}
+
+}  // namespace
+
+SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene,
+                               std::shared_ptr<const VolumeData> volume,
+                               const OmissionSwitch& omissions)
+    : ranks_(ranks),
+      own_(checked(scene), std::move(volume), tile_capabilities(), omissions,
+           {ranks.number(), ranks.count()}),
+      composer_(ranks, wire) {}
+
+void SharedRenderer::draw(const Camera& camera) {
+    std::vector<int> order;
+    RankReport report;
+    agree(ranks_, [&] {
+        Stage drawing("share");
+        own_.set_camera(camera);
+        own_.draw();
+        own_.read(picture_);
+        order = own_.front_to_back();
+        report.draw_ms = drawing.end();
+    });
+    Stage compositing("composite");
+    do_or_abort(ranks_, [&] { composer_.compose(order, picture_); });
+    report.composite_ms = compositing.end();
+    report.threads = own_.capabilities().threads;
+    report.segments = own_.renderer().fragments();
+    report.bytes_sent = composer_.bytes_sent();
+    report.messages_sent = composer_.messages_sent();
+    report.peak_memory = static_cast<std::int64_t>(peak_resident_memory());
+    gethostname(report.machine.data(), report.machine.size() - 1);
+    reports_.resize(ranks_.leads() ? static_cast<std::size_t>(ranks_.count()) : 0);
+    MPI_Gather(&report, sizeof report, MPI_BYTE, reports_.data(), sizeof report, MPI_BYTE, 0,
+               ranks_.comm());
+}
+
+}  // namespace lamina

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renderers that draw one picture together, each its share of the volume: their pictures,
+// composited in the order of the shares, are that of one renderer.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "exact_fixture.h"
+#include "plan/volume_shares.h"
+#include "support/stored_volume.h"
+#include "tile_fixture.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::array<int, 5> counts{2, 3, 5, 8, 32};
+
+// What rounding in float32 may do, in 1/255. In a picture of one renderer blocks of slabs and runs
+// of cells are summed in double; of several, each share's sum is rounded to float (6e-8 of each
+// channel), as are sums behind one another. A ray that is opaque ends by its own optical depth,
+// behind which nothing changes a channel by more than max_error / 1024: in one share as in all.
+double tolerance(const Scene& scene, int shares) {
+    return 255 * 6e-8 * 4 * (shares + 1) + scene.max_error * hidden_share * (shares + 1);
+}
+
+Image draw(const Volume& volume, const Scene& scene, const Facts& facts, const SlicePlan& plan) {
+    TileSliceRenderer renderer(volume, scene.transfer_function, facts, plan, scene.width,
+                               scene.height);
+    renderer.draw(View(scene.camera, scene.width, scene.height));
+    return renderer.read();
+}
+
+void put_behind(const Image& picture, PreciseImage& front) {
+    for (std::size_t i = 0; i < front.rgba.size(); i += 4) {
+        const double left = 1 - front.rgba[i + 3];
+        for (std::size_t channel = 0; channel < 4; ++channel)
+            front.rgba[i + channel] += left * double{picture.rgba[i + channel]};
+    }
+}
+
+double largest_difference(const PreciseImage& image, const Image& other) {
+    double largest = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+        largest = std::max(largest, std::abs(image.rgba[i] - double{other.rgba[i]}));
+    return 255 * largest;
+}
+
+void expect_same_together(const Volume& volume, const Scene& scene, const char* what) {
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const Facts facts = measure(scene, volume, bricks);
+    const Plan plan = make_plan(scene, facts, tile_capabilities(), {});
+    const Image whole = draw(volume, scene, facts, plan.slice);
+    EXPECT_GT(*std::ranges::max_element(whole.rgba), .1) << what;
+    for (const int count : counts) {
+        const VolumeShares shares(scene, facts, bricks, count);
+        ASSERT_EQ(shares.boxes().size(), static_cast<std::size_t>(count));
+        PreciseImage together(scene.width, scene.height);
+        for (const int number :
+             shares.front_to_back(facts.grid, View(scene.camera, scene.width, scene.height))) {
+            SlicePlan of_share = plan.slice;
+            take_share(shares.boxes()[static_cast<std::size_t>(number)], of_share);
+            put_behind(draw(volume, scene, facts, of_share), together);
+        }
+        EXPECT_LE(largest_difference(together, whole), tolerance(scene, count))
+            << what << ", shares: " << count;
+    }
+}
+
+constexpr std::array<glm::dvec3, 4> directions{{{3, 2, 1}, {-1, 2, -3}, {0, 0, 1}, {-2, -.1, .5}}};
+
+Scene scene_of(const Volume& volume, Classification classification, const glm::dvec3& direction) {
+    Scene scene =
+        unit_box_scene(in_view_of(volume, 20, many_points), Projection::perspective, 60, 45);
+    scene.slice.classification = classification;
+    look_from(volume, direction, 1.2, scene);
+    return scene;
+}
+
+void expect_same_from_everywhere(const Volume& volume, Classification classification,
+                                 const std::function<void(Scene&)>& change = {}) {
+    for (const glm::dvec3& direction : directions) {
+        Scene scene = scene_of(volume, classification, direction);
+        if (classification != Classification::exact) scene.slice.samples = 70;
+        if (change) change(scene);
+        expect_same_together(volume, scene, "perspective");
+        scene.camera.projection = Projection::orthographic;
+        expect_same_together(volume, scene, "orthographic");
+    }
+}
+
+const Volume& some_volume() {
+    static const Volume volume = noise<std::uint8_t>({37, 30, 26}, Centering::node, 255);
+    return volume;
+}
+
+TEST(VolumeShares, OfExactSegmentsMakeOnePicture) {
+    expect_same_from_everywhere(some_volume(), Classification::exact);
+}
+TEST(VolumeShares, OfSlabsMakeOnePicture) {
+    expect_same_from_everywhere(some_volume(), Classification::post);
+}
+TEST(VolumeShares, OfPreintegratedSlabsMakeOnePicture) {
+    expect_same_from_everywhere(some_volume(), Classification::preintegrated);
+}
+TEST(VolumeShares, OfLitVolumesMakeOnePicture) {
+    for (const auto classification : {Classification::exact, Classification::preintegrated}) {
+        expect_same_from_everywhere(some_volume(), classification,
+                                    [](Scene& scene) { scene.lighting = Lighting{};
+            scene.lighting->smallest_gradient = 1; });
+    }
+}
+TEST(VolumeShares, OfClippedVolumesMakeOnePicture) {
+    for (const auto classification : {Classification::exact, Classification::post}) {
+        expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
+            scene.clip.planes.push_back({{.4, .5, .6}, {.3, .5, .8}});
+        });
+    }
+}
+TEST(VolumeShares, OfSmallVolumesMakeOnePicture) {
+    for (const std::array<std::int64_t, 3>& size :
+         {std::array<std::int64_t, 3>{3, 3, 3}, {2, 9, 1}, {1, 1, 40}}) {
+        for (const Centering centering : {Centering::cell, Centering::node}) {
+            if (centering == Centering::node && std::ranges::min(size) == 1) continue;
+            const Volume volume = noise<float>(size, centering, 1);
+            expect_same_from_everywhere(volume, Classification::exact);
+            expect_same_from_everywhere(volume, Classification::post);
+        }
+    }
+}
+TEST(VolumeShares, OfVolumesAroundTheEyeMakeOnePicture) {
+    for (const auto classification : {Classification::exact, Classification::preintegrated}) {
+        Scene scene = scene_of(some_volume(), classification, {1, 2, 3});
+        if (classification != Classification::exact) scene.slice.samples = 70;
+        const Grid& grid = some_volume().grid();
+        scene.camera.eye = grid.to_world(glm::dvec3(16, 16, 12.3));
+        expect_same_together(some_volume(), scene, "eye inside, in a plane between shares");
+    }
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lamina render` with several processes that draw each picture together. Rank 0 is the program;
+// the others do what it says.
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "base/progress.h"
+#include "parallel/followers.h"
+#include "parallel/leader.h"
+#include "parallel/rank_resources.h"
+#include "program.h"
+#include "render/context_choice.h"
+#include "render_verb.h"
+#include "shared_slice_job.h"
+
+namespace {
+
+using namespace lamina;
+
+int lead(const Ranks& ranks, int argc, char** argv) {
+    Leader leader(ranks);
+    const auto add_verbs = [&](CLI::App& app, int&) {
+        auto wire = std::make_shared<std::string>(name_of(Wire::float32));
+        CLI::App& verb = add_render_with(app, [&leader, wire](const RenderRequest& request) {
+            leader.set_wire(wire_of(*wire));
+            return make_shared_slice_job(request, leader);
+        });
+        verb.description("Render a volume to a picture, with each rank drawing its part of it");
+        verb.footer("The shortest: mpirun -n 4 lamina-mpi render head.nrrd -o head.png");
+        verb.add_option("--wire", *wire,
+                        "How pixels travel between ranks: float32 (16 bytes), half (8), coded (5, "
+                        "then 8: off by at most half a step of 8 bits)")
+            ->option_text("float32|half|coded");
+    };
+    return run_program({"lamina-mpi", "lamina-mpi: lamina render on several processes or machines",
+                        "A first picture: mpirun -n 4 lamina-mpi render head.nrrd -o head.png\n"
+                        "What a verb takes: lamina-mpi VERB --help",
+                        add_verbs},
+                       argc, argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // Pictures are drawn in a thread with a large stack, which alone then calls MPI.
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+    int exit_code = 0;
+    {
+        const Ranks ranks(MPI_COMM_WORLD);
+        const RankResources resources(ranks);
+        if (ranks.leads()) {
+            exit_code = lead(ranks, argc, argv);
+        } else {
+            exit_code = run_follower(ranks);
+        }
+    }
+    MPI_Finalize();
+    return exit_code;
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <set>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "base/large_stack.h"
+#include "base/progress.h"
+#include "base/signal_stop.h"
+#include "base/standard_streams.h"
+#include "base/warning.h"
+#include "command_line.h"
+#include "version_text.h"
+
+namespace lamina {
+namespace {
+
+int report(const std::string& message, int exit_code) {
+    print_message("lamina: {}\n", message);
+    return exit_code;
+}
+
+// Each warning is printed once, although a file may be read for many pictures.
+void print_warning(const std::string& text) {
+    static std::set<std::string> printed;
+    if (Progress::is_quiet() || !printed.insert(text).second) return;
+    print_message("lamina: warning: {}\n", text);
+}
+
+// Names an unknown verb. CLI11 would only say that a subcommand is missing.
+void check_verb(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::string verbs;
+    for (const CLI::App* const verb : app.get_subcommands({})) {
+        if (verb->get_name() == argv[1]) return;
+        verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    }
+    throw UsageError(fmt::format("{}: unknown verb, expected one of {} ({} --help shows the usage)",
+                                 argv[1], verbs, app.get_name()));
+}
+
+int run(const Program& program, int argc, char** argv) {
+    int exit_code = 0;
+    CLI::App app(program.description, program.name);
+    app.set_version_flag("--version", version_text);
+    app.footer(program.footer);
+    app.require_subcommand(1);
+    program.add_verbs(app, exit_code);
+    for (CLI::App* const verb : app.get_subcommands({})) {
+        verb->set_version_flag("--version", version_text);
+        // A name that says what it is needs no type beside it in --help.
+        for (CLI::Option* const option : verb->get_options())
+            if (option->get_positional()) option->type_name("");
+    }
+    check_verb(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {  // --help, --version
+        std::ostringstream text;
+        exit_code = app.exit(success, text, text);
+        write_result(text.str());
+    } catch (const CLI::ParseError& error) {
+        return report(
+            fmt::format("{} ({} --help shows the usage)", one_line(error.what()), program.name), 2);
+    }
+    flush_results();
+    return exit_code;
+}
+
+// Does not throw.
+int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
+    const ClientScope scope({.stop = signals.token()});
+    try {
+        return run(program, argc, argv);
+    } catch (const UsageError& error) {
+        return report(error.what(), 2);
+    } catch (const Interrupted& interrupted) {
+        return report(interrupted.what(), signals.exit_code());
+    } catch (const std::bad_alloc&) {
+        std::fputs("lamina: out of memory\n", stderr);  // needs no memory
+        return 1;
+    } catch (const std::exception& error) {
+        return report(error.what(), 1);
+    }
+}
+
+}  // namespace
+
+int run_program(const Program& program, int argc, char** argv) {
+    make_streams_safe();
+    take_warnings(print_warning);
+    set_command_line(argc, argv);
+    try {
+        const SignalStop signals;
+        return with_large_stack([&] { return run_and_report(program, argc, argv, signals); });
+    } catch (const std::system_error& error) {
+        return report(error.what(), 1);
+    }
+}
+
+}  // namespace lamina
