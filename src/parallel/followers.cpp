@@ -58,6 +58,7 @@ std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command)
         if (digest_of(plan.slice, renderer->own().shares()) != digest)
             fail("{}: rank 0 plans another picture than rank {}: expected the same data on all",
                  name, ranks.number());
+        renderer->own().set_up();
     });
     return renderer;
 }

@@ -16,10 +16,6 @@ namespace {
 
 using Pixel = std::array<float, 4>;
 
-bool shows(const float* pixel) {
-    return pixel[0] != 0 || pixel[1] != 0 || pixel[2] != 0 || pixel[3] != 0;
-}
-
 void put_behind(const Pixel& pixel, float* front) {
     const float left = 1 - front[3];
     for (std::size_t channel = 0; channel < 4; ++channel) front[channel] += left * pixel[channel];
@@ -37,6 +33,7 @@ float share_of(Code code) {
 
 // Each format: its bytes of a pixel, and both ways.
 struct Float32 {
+    static constexpr bool has_codes = false;
     static constexpr std::size_t size = 16;
     static void encode(const float* pixel, float, std::byte* bytes) {
         std::memcpy(bytes, pixel, size);
@@ -49,6 +46,7 @@ struct Float32 {
 };
 
 struct Half {
+    static constexpr bool has_codes = false;
     static constexpr std::size_t size = 8;
     static void encode(const float* pixel, float, std::byte* bytes) {
         std::array<std::uint16_t, 4> halves;
@@ -67,6 +65,7 @@ struct Half {
 };
 
 struct Fixed16 {
+    static constexpr bool has_codes = true;
     static constexpr std::size_t size = 8;
     static void encode(const float* pixel, float largest, std::byte* bytes) {
         std::array<std::uint16_t, 4> codes;
@@ -84,6 +83,7 @@ struct Fixed16 {
 };
 
 struct Fixed8 {
+    static constexpr bool has_codes = true;
     static constexpr std::size_t size = 5;
     static void encode(const float* pixel, float largest, std::byte* bytes) {
         const float scale = pixel[3] > 0 ? 1 / (pixel[3] * largest) : 0;
@@ -134,24 +134,37 @@ std::uint32_t read_number(const std::byte*& from) {
     }
 }
 
-// The first pixel from `column` on that shows something, or not, as asked.
-int next(const float* row, int column, int width, bool shown) {
-    while (column < width && shows(row + 4 * static_cast<std::size_t>(column)) != shown) ++column;
-    return column;
+const float* pixels_of(const Image& picture, int row, const ActiveRuns::Run& run) {
+    return picture.pixel(run.first, row);
+}
+
+// An associated colour of more than its opacity is one of more than 1.
+float largest_color(const Image& picture, const ActiveRuns& runs, const RowSpan& rows) {
+    float largest = 1;
+    for (int row = rows.first; row < rows.end; ++row) {
+        for (const ActiveRuns::Run* run = runs.begin(row); run != runs.end(row); ++run) {
+            const float* pixel = pixels_of(picture, row, *run);
+            for (int column = run->first; column < run->end; ++column, pixel += 4) {
+                const float color = std::max({pixel[0], pixel[1], pixel[2]});
+                if (color > largest * pixel[3] && pixel[3] > 0) largest = color / pixel[3];
+            }
+        }
+    }
+    return largest;
 }
 
 // A row ends with a run of no pixels.
 template <typename Format>
-std::byte* encode_row(const float* row, int width, float largest, std::byte* to) {
-    for (int end = 0;;) {
-        const int first = next(row, end, width, true);
-        const int skipped = first - end;
-        end = next(row, first, width, false);
-        if (first == end) break;
-        to = write_number(static_cast<std::uint32_t>(end - first), to);
-        to = write_number(static_cast<std::uint32_t>(skipped), to);
-        for (int column = first; column < end; ++column, to += Format::size)
-            Format::encode(row + 4 * static_cast<std::size_t>(column), largest, to);
+std::byte* encode_row(const Image& picture, const ActiveRuns& runs, int row, float largest,
+                      std::byte* to) {
+    int before = 0;
+    for (const ActiveRuns::Run* run = runs.begin(row); run != runs.end(row); ++run) {
+        to = write_number(static_cast<std::uint32_t>(run->end - run->first), to);
+        to = write_number(static_cast<std::uint32_t>(run->first - before), to);
+        before = run->end;
+        const float* pixel = pixels_of(picture, row, *run);
+        for (int column = run->first; column < run->end; ++column, pixel += 4, to += Format::size)
+            Format::encode(pixel, largest, to);
     }
     return write_number(0, to);
 }
@@ -168,41 +181,47 @@ const std::byte* put_row_behind(const std::byte* from, float largest, float* row
 
 }  // namespace
 
-// A run and the gap before it take at most as many bytes of numbers as there are in `most_of_row`.
-void encode_rows(const Image& picture, const RowSpan& rows, FragmentFormat format, float largest,
-                 std::vector<std::byte>& bytes) {
+void encode_rows(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                 FragmentFormat format, std::vector<std::byte>& bytes) {
     with_format(format, [&](auto chosen) {
         using Format = decltype(chosen);
-        const auto width = static_cast<std::size_t>(picture.width);
-        const std::size_t most_of_row =
-            width * Format::size + (width / 2 + 1) * 2 * most_number_bytes + 1;
-        std::size_t used = 0;
+        const float largest = Format::has_codes ? largest_color(picture, runs, rows) : 1;
+        std::size_t most = sizeof largest;
         for (int row = rows.first; row < rows.end; ++row) {
-            if (bytes.size() < used + most_of_row) bytes.resize(2 * used + most_of_row);
-            std::byte* const end = encode_row<Format>(picture.pixel(0, row), picture.width, largest,
-                                                      bytes.data() + used);
-            used = static_cast<std::size_t>(end - bytes.data());
+            const auto count = static_cast<std::size_t>(runs.end(row) - runs.begin(row));
+            most += static_cast<std::size_t>(runs.pixels(row)) * Format::size +
+                    2 * most_number_bytes * count + 1;
         }
-        bytes.resize(used);
+        bytes.resize(most);
+        std::memcpy(bytes.data(), &largest, sizeof largest);
+        std::byte* to = bytes.data() + sizeof largest;
+        for (int row = rows.first; row < rows.end; ++row)
+            to = encode_row<Format>(picture, runs, row, largest, to);
+        bytes.resize(static_cast<std::size_t>(to - bytes.data()));
     });
 }
 
 void put_rows_behind(const std::vector<std::byte>& bytes, const RowSpan& rows,
-                     FragmentFormat format, float largest, Image& front) {
+                     FragmentFormat format, Image& front) {
     with_format(format, [&](auto chosen) {
-        const std::byte* from = bytes.data();
+        float largest;
+        std::memcpy(&largest, bytes.data(), sizeof largest);
+        const std::byte* from = bytes.data() + sizeof largest;
         for (int row = rows.first; row < rows.end; ++row)
             from = put_row_behind<decltype(chosen)>(from, largest, front.pixel(0, row));
         assert(from == bytes.data() + bytes.size());
     });
 }
 
-void put_rows_behind(const Image& picture, const RowSpan& rows, Image& front) {
+void put_rows_behind(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                     Image& front) {
     for (int row = rows.first; row < rows.end; ++row) {
-        const float* behind = picture.pixel(0, row);
-        float* there = front.pixel(0, row);
-        for (int column = 0; column < front.width; ++column, behind += 4, there += 4)
-            put_behind({behind[0], behind[1], behind[2], behind[3]}, there);
+        for (const ActiveRuns::Run* run = runs.begin(row); run != runs.end(row); ++run) {
+            const float* behind = pixels_of(picture, row, *run);
+            float* there = front.pixel(run->first, row);
+            for (int column = run->first; column < run->end; ++column, behind += 4, there += 4)
+                put_behind({behind[0], behind[1], behind[2], behind[3]}, there);
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lamina/image.h"
+#include "parallel/active_runs.h"
 #include "parallel/row_shares.h"
 
 namespace lamina {
@@ -20,15 +21,16 @@ enum class FragmentFormat {
     fixed8,
 };
 
-// The rows as bytes: of each row the runs of pixels that show something, each as the number of
-// pixels that it leaves out before it and its own length, then its pixels. `largest`: the largest
-// colour, 1 or more; codes are shares of it.
-void encode_rows(const Image& picture, const RowSpan& rows, FragmentFormat format, float largest,
-                 std::vector<std::byte>& bytes);
+// The rows as bytes: the largest colour, of which codes are shares; then of each row the runs of
+// pixels that show something, each as its length and the number of pixels that it leaves out before
+// it, and its pixels. `runs`: of these rows or more.
+void encode_rows(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                 FragmentFormat format, std::vector<std::byte>& bytes);
 
-// Composites the rows of a rank that lies behind what `front` has already.
+// Composites rows behind what `front` has of them.
 void put_rows_behind(const std::vector<std::byte>& bytes, const RowSpan& rows,
-                     FragmentFormat format, float largest, Image& front);
-void put_rows_behind(const Image& picture, const RowSpan& rows, Image& front);
+                     FragmentFormat format, Image& front);
+void put_rows_behind(const Image& picture, const ActiveRuns& runs, const RowSpan& rows,
+                     Image& front);
 
 }  // namespace lamina

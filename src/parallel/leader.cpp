@@ -43,7 +43,7 @@ int Leader::open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
     std::string kept = omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "));
     std::string digest = digest_of(plan.slice, renderer->own().shares());
     for (std::string* const sent : {&name, &text, &kept, &digest}) ranks_.broadcast(*sent);
-    agree(ranks_, [] {});  // the others open and plan
+    agree(ranks_, [&] { renderer->own().set_up(); });
     renderers_.emplace(next_, std::move(renderer));
     return next_++;
 }

@@ -8,9 +8,12 @@
 namespace lamina {
 namespace {
 
-void clear(Image& image, int width, int height) {
-    image.resize(width, height);
-    std::ranges::fill(image.rgba, 0.0f);
+// Rows are weighed in bands: all ranks have to learn the weights.
+constexpr int band = 8;
+
+void clear_rows(const RowSpan& rows, Image& image) {
+    if (rows.first < rows.end)
+        std::fill(image.pixel(0, rows.first), image.pixel(0, rows.end), 0.0f);
 }
 
 // The first hop, and those behind it.
@@ -29,7 +32,8 @@ FragmentFormat later_format(Wire wire) {
 // members of a group; the rows of one member are divided again among the groups.
 class PictureComposer::Layout {
   public:
-    Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights)
+    Layout(const std::vector<int>& order, const std::vector<std::int64_t>& weights,
+           int most_in_group)
         : order_(order) {
         const int count = static_cast<int>(order.size());
         size_ = count <= most_in_group
@@ -100,69 +104,79 @@ class PictureComposer::Layout {
 void PictureComposer::compose(const std::vector<int>& order, Image& picture) {
     bytes_sent_ = messages_sent_ = 0;
     if (ranks_.count() == 1) return;
-    measure(picture);
-    const Layout layout(order, row_weights_);
-    clear(composed_, picture.width, picture.height);
-    exchange(layout.in_group(ranks_.number()), first_format(wire_), picture, composed_);
+    const RowSpan all{0, picture.height};
+    const ActiveRuns runs(picture, all);
+    const Layout layout(order, row_weights(runs, picture.height), most_in_group_);
+    of_group_.resize(picture.width, picture.height);
+    exchange(layout.in_group(ranks_.number()), first_format(wire_), picture, &runs, of_group_);
     if (layout.groups() > 1) {
-        clear(picture, picture.width, picture.height);
-        exchange(layout.among_groups(), later_format(wire_), composed_, picture);
-        std::swap(composed_, picture);
+        composed_.resize(picture.width, picture.height);
+        exchange(layout.among_groups(), later_format(wire_), of_group_, nullptr, composed_);
+    } else {
+        std::swap(of_group_, composed_);
     }
-    if (ranks_.leads()) clear(picture, picture.width, picture.height);
-    exchange(layout.to_first(), later_format(wire_), composed_, picture);
+    exchange(layout.to_first(), later_format(wire_), composed_, nullptr, picture);
 }
 
-void PictureComposer::measure(const Image& picture) {
-    row_weights_.assign(static_cast<std::size_t>(picture.height), 0);
-    largest_ = 1;
-    for (int row = 0; row < picture.height; ++row) {
-        const float* pixel = picture.pixel(0, row);
-        std::int64_t shown = 0;
-        for (int column = 0; column < picture.width; ++column, pixel += 4) {
-            shown += pixel[3] > 0;
-            // An associated colour of more than its opacity is one of more than 1.
-            for (int channel = 0; channel < 3; ++channel)
-                if (pixel[channel] > largest_ * pixel[3]) largest_ = pixel[channel] / pixel[3];
-        }
-        row_weights_[static_cast<std::size_t>(row)] = shown;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, row_weights_.data(), picture.height, MPI_INT64_T, MPI_SUM,
+std::vector<std::int64_t> PictureComposer::row_weights(const ActiveRuns& runs, int rows) const {
+    std::vector<std::int32_t> bands(static_cast<std::size_t>((rows + band - 1) / band));
+    for (int row = 0; row < rows; ++row)
+        bands[static_cast<std::size_t>(row / band)] += static_cast<std::int32_t>(runs.pixels(row));
+    MPI_Allreduce(MPI_IN_PLACE, bands.data(), static_cast<int>(bands.size()), MPI_INT32_T, MPI_SUM,
                   ranks_.comm());
-    if (wire_ == Wire::coded)
-        MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_FLOAT, MPI_MAX, ranks_.comm());
+    std::vector<std::int64_t> weights;
+    for (int row = 0; row < rows; ++row)
+        weights.push_back(bands[static_cast<std::size_t>(row / band)]);
+    return weights;
 }
 
 void PictureComposer::exchange(const std::vector<Transfer>& transfers, FragmentFormat format,
-                               const Image& picture, Image& front) {
+                               const Image& picture, const ActiveRuns* runs, Image& result) {
+    const auto with_runs = [&](const RowSpan& rows, const auto& use) {
+        if (runs != nullptr) return use(*runs);
+        use(ActiveRuns(picture, rows));
+    };
     const int own = ranks_.number();
     std::vector<std::vector<std::byte>> sent;
     std::vector<MPI_Request> requests;
     for (const Transfer& transfer : transfers) {
         if (transfer.from != own || transfer.to == own) continue;
         std::vector<std::byte>& bytes = sent.emplace_back();
-        encode_rows(picture, transfer.rows, format, largest_, bytes);
+        with_runs(transfer.rows, [&](const ActiveRuns& known) {
+            encode_rows(picture, known, transfer.rows, format, bytes);
+        });
         bytes_sent_ += static_cast<std::int64_t>(bytes.size());
         ++messages_sent_;
         MPI_Isend(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, transfer.to, 0,
                   ranks_.comm(), &requests.emplace_back());
     }
     std::vector<std::byte> bytes;
+    RowSpan begun;
     for (const Transfer& transfer : transfers) {
         if (transfer.to != own) continue;
+        if (transfer.rows != begun) {
+            begun = transfer.rows;
+            clear_rows(begun, result);
+        }
         if (transfer.from == own) {
-            put_rows_behind(picture, transfer.rows, front);
+            with_runs(transfer.rows, [&](const ActiveRuns& known) {
+                put_rows_behind(picture, known, transfer.rows, result);
+            });
             continue;
         }
-        MPI_Status status;
-        MPI_Probe(transfer.from, 0, ranks_.comm(), &status);
-        int size = 0;
-        MPI_Get_count(&status, MPI_BYTE, &size);
-        bytes.resize(static_cast<std::size_t>(size));
-        MPI_Recv(bytes.data(), size, MPI_BYTE, transfer.from, 0, ranks_.comm(), MPI_STATUS_IGNORE);
-        put_rows_behind(bytes, transfer.rows, format, largest_, front);
+        receive(transfer.from, bytes);
+        put_rows_behind(bytes, transfer.rows, format, result);
     }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+void PictureComposer::receive(int rank, std::vector<std::byte>& bytes) const {
+    MPI_Status status;
+    MPI_Probe(rank, 0, ranks_.comm(), &status);
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    bytes.resize(static_cast<std::size_t>(size));
+    MPI_Recv(bytes.data(), size, MPI_BYTE, rank, 0, ranks_.comm(), MPI_STATUS_IGNORE);
 }
 
 }  // namespace lamina

@@ -59,8 +59,9 @@ class SharedSliceJob : public RenderJob {
         stats.stages_ms["ranks"] = opening.end();
         const Capabilities& capabilities = own().capabilities();
         stats.renderer = capabilities.renderer;
-        stats.context = fmt::format("{}, {} ranks", renderer_and_threads(capabilities),
-                                    leader_.ranks().count());
+        const int count = leader_.ranks().count();
+        stats.context = fmt::format("{}, {} {}", renderer_and_threads(capabilities), count,
+                                    count == 1 ? "rank" : "ranks");
         stats.on_tiles = true;
         report_volume(request_, *request_.data.volume, stats);
         return own().plan();
