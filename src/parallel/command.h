@@ -14,6 +14,7 @@ struct Command {
     int scene = 0;                        // its number
     Wire wire = Wire::float32;            // open
     unsigned long long memory_limit = 0;  // open; bytes, 0: as it is
+    bool many_frames = false;             // open
     Camera camera{};                      // draw
 };
 

@@ -14,7 +14,6 @@
 #include "base/unreachable.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
-#include "parallel/plan_digest.h"
 #include "parallel/shared_renderer.h"
 #include "render/context_choice.h"
 #include "scene/scene_volume.h"
@@ -45,8 +44,8 @@ OmissionSwitch omissions_of(const std::string& kept) {
 }
 
 std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command) {
-    std::string name, text, kept, digest;
-    for (std::string* const sent : {&name, &text, &kept, &digest}) ranks.broadcast(*sent);
+    std::string name, text, kept;
+    for (std::string* const sent : {&name, &text, &kept}) ranks.broadcast(*sent);
     std::unique_ptr<SharedRenderer> renderer;
     agree(ranks, [&] {
         if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
@@ -54,12 +53,9 @@ std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command)
         auto volume = std::make_shared<const VolumeData>(open_volume(scene));
         renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, std::move(volume),
                                                     omissions_of(kept));
-        const Plan& plan = renderer->own().plan();
-        if (digest_of(plan.slice, renderer->own().shares()) != digest)
-            fail("{}: rank 0 plans another picture than rank {}: expected the same data on all",
-                 name, ranks.number());
-        renderer->own().set_up();
+        renderer->set_up(command.many_frames);
     });
+    renderer->check_plan();
     return renderer;
 }
 

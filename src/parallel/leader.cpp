@@ -8,10 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
-#include "base/memory_limit.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
-#include "parallel/plan_digest.h"
 #include "scene_files/scene_json.h"
 
 namespace lamina {
@@ -33,17 +31,15 @@ int Leader::open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
                  const OmissionSwitch& omissions, bool many_frames) {
     auto renderer =
         std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(volume), omissions);
-    if (many_frames) renderer->own().expect_many_frames();
-    const Plan& plan = renderer->own().plan();
-    Command command{.kind = Command::Kind::open, .scene = next_, .wire = wire_};
+    Command command{
+        .kind = Command::Kind::open, .scene = next_, .wire = wire_, .many_frames = many_frames};
     if (memory_limit() != memory_before_) command.memory_limit = memory_limit();
     tell(ranks_, command);
-    std::string name = scene.file.string(),
-                text = json_text(scene_json(renderer->own().resolved_scene()));
+    std::string name = scene.file.string(), text = json_text(scene_json(scene));
     std::string kept = omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "));
-    std::string digest = digest_of(plan.slice, renderer->own().shares());
-    for (std::string* const sent : {&name, &text, &kept, &digest}) ranks_.broadcast(*sent);
-    agree(ranks_, [&] { renderer->own().set_up(); });
+    for (std::string* const sent : {&name, &text, &kept}) ranks_.broadcast(*sent);
+    agree(ranks_, [&] { renderer->set_up(many_frames); });
+    renderer->check_plan();
     renderers_.emplace(next_, std::move(renderer));
     return next_++;
 }

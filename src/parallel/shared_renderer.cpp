@@ -7,6 +7,7 @@
 #include "base/memory_limit.h"
 #include "base/stage.h"
 #include "parallel/agreement.h"
+#include "parallel/plan_digest.h"
 #include "tiles/tile_capabilities.h"
 
 namespace lamina {
@@ -39,6 +40,22 @@ SharedRenderer::SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene
       own_(checked(scene), std::move(volume), tile_capabilities(), omissions,
            {ranks.number(), ranks.count()}),
       composer_(ranks, wire) {}
+
+void SharedRenderer::set_up(bool many_frames) {
+    if (many_frames) own_.expect_many_frames();
+    own_.set_up();
+}
+
+void SharedRenderer::check_plan() {
+    const std::string own = digest_of(own_.plan().slice, own_.shares());
+    std::string of_first = own;
+    ranks_.broadcast(of_first);
+    agree(ranks_, [&] {
+        if (own == of_first) return;
+        fail("{}: ranks plan different pictures: expected the same data on all machines",
+             own_.scene().file.string());
+    });
+}
 
 void SharedRenderer::draw(const Camera& camera) {
     std::vector<int> order;

@@ -16,13 +16,19 @@ namespace lamina {
 // the same scene, and call draw() together.
 class SharedRenderer {
   public:
-    // `scene`: of method slice. It opens nothing and plans nothing yet. `ranks` must outlive it.
+    // `scene`: of method slice.. `ranks` must outlive it.
     // Throws Error where the scene asks for what ranks cannot share, and says what.
     SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene,
                    std::shared_ptr<const VolumeData> volume, const OmissionSwitch& omissions);
 
     // This rank's part of the work.
     SceneRenderer& own() { return own_; }
+
+    // Measures the data, plans and makes the renderer. Each rank does so by itself, at the same
+    // time. `many_frames`: SceneRenderer::expect_many_frames().
+    void set_up(bool many_frames);
+    // Throws Error on all ranks where their plans differ.
+    void check_plan();
 
     // Draws a frame; rank 0 then has the picture, and what it took on all ranks.
     void draw(const Camera& camera);

@@ -35,6 +35,8 @@ void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
 
 void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities,
                                bool many_frames) {
+    // Trial pictures of a volume in its files read more than faster frames would save.
+    many_frames = many_frames && data_->volume.in_memory();
     trials_ = try_samples(scene, data_->volume, data_->bricks, facts_, capabilities, many_frames);
 }
 

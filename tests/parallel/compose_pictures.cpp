@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Composites random pictures of the ranks and says how far that is from compositing them in double
+// on one rank, in 1/255, and what was sent. Arguments: wire, most ranks in a group, seed.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include "parallel/picture_composer.h"
+#include "random_picture.h"
+
+namespace {
+
+using namespace lamina;
+
+constexpr int width = 120, height = 50;
+
+Image picture_of(int rank, std::uint32_t seed) {
+    return random_picture(width, height, 1000 * seed + static_cast<std::uint32_t>(rank));
+}
+
+PreciseImage composited(const std::vector<int>& order, std::uint32_t seed) {
+    PreciseImage sum(width, height);
+    for (const int rank : order) {
+        const Image picture = picture_of(rank, seed);
+        for (std::size_t i = 0; i < sum.rgba.size(); i += 4) {
+            const double left = 1 - sum.rgba[i + 3];
+            for (std::size_t channel = 0; channel < 4; ++channel)
+                sum.rgba[i + channel] += left * double{picture.rgba[i + channel]};
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    MPI_Init(&argc, &argv);
+    {
+        const Ranks ranks(MPI_COMM_WORLD);
+        const auto seed = static_cast<std::uint32_t>(std::atoi(argv[3]));
+        std::vector<int> order(static_cast<std::size_t>(ranks.count()));
+        std::iota(order.begin(), order.end(), 0);
+        std::shuffle(order.begin(), order.end(), std::mt19937(seed));
+        PictureComposer composer(ranks, wire_of(argv[1]), std::atoi(argv[2]));
+        double largest = 0;
+        for (int frame = 0; frame < 2; ++frame) {  // the second has the first one's memory
+            Image picture = picture_of(ranks.number(), seed);
+            composer.compose(order, picture);
+            if (!ranks.leads()) continue;
+            const PreciseImage expected = composited(order, seed);
+            for (std::size_t i = 0; i < picture.rgba.size(); ++i) {
+                largest =
+                    std::max(largest, 255 * std::abs(double{picture.rgba[i]} - expected.rgba[i]));
+            }
+        }
+        if (ranks.leads()) std::printf("%g\n", largest);
+    }
+    MPI_Finalize();
+    return 0;
+}
