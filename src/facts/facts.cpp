@@ -7,11 +7,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
+#include "facts/range_memo.h"
 #include "facts/world_unit.h"
 #include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
@@ -64,19 +67,18 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     const auto leading = [&](double extinction) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
     };
-    const Counts counts = count_in_parts(
-        static_cast<std::int64_t>(count), std::size_t{1} << (31 - rest_bits),
-        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
-            for (std::int64_t number = first; number < end; ++number) {
-                const auto i = static_cast<std::size_t>(number);
-                double extinction = 0;
-                if (distance[i] == 0) {
-                    const BrickRange range = bricks.ranges[i];
-                    extinction = transfer_function.max_extinction(range.lo, range.hi);
-                }
-                ++into[leading(extinction)];
-            }
-        });
+    const auto key_of = [&](const ValueRange& range) {
+        return leading(transfer_function.max_extinction(range.lo, range.hi));
+    };
+    const Counts counts =
+        count_in_parts(static_cast<std::int64_t>(count), std::size_t{1} << (31 - rest_bits),
+                       [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
+                           RangeMemo<std::uint32_t> keys;
+                           for (std::int64_t number = first; number < end; ++number) {
+                               const auto i = static_cast<std::size_t>(number);
+                               ++into[distance[i] > 0 ? 0 : keys.get(bricks.ranges[i], key_of)];
+                           }
+                       });
     const auto quantile = [&](double share) {
         auto rank = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(count - 1)));
         std::uint32_t key = 0;
@@ -142,20 +144,14 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
         return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
     };
     occupied = {bricks.count, SparseBytes(bricks.ranges.size(), OccupiedBricks::farthest)};
-    // Most bricks have the range of their neighbour: a hole.
-    constexpr std::size_t together = 1 << 14;
+    constexpr std::size_t together = 1 << 17;
     const std::size_t count = bricks.ranges.size();
     parallel_for(static_cast<std::int64_t>((count + together - 1) / together), 1,
                  [&](std::int64_t part) {
                      const std::size_t first = static_cast<std::size_t>(part) * together;
-                     ValueRange before;
-                     bool shows = false;
-                     for (std::size_t i = first; i < std::min(count, first + together); ++i) {
-                         const ValueRange range = bricks.range(i);
-                         if (range != before) shows = shown(range);
-                         before = range;
-                         if (shows) occupied.distance.set(i, 0);
-                     }
+                     RangeMemo<bool> shows;
+                     for (std::size_t i = first; i < std::min(count, first + together); ++i)
+                         if (shows.get(bricks.ranges[i], shown)) occupied.distance.set(i, 0);
                  });
     if (!facts.clip.empty()) {
         const bool some = occupied.distance.count(0) > 0;
@@ -165,28 +161,58 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
     occupied.measure_distances();
 }
 
+// The bricks of some planes of bricks that show something.
+struct SeenBricks {
+    std::int64_t count = 0;
+    std::array<std::int64_t, 3> first{std::numeric_limits<std::int64_t>::max(),
+                                      std::numeric_limits<std::int64_t>::max(),
+                                      std::numeric_limits<std::int64_t>::max()};
+    std::array<std::int64_t, 3> last{-1, -1, -1};
+
+    void add(const std::array<std::int64_t, 3>& brick) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            first[axis] = std::min(first[axis], brick[axis]);
+            last[axis] = std::max(last[axis], brick[axis]);
+        }
+    }
+    void join(const SeenBricks& other) {
+        if (other.count == 0) return;
+        count += other.count;
+        add(other.first);
+        add(other.last);
+    }
+};
+
+// Distances of 0 are stored as the background's byte.
+SeenBricks seen_in_plane(const OccupiedBricks& occupied, std::int64_t z) {
+    const std::uint8_t none = occupied.distance.background();
+    SeenBricks seen;
+    for (std::int64_t y = 0; y < occupied.count[1]; ++y) {
+        const std::span row(occupied.distance.coded() + occupied.place(0, y, z),
+                            static_cast<std::size_t>(occupied.count[0]));
+        const std::int64_t count = std::ranges::count(row, none);
+        if (count == 0) continue;
+        seen.count += count;
+        seen.add({std::ranges::find(row, none) - row.begin(), y, z});
+        seen.add({std::find(row.rbegin(), row.rend(), none).base() - row.begin() - 1, y, z});
+    }
+    return seen;
+}
+
 void measure_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                       Facts& facts) {
     find_occupied(transfer_function, bricks, facts);
-    const OccupiedBricks& occupied = facts.occupied_bricks;
-    std::array<std::int64_t, 3> first{bricks.count}, last{-1, -1, -1};
-    std::int64_t seen = 0;
-    for (std::int64_t z = 0; z < bricks.count[2]; ++z) {
-        for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
-            for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
-                if (occupied.distance_at(x, y, z) > 0) continue;
-                ++seen;
-                const std::array<std::int64_t, 3> brick{x, y, z};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    first[axis] = std::min(first[axis], brick[axis]);
-                    last[axis] = std::max(last[axis], brick[axis]);
-                }
-            }
-        }
-    }
-    facts.occupied_share = static_cast<double>(seen) / static_cast<double>(bricks.ranges.size());
+    std::vector<SeenBricks> of_planes(static_cast<std::size_t>(bricks.count[2]));
+    parallel_for(bricks.count[2], 1, [&](std::int64_t z) {
+        of_planes[static_cast<std::size_t>(z)] = seen_in_plane(facts.occupied_bricks, z);
+    });
+    SeenBricks seen;
+    for (const SeenBricks& of_plane : of_planes) seen.join(of_plane);
+    facts.occupied_share =
+        static_cast<double>(seen.count) / static_cast<double>(bricks.ranges.size());
     facts.occupied = {};
-    if (seen > 0) facts.occupied = box_of_bricks(facts.grid, bricks.count, first, last);
+    if (seen.count > 0)
+        facts.occupied = box_of_bricks(facts.grid, bricks.count, seen.first, seen.last);
 }
 
 // Of one linear piece the planner needs no table where segments are short; the whole view is the

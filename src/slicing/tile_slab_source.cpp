@@ -100,6 +100,7 @@ void TileSlabSource::take_plan() {
 void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     set_rays(view, slabs);
     slabs_.bricks.clear();
+    seen_ = {};
     load_pages(view);
     if (plan_.bricks.size() == 1) {
         add_brick(0, view, slabs);
@@ -164,6 +165,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     if (plan_.share && !take_share({plan_.share->min - first, plan_.share->max - first}, brick))
         return;
     slabs_.bricks.push_back(brick);
+    see(brick, view);
 }
 
 // Cells lie in one share each: rays are clipped to it. False: the brick has nothing of it.
@@ -175,6 +177,17 @@ bool TileSlabSource::take_share(const IndexBox& share, TileBrickView& brick) con
     for (IndexBox* const box : {&brick.box, &brick.drawn})
         *box = {glm::max(box->min, share.min), glm::min(box->max, share.max)};
     return !brick.drawn.empty();
+}
+
+void TileSlabSource::see(const TileBrickView& brick, const View& view) {
+    const auto pixels = [&](const glm::dvec3& min, const glm::dvec3& max) {
+        return pixels_of({brick.first + min, brick.first + max}, grid_, view);
+    };
+    PixelBox seen = pixels(brick.drawn.min, brick.drawn.max);
+    if (brick.share)
+        seen = seen.common(pixels(glm::max(brick.box.min, brick.share->min),
+                                  glm::min(brick.box.max, brick.share->max)));
+    seen_ = slabs_.bricks.size() == 1 ? seen : seen_.joined(seen);
 }
 
 void TileSlabSource::check_unchanged() const {

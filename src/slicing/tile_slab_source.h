@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "slicing/pixel_box.h"
 #include "slicing/tile_slabs.h"
 
 namespace lamina {
@@ -25,6 +26,7 @@ class TileSlabSource {
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
     const TileSlabs& slabs() const { return slabs_; }
+    const PixelBox& seen() const { return seen_; }  // all pixels in which the view shows something
 
     const std::shared_ptr<const TileVolume>& volume() const { return volume_; }
 
@@ -39,6 +41,7 @@ class TileSlabSource {
     void set_light();
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
+    void see(const TileBrickView& brick, const View& view);
     bool take_share(const IndexBox& share, TileBrickView& brick) const;
     void load_pages(const View& view) const;
 
@@ -53,6 +56,7 @@ class TileSlabSource {
     std::vector<std::uint32_t> shown_pages_;  // that hold something to see, of a paged volume
     std::optional<TileLight> light_;
     TileSlabs slabs_;
+    PixelBox seen_;
     std::vector<std::size_t> order_;  // order of the bricks
     double upload_ms_ = 0, table_ms_ = 0;
 };

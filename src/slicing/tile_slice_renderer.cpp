@@ -36,6 +36,7 @@ TileSliceRenderer::TileSliceRenderer(const Volume& volume,
     : plan_(plan),
       grid_(in_units(facts.grid, plan.unit)),
       target_(width, height),
+      blank_(static_cast<std::size_t>(target_.grid().count())),
       blend_(target_blend(plan)) {
     if (plan_.nothing_visible) {
         kept_ = std::move(ready);
@@ -64,8 +65,7 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     geometry_ms_ = draw_ms_ = 0;
     const DepthRange depth = depth_range(grid_, view);
     if (!source_ || plan_.nothing_visible || depth.far <= depth.near) {
-        for (int number = 0; number < target_.grid().count(); ++number)
-            target_.tile(number) = TilePixels{};
+        for (int number = 0; number < target_.grid().count(); ++number) clear_tile(number);
         return;
     }
     Stage geometry("geometry");
@@ -73,7 +73,12 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
     parallel_for(target_.grid().count(), 1, [&](std::int64_t number) {
-        samples_ += draw_tile(static_cast<int>(number));
+        const auto tile = static_cast<int>(number);
+        if (source_->seen().meets(target_.grid().tile(tile))) {
+            samples_ += draw_tile(tile);
+        } else {
+            clear_tile(tile);
+        }
         if (progress != nullptr) progress->advance();
     });
     drawing.count("samples", static_cast<double>(samples_));
@@ -81,7 +86,14 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     source_->check_unchanged();
 }
 
+void TileSliceRenderer::clear_tile(int number) {
+    char& blank = blank_[static_cast<std::size_t>(number)];
+    if (blank == 0) target_.tile(number) = TilePixels{};
+    blank = 1;
+}
+
 std::int64_t TileSliceRenderer::draw_tile(int number) {
+    blank_[static_cast<std::size_t>(number)] = 0;
     const TileGrid::Tile area = target_.grid().tile(number);
     TilePixels& pixels = target_.tile(number);
     if (plan_.has_tree(NodeArithmetic::shader))

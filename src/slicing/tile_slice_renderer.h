@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/progress.h"
 #include "executors/tile_fixed_tree.h"
@@ -46,11 +47,13 @@ class TileSliceRenderer : public FrameRenderer {
     std::int64_t byte_count() const override;  // host memory that it takes, without the volume
 
   private:
+    void clear_tile(int number);
     std::int64_t draw_tile(int number);
 
     SlicePlan plan_;
     Grid grid_;
     TileImage target_;
+    std::vector<char> blank_;  // whether a tile shows nothing
     TargetBlend blend_;
     std::optional<TileSlabSource> source_;  // empty where nothing is visible
     std::optional<TreeShape> shape_;
