@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-std::atomic<std::uint64_t> told_limit{0};
+std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: none
 
 std::uint64_t memory_of_machine() {
     const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
@@ -26,12 +26,17 @@ std::uint64_t memory_of_machine() {
 
 std::uint64_t memory_limit() {
     static const std::uint64_t machine = memory_of_machine();
-    const std::uint64_t told = told_limit.load();
-    return told > 0 ? told : machine / 2;
+    if (const std::uint64_t told = told_limit.load(); told > 0) return told;
+    const std::uint64_t usual = default_limit.load();
+    return usual > 0 ? usual : machine / 2;
 }
 
 void set_memory_limit(std::uint64_t bytes) {
     told_limit.store(bytes);
+}
+
+void set_default_memory_limit(std::uint64_t bytes) {
+    default_limit.store(bytes);
 }
 
 bool memory_limit_is_told() {

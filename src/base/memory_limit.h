@@ -12,6 +12,9 @@ constexpr std::uint64_t own_memory = 200'000'000;
 
 bool memory_limit_is_told();  // whether somebody has set one
 
+// Sets the limit that holds where nobody has set one.
+void set_default_memory_limit(std::uint64_t bytes);
+
 // The process's resident memory in bytes; 0 where that is not known.
 std::uint64_t resident_memory();
 

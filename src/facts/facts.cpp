@@ -185,16 +185,16 @@ struct SeenBricks {
 
 // Distances of 0 are stored as the background's byte.
 SeenBricks seen_in_plane(const OccupiedBricks& occupied, std::int64_t z) {
-    const std::uint8_t none = occupied.distance.background();
+    const std::uint8_t shown = occupied.distance.background();
     SeenBricks seen;
     for (std::int64_t y = 0; y < occupied.count[1]; ++y) {
         const std::span row(occupied.distance.coded() + occupied.place(0, y, z),
                             static_cast<std::size_t>(occupied.count[0]));
-        const std::int64_t count = std::ranges::count(row, none);
+        const std::int64_t count = std::ranges::count(row, shown);
         if (count == 0) continue;
         seen.count += count;
-        seen.add({std::ranges::find(row, none) - row.begin(), y, z});
-        seen.add({std::find(row.rbegin(), row.rend(), none).base() - row.begin() - 1, y, z});
+        seen.add({std::ranges::find(row, shown) - row.begin(), y, z});
+        seen.add({std::find(row.rbegin(), row.rend(), shown).base() - row.begin() - 1, y, z});
     }
     return seen;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <type_traits>
+
 #include "lamina/camera.h"
 #include "parallel/wire.h"
 
@@ -15,7 +17,9 @@ struct Command {
     Wire wire = Wire::float32;            // open
     unsigned long long memory_limit = 0;  // open; bytes, 0: as it is
     bool many_frames = false;             // open
+    bool turned = false;                  // draw: with another camera
     Camera camera{};                      // draw
 };
+static_assert(std::is_trivially_copyable_v<Command>);
 
 }  // namespace lamina

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parallel/followers.h"
 
+#include <chrono>
 #include <map>
 #include <memory>
-#include <sstream>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
-#include "base/json_text.h"
 #include "base/memory_limit.h"
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "base/unreachable.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
+#include "parallel/scene_message.h"
 #include "parallel/shared_renderer.h"
 #include "render/context_choice.h"
 #include "scene/scene_volume.h"
-#include "scene_files/scene_reader.h"
 
 namespace lamina {
 namespace {
@@ -35,24 +36,17 @@ Command next_command(const Ranks& ranks) {
     }
 }
 
-OmissionSwitch omissions_of(const std::string& kept) {
-    OmissionSwitch omissions;
-    omissions.none = kept == "all";
-    std::istringstream names(kept);
-    for (std::string name; !omissions.none && names >> name;) omissions.kept.insert(name);
-    return omissions;
-}
-
 std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command) {
-    std::string name, text, kept;
-    for (std::string* const sent : {&name, &text, &kept}) ranks.broadcast(*sent);
+    SceneMessage message;
+    message.broadcast(ranks);
     std::unique_ptr<SharedRenderer> renderer;
     agree(ranks, [&] {
+        restrict_instructions_as_asked();
         if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
-        const Scene scene = read_scene(parse_json(text), name);
+        const Scene scene = message.scene();
         auto volume = std::make_shared<const VolumeData>(open_volume(scene));
         renderer = std::make_unique<SharedRenderer>(ranks, command.wire, scene, std::move(volume),
-                                                    omissions_of(kept));
+                                                    message.omissions());
         renderer->set_up(command.many_frames);
     });
     renderer->check_plan();
@@ -70,7 +64,8 @@ class Follower {
                 renderers_[command.scene] = open(ranks_, command);
                 return true;
             case Command::Kind::draw:
-                renderers_.at(command.scene)->draw(command.camera);
+                renderers_.at(command.scene)
+                    ->draw(command.turned ? std::optional(command.camera) : std::nullopt);
                 return true;
             case Command::Kind::close:
                 renderers_.erase(command.scene);
@@ -88,18 +83,16 @@ class Follower {
 
 }  // namespace
 
-int run_follower(const Ranks& ranks) {
+void run_follower(const Ranks& ranks) {
     make_streams_safe();
     Progress::set_quiet(true);
-    restrict_instructions_as_asked();
     Follower follower(ranks);
-    int exit_code = 0;
     for (;;) {
         const Command command = next_command(ranks);
         try {
-            if (!follower.follow(command)) return exit_code;
+            if (!follower.follow(command)) return;
         } catch (const Error&) {
-            exit_code = 1;  // all ranks know of it
+            // All ranks know of it, and rank 0 decides what follows.
         }
     }
 }

@@ -5,8 +5,8 @@
 
 namespace lamina {
 
-// Does what rank 0's Leader says until that ends, and returns the exit code. Where a step fails on
-// any rank (agreement.h), rank 0 says why.
-int run_follower(const Ranks& ranks);
+// Does what rank 0's Leader says until that ends. Where a step fails on any rank (agreement.h),
+// rank 0 says why, and its exit code is that of the job.
+void run_follower(const Ranks& ranks);
 
 }  // namespace lamina

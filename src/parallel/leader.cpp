@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parallel/leader.h"
 
-#include <fmt/ranges.h>
-
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
-#include "base/json_text.h"
+#include "base/memory_limit.h"
 #include "parallel/agreement.h"
 #include "parallel/command.h"
-#include "scene_files/scene_json.h"
+#include "parallel/scene_message.h"
 
 namespace lamina {
 namespace {
@@ -31,21 +27,25 @@ int Leader::open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
                  const OmissionSwitch& omissions, bool many_frames) {
     auto renderer =
         std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(volume), omissions);
-    Command command{
-        .kind = Command::Kind::open, .scene = next_, .wire = wire_, .many_frames = many_frames};
-    if (memory_limit() != memory_before_) command.memory_limit = memory_limit();
+    Command command{.kind = Command::Kind::open,
+                    .scene = next_,
+                    .wire = wire_,
+                    .memory_limit = memory_limit_is_told() ? memory_limit() : 0,
+                    .many_frames = many_frames};
+    SceneMessage message(scene, omissions);
     tell(ranks_, command);
-    std::string name = scene.file.string(), text = json_text(scene_json(scene));
-    std::string kept = omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "));
-    for (std::string* const sent : {&name, &text, &kept}) ranks_.broadcast(*sent);
+    message.broadcast(ranks_);
     agree(ranks_, [&] { renderer->set_up(many_frames); });
     renderer->check_plan();
     renderers_.emplace(next_, std::move(renderer));
     return next_++;
 }
 
-void Leader::draw(int scene, const Camera& camera) {
-    tell(ranks_, {.kind = Command::Kind::draw, .scene = scene, .camera = camera});
+void Leader::draw(int scene, const std::optional<Camera>& camera) {
+    tell(ranks_, {.kind = Command::Kind::draw,
+                  .scene = scene,
+                  .turned = camera.has_value(),
+                  .camera = camera.value_or(Camera())});
     renderer(scene).draw(camera);
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 
-#include "lamina/memory.h"
 #include "parallel/shared_renderer.h"
 
 namespace lamina {
@@ -14,7 +13,7 @@ namespace lamina {
 // of every scene that it opens, and of every frame.
 class Leader {
   public:
-    explicit Leader(const Ranks& ranks) : ranks_(ranks), memory_before_(memory_limit()) {}
+    explicit Leader(const Ranks& ranks) : ranks_(ranks) {}
     Leader(const Leader&) = delete;
     Leader& operator=(const Leader&) = delete;
     ~Leader();
@@ -27,14 +26,13 @@ class Leader {
     int open(const Scene& scene, std::shared_ptr<const VolumeData> volume,
              const OmissionSwitch& omissions, bool many_frames);
     SharedRenderer& renderer(int scene) { return *renderers_.at(scene); }
-    // Draws a frame on all ranks.
-    void draw(int scene, const Camera& camera);
+    // Draws a frame on all ranks, with another camera or as before.
+    void draw(int scene, const std::optional<Camera>& camera = {});
     void close(int scene);
 
   private:
     const Ranks& ranks_;
     Wire wire_ = Wire::float32;
-    std::uint64_t memory_before_;  // the limit, before somebody asks for another
     int next_ = 0;
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };

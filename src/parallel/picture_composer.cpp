@@ -119,10 +119,10 @@ void PictureComposer::compose(const std::vector<int>& order, Image& picture) {
 }
 
 std::vector<std::int64_t> PictureComposer::row_weights(const ActiveRuns& runs, int rows) const {
-    std::vector<std::int32_t> bands(static_cast<std::size_t>((rows + band - 1) / band));
+    std::vector<std::int64_t> bands(static_cast<std::size_t>((rows + band - 1) / band));
     for (int row = 0; row < rows; ++row)
-        bands[static_cast<std::size_t>(row / band)] += static_cast<std::int32_t>(runs.pixels(row));
-    MPI_Allreduce(MPI_IN_PLACE, bands.data(), static_cast<int>(bands.size()), MPI_INT32_T, MPI_SUM,
+        bands[static_cast<std::size_t>(row / band)] += runs.pixels(row);
+    MPI_Allreduce(MPI_IN_PLACE, bands.data(), static_cast<int>(bands.size()), MPI_INT64_T, MPI_SUM,
                   ranks_.comm());
     std::vector<std::int64_t> weights;
     for (int row = 0; row < rows; ++row)

@@ -15,8 +15,7 @@ void add(const IndexBox& box, std::string& text) {
 
 }  // namespace
 
-std::string digest_of(SlicePlan plan, const std::vector<IndexBox>& shares) {
-    plan = without_remarks(std::move(plan));
+std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
     const TablePlan& table = plan.table;
     std::string text = fmt::format(
         "{} {} {} {} {} {} {} {:a} {} {} {:a} {:a} {:a} {:a} {} {}", plan.slabs,

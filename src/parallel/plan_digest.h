@@ -8,8 +8,8 @@
 
 namespace lamina {
 
-// A hash of what the renderers of one picture have in common, of the plan and of their shares.
-// Renderers whose data differ have different ones.
-std::string digest_of(SlicePlan plan, const std::vector<IndexBox>& shares);
+// A hash of what the renderers of one picture must have in common: what the plan says of all of
+// them, and their shares.
+std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares);
 
 }  // namespace lamina

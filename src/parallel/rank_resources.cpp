@@ -4,7 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cstdint>
 #include <vector>
 
 #include "base/memory_limit.h"
@@ -17,18 +17,20 @@ RankResources::RankResources(const Ranks& ranks) {
                         &machine);
     int count = 1;
     MPI_Comm_size(machine, &count);
-    if (!memory_limit_is_told()) set_memory_limit(memory_limit() / static_cast<unsigned>(count));
+    // All ranks get the least, so that a volume is in memory on all of them or on none.
+    std::uint64_t memory = memory_limit() / static_cast<unsigned>(count);
+    MPI_Allreduce(MPI_IN_PLACE, &memory, 1, MPI_UINT64_T, MPI_MIN, ranks.comm());
+    set_default_memory_limit(memory);
     cpu_set_t own;
     CPU_ZERO(&own);
-    if (sched_getaffinity(0, sizeof own, &own) == 0) {
-        std::vector<cpu_set_t> all(static_cast<std::size_t>(count));
-        MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, machine);
-        const auto together = std::ranges::count_if(
-            all, [&](const cpu_set_t& other) { return CPU_EQUAL(&own, &other); });
-        const auto threads = std::max<std::ptrdiff_t>(1, CPU_COUNT(&own) / together);
-        threads_.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(threads));
-    }
+    sched_getaffinity(0, sizeof own, &own);
+    std::vector<cpu_set_t> all(static_cast<std::size_t>(count));
+    MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, machine);
+    const auto together =
+        std::ranges::count_if(all, [&](const cpu_set_t& other) { return CPU_EQUAL(&own, &other); });
+    threads_.emplace(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, CPU_COUNT(&own) / together)));
     MPI_Comm_free(&machine);
 }
 

@@ -9,8 +9,8 @@
 
 namespace lamina {
 
-// While it lives, this rank takes its part of the machine's memory and processors: ranks that may
-// run on the same processors divide them.
+// While it lives, this rank takes its part of the machine's memory and processors: ranks with the
+// same set of processors divide it.
 class RankResources {
   public:
     explicit RankResources(const Ranks& ranks);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This room alone knows MPI. Its errors end the whole job, as MPI has it by default.
+// This room and the program lamina-mpi alone know MPI. Its errors end the whole job, as MPI has it
+// by default.
 #pragma once
 
 #include <mpi.h>

@@ -57,12 +57,12 @@ void SharedRenderer::check_plan() {
     });
 }
 
-void SharedRenderer::draw(const Camera& camera) {
+void SharedRenderer::draw(const std::optional<Camera>& camera) {
     std::vector<int> order;
     RankReport report;
     agree(ranks_, [&] {
         Stage drawing("share");
-        own_.set_camera(camera);
+        if (camera) own_.set_camera(*camera);
         own_.draw();
         own_.read(picture_);
         order = own_.front_to_back();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lamina/image.h"
@@ -16,7 +16,7 @@ namespace lamina {
 // the same scene, and call draw() together.
 class SharedRenderer {
   public:
-    // `scene`: of method slice.. `ranks` must outlive it.
+    // `scene`: of method slice. `ranks` must outlive it.
     // Throws Error where the scene asks for what ranks cannot share, and says what.
     SharedRenderer(const Ranks& ranks, Wire wire, const Scene& scene,
                    std::shared_ptr<const VolumeData> volume, const OmissionSwitch& omissions);
@@ -30,8 +30,9 @@ class SharedRenderer {
     // Throws Error on all ranks where their plans differ.
     void check_plan();
 
-    // Draws a frame; rank 0 then has the picture, and what it took on all ranks.
-    void draw(const Camera& camera);
+    // Draws a frame, with another camera or as before; rank 0 then has the picture, and what it
+    // took on all ranks.
+    void draw(const std::optional<Camera>& camera);
     const Image& picture() const { return picture_; }
     const std::vector<RankReport>& reports() const { return reports_; }
 

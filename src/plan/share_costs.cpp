@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 #include "base/parallel.h"
 #include "facts/ray_shares.h"

@@ -18,6 +18,11 @@ constexpr double cells_to_cut_finely = 16 * MinMaxBricks::edge;
 // Where nothing shows, halves of the box are equal parts.
 constexpr double cost_of_emptiness = 1e-6;
 
+// Of so many boxes, those with smaller coordinates than the first cut.
+int below_of(int count) {
+    return count / 2;
+}
+
 }  // namespace
 
 VolumeShares::VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks,
@@ -40,8 +45,8 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
     IndexBox below = box, above = box, between_below = between, between_above = between;
     below.max[cut.axis] = above.min[cut.axis] = cut.place;
     between_below.max[cut.axis] = between_above.min[cut.axis] = cut.place;
-    divide(costs.part(cut.axis, cut.place, false), below, between_below, cut.boxes_below);
-    divide(costs.part(cut.axis, cut.place, true), above, between_above, count - cut.boxes_below);
+    divide(costs.part(cut.axis, cut.place, false), below, between_below, below_of(count));
+    divide(costs.part(cut.axis, cut.place, true), above, between_above, count - below_of(count));
 }
 
 // On each axis the plane is found that divides the cost as the boxes are divided. Of these three
@@ -49,12 +54,12 @@ void VolumeShares::divide(const ShareCosts& costs, const IndexBox& box, const In
 // the other hides.
 VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox& between,
                                          int count) {
-    const double below = count / 2, above = count - count / 2;
+    const double below = below_of(count), above = count - below_of(count);
     const glm::dvec3 size = between.max - between.min;
     std::array<int, 3> axes{0, 1, 2};
     std::ranges::stable_sort(axes, std::greater(), [&](int axis) { return size[axis]; });
     // Where nothing can be cut, all is below.
-    Cut best{axes[0], between.max[axes[0]] + 1, count / 2};
+    Cut best{axes[0], between.max[axes[0]] + 1};
     double least = endless;
     for (const int axis : axes) {
         const double unit = size[axis] >= cells_to_cut_finely ? double{MinMaxBricks::edge} : 1.0;
@@ -72,7 +77,7 @@ VolumeShares::Cut VolumeShares::best_cut(const ShareCosts& costs, const IndexBox
             const auto [one, other] = costs_at(number);
             if (std::max(one, other) < least) {
                 least = std::max(one, other);
-                best = {axis, static_cast<double>(number) * unit, count / 2};
+                best = {axis, static_cast<double>(number) * unit};
             }
             return one < other;
         };
@@ -102,10 +107,10 @@ std::vector<int> VolumeShares::front_to_back(const Grid& grid, const View& view)
         const bool below_first = view.projection == Projection::perspective
                                      ? eye[cut.axis] < cut.place
                                      : forward[cut.axis] >= 0;
-        const auto visit_below = [&] { visit(number + 1, first, cut.boxes_below); };
+        const int below = below_of(count);
+        const auto visit_below = [&] { visit(number + 1, first, below); };
         const auto visit_above = [&] {
-            visit(number + static_cast<std::size_t>(cut.boxes_below), first + cut.boxes_below,
-                  count - cut.boxes_below);
+            visit(number + static_cast<std::size_t>(below), first + below, count - below);
         };
         if (below_first) visit_below();
         visit_above();
@@ -113,13 +118,6 @@ std::vector<int> VolumeShares::front_to_back(const Grid& grid, const View& view)
     };
     visit(0, 0, static_cast<int>(boxes_.size()));
     return order;
-}
-
-// Slabs are tested for being constant several at a time, from the first one that a renderer draws
-// on: which of them are then depends on the share, and so would be which renderer draws them.
-void take_share(const IndexBox& share, SlicePlan& plan) {
-    plan.share = share;
-    if (!plan.integrates_cells()) plan.constant_regions = false;
 }
 
 }  // namespace lamina

@@ -30,10 +30,9 @@ class VolumeShares {
     struct Cut {
         int axis = 0;
         double place = 0;
-        int boxes_below = 1;  // with smaller coordinates
     };
 
-    // `samples`: those inside `box`; `between`: its first and last sample on each axis.
+    // `costs`: inside `box`; `between`: its first and last sample on each axis.
     void divide(const ShareCosts& costs, const IndexBox& box, const IndexBox& between, int count);
     static Cut best_cut(const ShareCosts& costs, const IndexBox& between, int count);
 
@@ -41,8 +40,5 @@ class VolumeShares {
     std::vector<Cut> cuts_;
     std::vector<IndexBox> boxes_;
 };
-
-// Makes the plan of a picture that of one of its renderers.
-void take_share(const IndexBox& share, SlicePlan& plan);
 
 }  // namespace lamina

@@ -42,9 +42,20 @@ void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilit
 
 Plan SliceDrawing::plan(const Scene& scene, const Capabilities& capabilities,
                         const OmissionSwitch& omissions, bool for_people) const {
-    Plan plan = for_people ? make_plan(scene, facts_, capabilities, omissions, trials_)
-                           : plan_alone(scene, facts_, capabilities, omissions, trials_);
-    if (shares_) take_share(shares_->boxes()[static_cast<std::size_t>(share_.number)], plan.slice);
+    const auto plan_with = [&](const OmissionSwitch& allowed) {
+        return for_people ? make_plan(scene, facts_, capabilities, allowed, trials_)
+                          : plan_alone(scene, facts_, capabilities, allowed, trials_);
+    };
+    Plan plan = plan_with(omissions);
+    if (!shares_) return plan;
+    // Slabs are tested for being constant several at a time, from the first one that a renderer
+    // draws on. Which of them are would depend on the share, and so would be who draws them.
+    if (plan.slice.constant_regions && !plan.slice.integrates_cells()) {
+        OmissionSwitch fewer = omissions;
+        fewer.kept.insert("constant_regions");
+        plan = plan_with(fewer);
+    }
+    plan.slice.share = shares_->boxes()[static_cast<std::size_t>(share_.number)];
     return plan;
 }
 

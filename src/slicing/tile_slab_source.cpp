@@ -162,14 +162,14 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     brick.box = {glm::dvec3(glm::vec3(box.min - first)), glm::dvec3(glm::vec3(box.max - first))};
     brick.drawn.min -= first;
     brick.drawn.max -= first;
-    if (plan_.share && !take_share({plan_.share->min - first, plan_.share->max - first}, brick))
+    if (plan_.share && !keep_to_share({plan_.share->min - first, plan_.share->max - first}, brick))
         return;
     slabs_.bricks.push_back(brick);
     see(brick, view);
 }
 
 // Cells lie in one share each: rays are clipped to it. False: the brick has nothing of it.
-bool TileSlabSource::take_share(const IndexBox& share, TileBrickView& brick) const {
+bool TileSlabSource::keep_to_share(const IndexBox& share, TileBrickView& brick) const {
     if (!plan_.integrates_cells()) {
         brick.share = share;
         return true;

@@ -42,7 +42,7 @@ class TileSlabSource {
     void set_rays(const View& view, const Slabs& slabs);
     void add_brick(std::size_t number, const View& view, const Slabs& slabs);
     void see(const TileBrickView& brick, const View& view);
-    bool take_share(const IndexBox& share, TileBrickView& brick) const;
+    bool keep_to_share(const IndexBox& share, TileBrickView& brick) const;
     void load_pages(const View& view) const;
 
     const SlicePlan& plan_;

@@ -106,6 +106,19 @@ TEST_F(RankPictures, OfFilesAreThoseOfOneProcess) {
     EXPECT_LE(difference(render_alone({}), render(3, {"--memory", "1M"})), wanted);
 }
 
+TEST_F(RankPictures, OfTheSceneAreWrittenWhateverIsTimedThen) {
+    const Arguments timed{"--frames", "3"};
+    EXPECT_LE(difference(render_alone(timed), render(2, timed)), wanted);
+}
+
+// A name in Latin-1 is no UTF-8.
+TEST_F(RankPictures, OfFilesWithAnyName) {
+    const std::filesystem::path renamed = folder / "caf\xe9.nrrd";
+    std::filesystem::rename(volume, renamed);
+    volume = renamed;
+    EXPECT_LE(difference(render_alone({}), render(2, {})), wanted);
+}
+
 TEST_F(RankPictures, AreTheSameAgain) {
     for (const std::string wire : {"float32", "coded"}) {
         const Image one = render(4, {"--wire", wire}), other = render(4, {"--wire", wire});

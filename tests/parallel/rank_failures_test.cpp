@@ -67,6 +67,15 @@ TEST_F(RankFailures, MeshesAreRefusedWithTheReason) {
     expect_refused({}, 1, "render.method: found project, expected slice: parts of a mesh");
 }
 
+TEST_F(RankFailures, UnknownInstructionsAreRefusedOnce) {
+    const ProgramResult result = run_program(command(3, {}), [] {
+        allow_root();
+        setenv("LAMINA_INSTRUCTIONS", "MMX", 1);
+    });
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_EQ(lines_of_lamina(result.err), 1) << result.err;
+}
+
 TEST_F(RankFailures, FilesThatAreCutShortAreNamed) {
     std::filesystem::resize_file(volume, 500000);
     expect_refused({}, 1, "noise.nrrd");

@@ -58,7 +58,7 @@ void expect_same_together(const Volume& volume, const Scene& scene, const char* 
         for (const int number :
              shares.front_to_back(facts.grid, View(scene.camera, scene.width, scene.height))) {
             SlicePlan of_share = plan.slice;
-            take_share(shares.boxes()[static_cast<std::size_t>(number)], of_share);
+            of_share.share = shares.boxes()[static_cast<std::size_t>(number)];
             put_behind(draw(volume, scene, facts, of_share), together);
         }
         EXPECT_LE(largest_difference(together, whole), tolerance(scene, count))
@@ -104,9 +104,10 @@ TEST(VolumeShares, OfPreintegratedSlabsMakeOnePicture) {
 }
 TEST(VolumeShares, OfLitVolumesMakeOnePicture) {
     for (const auto classification : {Classification::exact, Classification::preintegrated}) {
-        expect_same_from_everywhere(some_volume(), classification,
-                                    [](Scene& scene) { scene.lighting = Lighting{};
-            scene.lighting->smallest_gradient = 1; });
+        expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
+            scene.lighting = Lighting{};
+            scene.lighting->smallest_gradient = 1;
+        });
     }
 }
 TEST(VolumeShares, OfClippedVolumesMakeOnePicture) {

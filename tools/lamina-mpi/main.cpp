@@ -2,15 +2,14 @@
 // `lamina render` with several processes that draw each picture together. Rank 0 is the program;
 // the others do what it says.
 #include <cstdio>
-#include <exception>
 #include <memory>
+#include <string>
 
-#include "base/progress.h"
+#include "base/large_stack.h"
 #include "parallel/followers.h"
 #include "parallel/leader.h"
 #include "parallel/rank_resources.h"
 #include "program.h"
-#include "render/context_choice.h"
 #include "render_verb.h"
 #include "shared_slice_job.h"
 
@@ -33,19 +32,24 @@ int lead(const Ranks& ranks, int argc, char** argv) {
                         "then 8: off by at most half a step of 8 bits)")
             ->option_text("float32|half|coded");
     };
-    return run_program({"lamina-mpi", "lamina-mpi: lamina render on several processes or machines",
-                        "A first picture: mpirun -n 4 lamina-mpi render head.nrrd -o head.png\n"
-                        "What a verb takes: lamina-mpi VERB --help",
-                        add_verbs},
-                       argc, argv);
+    return run_command_line(
+        {"lamina-mpi", "lamina-mpi: lamina render on several processes or machines",
+         "A first picture: mpirun -n 4 lamina-mpi render head.nrrd -o head.png\n"
+         "What a verb takes: lamina-mpi VERB --help",
+         add_verbs},
+        argc, argv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    // Pictures are drawn in a thread with a large stack, which alone then calls MPI.
+    // One thread at a time calls MPI, not always the same.
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
+    if (provided < MPI_THREAD_SERIALIZED) {
+        std::fputs("lamina: expected an MPI with MPI_THREAD_SERIALIZED\n", stderr);
+        MPI_Abort(MPI_COMM_WORLD, 1);
+    }
     int exit_code = 0;
     {
         const Ranks ranks(MPI_COMM_WORLD);
@@ -53,7 +57,10 @@ int main(int argc, char** argv) {
         if (ranks.leads()) {
             exit_code = lead(ranks, argc, argv);
         } else {
-            exit_code = run_follower(ranks);
+            exit_code = with_large_stack([&] {
+                run_follower(ranks);
+                return 0;
+            });
         }
     }
     MPI_Finalize();

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shared_slice_job.h"
 
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "base/error.h"
 #include "base/stage.h"
+#include "kept_error.h"
 #include "loaded_volume.h"
 #include "render/context_choice.h"
 #include "render/picture_warnings.h"
@@ -53,36 +58,55 @@ class SharedSliceJob : public RenderJob {
     }
 
     Plan plan(RenderStats& stats) override {
-        Stage opening("ranks");
         number_ = leader_.open(request_.scene, request_.data.volume, request_.omissions,
                                request_.many_frames);
-        stats.stages_ms["ranks"] = opening.end();
+        const auto& took = own().stages_ms();
+        stats.stages_ms["measure"] += took.at("facts") + took.at("trials");
+        stats.stages_ms["plan"] = took.at("plan");
+        stats.stages_ms["set_up"] = took.at("set_up");
         const Capabilities& capabilities = own().capabilities();
-        stats.renderer = capabilities.renderer;
         const int count = leader_.ranks().count();
+        stats.renderer = capabilities.renderer;
         stats.context = fmt::format("{}, {} {}", renderer_and_threads(capabilities), count,
                                     count == 1 ? "rank" : "ranks");
         stats.on_tiles = true;
+        const Plan plan = own().plan();
         report_volume(request_, *request_.data.volume, stats);
-        return own().plan();
+        say_what_is_not_kept(request_, plan.slice);
+        return plan;
     }
     Scene resolved_scene() override { return own().resolved_scene(); }
     std::string explanation(const Plan& /*plan*/) const override {
         return leader_.renderer(number_).own().explanation();
     }
 
-    void draw(const Plan& plan, RenderStats& stats) override {
-        draw_view(request_.scene.camera, plan, stats);
-        warn_of_picture(request_.scene, *request_.data.field(), picture());
-    }
+    void draw(const Plan& plan, RenderStats& stats) override { draw_first({}, plan, stats); }
     void draw_frame(const Camera& camera) override { leader_.draw(number_, camera); }
     void draw_view(const Camera& camera, const Plan& plan, RenderStats& stats) override {
+        if (!image_) return draw_first(camera, plan, stats);
+        draw_timed(camera, stats);
+    }
+
+    std::size_t write(PictureFile& file, const PictureAttributes& attributes) override {
+        return file.write(*image_, request_.scene.background, attributes,
+                          request_.scene.color_space);
+    }
+
+  private:
+    SceneRenderer& own() { return leader_.renderer(number_).own(); }
+
+    void draw_timed(const std::optional<Camera>& camera, RenderStats& stats) {
         Stage frame("frame");
         frame.count("frame", static_cast<double>(stats.frames_ms.size()));
         leader_.draw(number_, camera);
         stats.frames_ms.push_back(frame.end());
+        image_ = leader_.renderer(number_).picture();
+    }
+
+    void draw_first(const std::optional<Camera>& camera, const Plan& plan, RenderStats& stats) {
+        draw_timed(camera, stats);
+        warn_of_picture(request_.scene, *request_.data.field(), *image_);
         const auto& reports = leader_.renderer(number_).reports();
-        stats.fragments = 0;
         for (const RankReport& report : reports)
             stats.fragments += static_cast<std::uint64_t>(report.segments);
         stats.ranks = to_json(reports);
@@ -90,18 +114,10 @@ class SharedSliceJob : public RenderJob {
         stats.bytes_host = own().renderer().byte_count();
     }
 
-    std::size_t write(PictureFile& file, const PictureAttributes& attributes) override {
-        return file.write(picture(), request_.scene.background, attributes,
-                          request_.scene.color_space);
-    }
-
-  private:
-    SceneRenderer& own() { return leader_.renderer(number_).own(); }
-    const Image& picture() const { return leader_.renderer(number_).picture(); }
-
     const RenderRequest request_;
     Leader& leader_;
     int number_ = -1;
+    std::optional<Image> image_;  // the last one to be written
 };
 
 }  // namespace

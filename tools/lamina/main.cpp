@@ -3,7 +3,7 @@
 #include "verbs.h"
 
 int main(int argc, char** argv) {
-    return lamina::run_program(
+    return lamina::run_command_line(
         {"lamina", "lamina: volume rendering by slicing, with the error of each picture",
          "A first picture: lamina render head.nrrd -o head.png\n"
          "What a verb takes: lamina VERB --help",

@@ -95,7 +95,7 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
 
 }  // namespace
 
-int run_program(const Program& program, int argc, char** argv) {
+int run_command_line(const Program& program, int argc, char** argv) {
     make_streams_safe();
     take_warnings(print_warning);
     set_command_line(argc, argv);

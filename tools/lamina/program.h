@@ -16,6 +16,6 @@ struct Program {
 
 // Does what the command line says, and says on stderr what failed. Returns the exit code
 // (base/error.h); does not throw.
-int run_program(const Program& program, int argc, char** argv);
+int run_command_line(const Program& program, int argc, char** argv);
 
 }  // namespace lamina
