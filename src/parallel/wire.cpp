@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "parallel/wire.h"
 
+#include "base/enum_words.h"
 #include "base/error.h"
 #include "base/shortened.h"
-#include "base/unreachable.h"
 
 namespace lamina {
 
+// Its words are listed by enum_words() (base/enum_words.h), too.
 const char* name_of(Wire wire) {
     switch (wire) {
         case Wire::float32:
@@ -16,14 +17,13 @@ const char* name_of(Wire wire) {
         case Wire::coded:
             return "coded";
     }
-    unreachable_enum();
+    return nullptr;
 }
 
 Wire wire_of(const std::string& word) {
-    for (const Wire wire : {Wire::float32, Wire::half, Wire::coded})
-        if (word == name_of(wire)) return wire;
+    if (const auto found = value_of_word<Wire>(word)) return *found;
     throw UsageError(
-        fmt::format("--wire: found {}, expected float32, half or coded", shortened(word)));
+        fmt::format("--wire: found {}, expected {}", shortened(word), alternatives<Wire>()));
 }
 
 }  // namespace lamina
