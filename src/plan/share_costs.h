@@ -17,7 +17,8 @@ namespace lamina {
 // opaque.
 class ShareCosts {
   public:
-    ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks);
+    // `in_files`: what the view shows is also read from files.
+    ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files);
 
     // Of the parts below and above a plane across an axis.
     struct Pair {
@@ -38,8 +39,12 @@ class ShareCosts {
         float optical_depth;  // estimated
         std::int32_t ray;
     };
+    void find_stretches(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks);
+    void find_pages(const Scene& scene, const Facts& facts);
+
     std::vector<Stretch> stretches_;  // ray by ray, front to back
-    double opaque_depth_ = 0;
+    std::vector<glm::vec3> pages_;    // middles of the cache's bricks that are read, in index space
+    double opaque_depth_ = 0, page_cost_ = 0;
 };
 
 }  // namespace lamina

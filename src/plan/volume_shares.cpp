@@ -26,10 +26,10 @@ int below_of(int count) {
 }  // namespace
 
 VolumeShares::VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks,
-                           int count) {
+                           bool in_files, int count) {
     const auto& size = facts.grid.size;
     const glm::dvec3 last(size[0] - 1, size[1] - 1, size[2] - 1);
-    divide(ShareCosts(scene, facts, bricks), {glm::dvec3(-endless), glm::dvec3(endless)},
+    divide(ShareCosts(scene, facts, bricks, in_files), {glm::dvec3(-endless), glm::dvec3(endless)},
            {glm::dvec3(0), last}, count);
 }
 

@@ -16,8 +16,9 @@ namespace lamina {
 class VolumeShares {
   public:
     // Cuts the volume so that each of `count` renderers takes about as long as the others for the
-    // scene's view, as far as the ranges of bricks tell.
-    VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, int count);
+    // scene's view, as far as the ranges of bricks tell. `in_files`: with reading it.
+    VolumeShares(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files,
+                 int count);
 
     // In the volume's index space, endless where they reach the volume's border. Boxes are empty
     // where there were too few samples to cut between.

@@ -30,7 +30,8 @@ void SliceDrawing::measure_view(const Scene& scene, const Plan* planned) {
         measure_rays(scene, data_->volume, facts_);
     }
     // Shares stay when the view changes, so that the data do.
-    if (share_.count > 1 && !shares_) shares_.emplace(scene, facts_, data_->bricks, share_.count);
+    if (share_.count > 1 && !shares_)
+        shares_.emplace(scene, facts_, data_->bricks, !data_->volume.in_memory(), share_.count);
 }
 
 void SliceDrawing::make_trials(const Scene& scene, const Capabilities& capabilities,

@@ -52,7 +52,7 @@ void expect_same_together(const Volume& volume, const Scene& scene, const char* 
     const Image whole = draw(volume, scene, facts, plan.slice);
     EXPECT_GT(*std::ranges::max_element(whole.rgba), .1) << what;
     for (const int count : counts) {
-        const VolumeShares shares(scene, facts, bricks, count);
+        const VolumeShares shares(scene, facts, bricks, count % 2 == 1, count);
         ASSERT_EQ(shares.boxes().size(), static_cast<std::size_t>(count));
         PreciseImage together(scene.width, scene.height);
         for (const int number :
