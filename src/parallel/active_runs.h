@@ -19,7 +19,7 @@ class ActiveRuns {
 
     ActiveRuns(const Image& picture, const RowSpan& rows);
 
-    // Of one of the rows, from left to right.
+    // The runs of one of the rows, from left to right.
     const Run* begin(int row) const { return runs_.data() + starts_[place(row)]; }
     const Run* end(int row) const { return runs_.data() + starts_[place(row) + 1]; }
 

@@ -34,10 +34,7 @@ void agree(const Ranks& ranks, const std::function<void()>& work) {
         if (failure && ranks.leads()) std::rethrow_exception(failure);
         fail("rank 0 has failed");
     }
-    auto size = static_cast<int>(message.size());
-    MPI_Bcast(&size, 1, MPI_INT, first, ranks.comm());
-    message.resize(static_cast<std::size_t>(size));
-    MPI_Bcast(message.data(), size, MPI_CHAR, first, ranks.comm());
+    ranks.broadcast(message, first);
     fail("{} (rank {} of {})", message, first, ranks.count());
 }
 

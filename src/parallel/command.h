@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// What rank 0 tells the others to do; sent as bytes.
+// A command of rank 0 to the others, which is sent as bytes.
 struct Command {
     enum class Kind { open, draw, close, end };
 

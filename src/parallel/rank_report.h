@@ -6,7 +6,7 @@
 
 namespace lamina {
 
-// What a frame took on one rank. Ranks send it as bytes.
+// The report of one rank on a frame: what it took there. Ranks send it as bytes.
 struct RankReport {
     std::array<char, 64> machine{};  // its name, ends with 0
     std::int32_t threads = 0;

@@ -6,7 +6,6 @@
 #include <mpi.h>
 
 #include <string>
-#include <type_traits>
 
 namespace lamina {
 
@@ -20,13 +19,8 @@ class Ranks {
     int count() const { return count_; }
     bool leads() const { return number_ == 0; }
 
-    // From rank 0 to all. `Value` is copied byte by byte.
-    template <typename Value>
-    void broadcast(Value& value) const {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        MPI_Bcast(&value, sizeof value, MPI_BYTE, 0, comm_);
-    }
-    void broadcast(std::string& text) const;
+    // Gives all ranks the text that one of them has.
+    void broadcast(std::string& text, int from = 0) const;
 
   private:
     MPI_Comm comm_;

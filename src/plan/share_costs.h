@@ -20,7 +20,7 @@ class ShareCosts {
     // `in_files`: what the view shows is also read from files.
     ShareCosts(const Scene& scene, const Facts& facts, const MinMaxBricks& bricks, bool in_files);
 
-    // Of the parts below and above a plane across an axis.
+    // The costs of the parts below and above a plane across an axis.
     struct Pair {
         double below = 0, above = 0;
     };

@@ -18,7 +18,7 @@ constexpr double cells_to_cut_finely = 16 * MinMaxBricks::edge;
 // Where nothing shows, halves of the box are equal parts.
 constexpr double cost_of_emptiness = 1e-6;
 
-// Of so many boxes, those with smaller coordinates than the first cut.
+// The number of boxes with smaller coordinates than the cut that divides `count` boxes.
 int below_of(int count) {
     return count / 2;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites random pictures of the ranks and says how far that is from compositing them in double
-// on one rank, in 1/255, and what was sent. Arguments: wire, most ranks in a group, seed.
+// on one rank, in 1/255. Arguments: wire, most ranks in a group, seed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +9,7 @@
 
 #include "parallel/picture_composer.h"
 #include "random_picture.h"
+#include "support/put_behind.h"
 
 namespace {
 
@@ -22,14 +23,7 @@ Image picture_of(int rank, std::uint32_t seed) {
 
 PreciseImage composited(const std::vector<int>& order, std::uint32_t seed) {
     PreciseImage sum(width, height);
-    for (const int rank : order) {
-        const Image picture = picture_of(rank, seed);
-        for (std::size_t i = 0; i < sum.rgba.size(); i += 4) {
-            const double left = 1 - sum.rgba[i + 3];
-            for (std::size_t channel = 0; channel < 4; ++channel)
-                sum.rgba[i + channel] += left * double{picture.rgba[i + channel]};
-        }
-    }
+    for (const int rank : order) put_behind(picture_of(rank, seed), sum);
     return sum;
 }
 

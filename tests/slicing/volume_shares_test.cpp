@@ -7,7 +7,7 @@
 
 #include "exact_fixture.h"
 #include "plan/volume_shares.h"
-#include "support/stored_volume.h"
+#include "support/put_behind.h"
 #include "tile_fixture.h"
 
 namespace lamina {
@@ -28,14 +28,6 @@ Image draw(const Volume& volume, const Scene& scene, const Facts& facts, const S
                                scene.height);
     renderer.draw(View(scene.camera, scene.width, scene.height));
     return renderer.read();
-}
-
-void put_behind(const Image& picture, PreciseImage& front) {
-    for (std::size_t i = 0; i < front.rgba.size(); i += 4) {
-        const double left = 1 - front.rgba[i + 3];
-        for (std::size_t channel = 0; channel < 4; ++channel)
-            front.rgba[i + channel] += left * double{picture.rgba[i + channel]};
-    }
 }
 
 double largest_difference(const PreciseImage& image, const Image& other) {
