@@ -13,7 +13,7 @@ namespace {
 
 std::atomic<std::uint64_t> told_limit{0}, default_limit{0};  // 0: none
 
-std::uint64_t memory_of_machine() {
+std::uint64_t measure_machine_memory() {
     const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
     std::uint64_t bytes = page * static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES));
     // "max", or no such file, where the control group has no limit.
@@ -24,11 +24,15 @@ std::uint64_t memory_of_machine() {
 
 }  // namespace
 
+std::uint64_t machine_memory() {
+    static const std::uint64_t bytes = measure_machine_memory();
+    return bytes;
+}
+
 std::uint64_t memory_limit() {
-    static const std::uint64_t machine = memory_of_machine();
     if (const std::uint64_t told = told_limit.load(); told > 0) return told;
     const std::uint64_t usual = default_limit.load();
-    return usual > 0 ? usual : machine / 2;
+    return usual > 0 ? usual : machine_memory() / 2;
 }
 
 void set_memory_limit(std::uint64_t bytes) {

@@ -46,4 +46,8 @@ void RandomAccessFile::read(std::uint64_t begin, char* to, std::size_t count) co
         fail("{}: truncated: found {} bytes at byte {}, expected {}", name_, got, begin, count);
 }
 
+void RandomAccessFile::expect_in_order() const {
+    posix_fadvise(file_, 0, 0, POSIX_FADV_SEQUENTIAL);
+}
+
 }  // namespace lamina

@@ -21,6 +21,8 @@ class RandomAccessFile {
     // end.
     std::size_t read_some(std::uint64_t begin, char* to, std::size_t count) const;
     void read(std::uint64_t begin, char* to, std::size_t count) const;  // all of them
+    // For who reads from first to last alone: the system then reads further ahead.
+    void expect_in_order() const;
 
   private:
     std::string name_;

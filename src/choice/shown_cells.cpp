@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "choice/large_volume.h"
 #include "volume/volume_store.h"
 #include "volume/with_sample_type.h"
 
@@ -191,11 +192,45 @@ double plane_at(const Grid& grid, int axis, std::int64_t plane, std::int64_t cel
     return static_cast<double>(plane);
 }
 
+// The ends of each row of bricks along x that shows something.
+std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBricks& bricks,
+                                             const Shows& shows) {
+    const auto cells = cells_of(grid);
+    const auto place = [&](int axis, std::int64_t brick) {
+        const std::int64_t count = cells[static_cast<std::size_t>(axis)];
+        return plane_at(grid, axis, std::min(brick * edge, count), count);
+    };
+    std::vector<std::vector<glm::dvec3>> of_slices(static_cast<std::size_t>(bricks.count[2]));
+    parallel_for(bricks.count[2], 1, [&](std::int64_t z) {
+        ValueRange before;
+        bool shown = false;
+        for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
+            Span row;
+            for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
+                const ValueRange range = bricks.at(x, y, z);
+                if (range != before) shown = !range.empty() && shows(range);
+                before = range;
+                if (shown) row.include({x, x + 1});
+            }
+            if (row.empty()) continue;
+            for (int corner = 0; corner < 8; ++corner) {
+                of_slices[static_cast<std::size_t>(z)].push_back(
+                    grid.to_world({place(0, (corner & 1) != 0 ? row.last : row.first),
+                                   place(1, y + (corner >> 1 & 1)), place(2, z + (corner >> 2))}));
+            }
+        }
+    });
+    std::vector<glm::dvec3> points;
+    for (const auto& slice : of_slices) points.insert(points.end(), slice.begin(), slice.end());
+    return points;
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
                                             const Shows& shows) {
     const Grid& grid = volume.grid();
+    if (grid.sample_count() > large_volume) return hull_of_shown_bricks(grid, bricks, shows);
     const auto cells = cells_of(grid);
     const std::vector<Span> rows = with_sample_type(volume.type(), [&](auto zero) {
         return RowSpans<decltype(zero)>(volume, bricks, shows).find();

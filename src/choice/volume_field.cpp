@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "choice/box_corners.h"
+#include "choice/large_volume.h"
 #include "choice/shown_cells.h"
 #include "facts/facts.h"
 
@@ -62,8 +63,10 @@ std::vector<double> VolumeField::optical_depths(const Scene& scene) const {
     Facts facts;
     facts.grid = volume_.grid();
     measure_view(scene, facts);
+    const bool large = volume_.grid().sample_count() > large_volume;
+    const RaySampling sampling = large ? RaySampling{256, 256} : RaySampling{};
     std::vector<double> depths;
-    for (const ScalarRays::Ray& ray : sample_rays(scene, volume_, facts).rays)
+    for (const ScalarRays::Ray& ray : sample_rays(scene, volume_, facts, &bricks_, sampling).rays)
         depths.push_back(ray.optical_depths.back());
     return depths;
 }

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "facts/facts.h"
-#include "volume/sample_access.h"
+#include "volume/scattered_samples.h"
 
 namespace lamina {
 namespace {
@@ -59,14 +59,12 @@ class ShareCounter {
   private:
     // Of the nearest sample.
     double extinction_near(const glm::dvec3& at) const {
-        const auto& size = volume_.grid().size;
-        std::int64_t place = 0;
-        for (std::size_t axis = 3; axis-- > 0;) {
+        std::array<std::int64_t, 3> place{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto nearest = std::llround(at[static_cast<int>(axis)]);
-            place = place * size[axis] + std::clamp<std::int64_t>(nearest, 0, size[axis] - 1);
+            place[axis] = std::clamp<std::int64_t>(nearest, 0, volume_.grid().size[axis] - 1);
         }
-        const double value = visit_samples(
-            volume_, [&](const auto& samples) { return static_cast<double>(samples[place]); });
+        const double value = scattered_sample(volume_, place);
         return std::isfinite(value) ? transfer_function_.at(value).extinction : 0;
     }
 

@@ -11,7 +11,7 @@
 
 #include "base/parallel.h"
 #include "facts/facts.h"
-#include "volume/sample_access.h"
+#include "volume/scattered_samples.h"
 
 namespace lamina {
 namespace {
@@ -19,20 +19,22 @@ namespace {
 // Rays are those that meet the box, of pixels on a grid with this many along each side of the
 // picture.
 constexpr int places_along_side = 64;
-constexpr std::size_t most_rays = 1024;
-constexpr double scalars_per_voxel = 4, most_scalars = 1024;
+constexpr double scalars_per_voxel = 4;
 
 class RaySampler {
   public:
-    RaySampler(const Scene& scene, const Volume& volume, const Facts& facts)
+    RaySampler(const Scene& scene, const Volume& volume, const Facts& facts,
+               const MinMaxBricks* bricks, double most_scalars)
         : volume_(volume),
+          bricks_(bricks),
           grid_(facts.grid),
           clip_(facts.clip),
           transfer_function_(scene.transfer_function),
           view_(scene.camera, scene.width, scene.height),
+          most_scalars_(most_scalars),
           step_((facts.far_depth - facts.near_depth) /
                 std::clamp(std::ceil(scalars_per_voxel * facts.voxels_along_view), 1.0,
-                           most_scalars)) {}
+                           most_scalars_)) {}
 
     // Depths where the pixel's ray enters and leaves the clipped box; far <= near: it misses that.
     DepthRange chord(const glm::ivec2& pixel) const {
@@ -59,7 +61,7 @@ class RaySampler {
     ScalarRays::Ray sample(const glm::ivec2& pixel) const {
         const auto [near, far] = chord(pixel);
         const int steps =
-            static_cast<int>(std::clamp(std::ceil((far - near) / step_), 1.0, most_scalars));
+            static_cast<int>(std::clamp(std::ceil((far - near) / step_), 1.0, most_scalars_));
         const double step = (far - near) / steps;
         const View::Ray ray = view_.ray(pixel.x, pixel.y);
         const glm::dvec3 origin = grid_.to_index(ray.origin);
@@ -83,40 +85,41 @@ class RaySampler {
     double scalar_at(const glm::dvec3& place) const {
         const glm::dvec3 index = glm::clamp(place, grid_.index_min(), grid_.index_max());
         const glm::dvec3 cell = glm::floor(index), weight = index - cell;
+        std::array<std::int64_t, 3> lower{}, upper{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<std::size_t>(axis);
+            const auto at = static_cast<std::int64_t>(cell[axis]);
+            lower[i] = std::clamp<std::int64_t>(at, 0, grid_.size[i] - 1);
+            upper[i] = std::clamp<std::int64_t>(at + 1, 0, grid_.size[i] - 1);
+        }
+        const auto samples = scattered_corners(volume_, bricks_, lower, upper);
         double sum = 0;
         for (int corner = 0; corner < 8; ++corner) {
-            std::int64_t sample = 0;
             double share = 1;
-            for (int axis = 3; axis-- > 0;) {
-                const int upper = corner >> axis & 1;
-                const std::int64_t size = grid_.size[static_cast<std::size_t>(axis)];
-                const auto at = static_cast<std::int64_t>(cell[axis]) + upper;
-                sample = sample * size + std::clamp<std::int64_t>(at, 0, size - 1);
-                share *= upper == 1 ? weight[axis] : 1 - weight[axis];
-            }
-            if (share > 0) sum += share * sample_at(sample);
+            for (int axis = 3; axis-- > 0;)
+                share *= (corner >> axis & 1) == 1 ? weight[axis] : 1 - weight[axis];
+            if (share > 0) sum += share * samples[static_cast<std::size_t>(corner)];
         }
         return sum;
     }
-    double sample_at(std::int64_t number) const {
-        return visit_samples(
-            volume_, [&](const auto& samples) { return static_cast<double>(samples[number]); });
-    }
 
     const Volume& volume_;
+    const MinMaxBricks* bricks_;
     const Grid& grid_;
     const std::vector<IndexPlane>& clip_;
     const TransferFunction& transfer_function_;
     View view_;
+    double most_scalars_;
     double step_;  // in depth, between scalars
 };
 
 }  // namespace
 
-ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts) {
+ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts,
+                       const MinMaxBricks* bricks, const RaySampling& sampling) {
     ScalarRays found;
     if (facts.far_depth <= facts.near_depth) return found;
-    const RaySampler sampler(scene, volume, facts);
+    const RaySampler sampler(scene, volume, facts, bricks, sampling.scalars);
     const int columns = std::min(places_along_side, scene.width);
     const int rows = std::min(places_along_side, scene.height);
     std::vector<glm::ivec2> pixels;
@@ -127,7 +130,7 @@ ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& fa
             if (const auto [near, far] = sampler.chord(pixel); near < far) pixels.push_back(pixel);
         }
     }
-    const std::size_t step = (pixels.size() + most_rays - 1) / most_rays;
+    const std::size_t step = (pixels.size() + sampling.rays - 1) / sampling.rays;
     found.rays.resize(step > 0 ? (pixels.size() + step - 1) / step : 0);
     parallel_for(static_cast<std::int64_t>(found.rays.size()), 4, [&](std::int64_t number) {
         const auto ray = static_cast<std::size_t>(number);

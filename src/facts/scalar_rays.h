@@ -10,6 +10,7 @@
 namespace lamina {
 
 struct Facts;
+struct MinMaxBricks;
 
 struct ScalarRays {
     struct Ray {
@@ -23,7 +24,15 @@ struct ScalarRays {
     std::vector<Ray> rays;  // all over the picture, each through the box
 };
 
-// Takes the grid and the view from the facts.
-ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts);
+// How many rays, and how many scalars of a ray, at most.
+struct RaySampling {
+    std::size_t rays = 1024;
+    double scalars = 1024;
+};
+
+// Takes the grid and the view from the facts. `bricks`: of the volume, or null; of a volume that
+// stays in its files less is read with them.
+ScalarRays sample_rays(const Scene& scene, const Volume& volume, const Facts& facts,
+                       const MinMaxBricks* bricks = nullptr, const RaySampling& sampling = {});
 
 }  // namespace lamina

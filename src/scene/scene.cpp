@@ -143,8 +143,9 @@ Volume load_volume(const Scene& scene) {
 
 Volume open_volume(const Scene& scene) {
     if (scene.volume_request) return generate(*scene.volume_request);
-    return open_volume(scene.volume_file, scene.volume_selection,
-                       {.residence = VolumeUse::Residence::as_fits, .lit = scene.lighting.has_value()});
+    return open_volume(
+        scene.volume_file, scene.volume_selection,
+        {.residence = VolumeUse::Residence::as_fits, .lit = scene.lighting.has_value()});
 }
 
 }  // namespace lamina

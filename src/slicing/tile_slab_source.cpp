@@ -112,13 +112,14 @@ void TileSlabSource::set_view(const View& view, const Slabs& slabs) {
     for (const std::size_t number : order_) add_brick(number, view, slabs);
 }
 
-// What this view shows, if that fits the memory: it is read on all cores, in the order of the
-// files. Else pages are read when rays come to them.
+// What this view shows is brought from the disk in the order of the files. If it fits the memory,
+// it is read on all cores in this order, too; else pages are read when rays come to them.
 void TileSlabSource::load_pages(const View& view) const {
     if (!volume_ || volume_->pages() == nullptr) return;
     const BrickCache& cache = *volume_->pages();
     const std::vector<std::uint32_t> seen =
         pages_seen(shown_pages_, cache.count(), volume_->first_of_pages(), grid_, view);
+    volume_->will_read(cache.missing(seen));
     if (cache.fits(seen.size())) cache.load_ahead(seen);
 }
 

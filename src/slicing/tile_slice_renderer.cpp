@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/tile_slice_renderer.h"
 
+#include <atomic>
 #include <utility>
 
 #include "base/parallel.h"
@@ -72,8 +73,11 @@ void TileSliceRenderer::draw(const View& world_view, Progress* progress) {
     source_->set_view(view, {depth.near, depth.far, plan_.slabs});
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
-    parallel_for(target_.grid().count(), 1, [&](std::int64_t number) {
-        const auto tile = static_cast<int>(number);
+    // One after the other, whichever thread: of a volume that stays in its files neighbours need
+    // the same pages.
+    std::atomic<int> next{0};
+    parallel_for(target_.grid().count(), 1, [&](std::int64_t) {
+        const int tile = next++;
         if (source_->seen().meets(target_.grid().tile(tile))) {
             samples_ += draw_tile(tile);
         } else {

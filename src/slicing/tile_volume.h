@@ -67,6 +67,8 @@ class TileVolume {
     const std::vector<TileBrick>& bricks() const { return bricks_; }
     // The pages of a volume that is not in memory; null where it is.
     BrickCache* pages() const { return cache_; }
+    // Pages that are read soon, ascending (SampleSource::will_read()).
+    void will_read(std::span<const std::uint32_t> pages) const;
     // The sample of the volume, on each axis, with which the first page begins: -1 where bricks
     // have a border.
     const std::array<std::int64_t, 3>& first_of_pages() const { return parts_.front().first; }

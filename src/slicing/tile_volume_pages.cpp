@@ -97,6 +97,18 @@ TilePages TileVolume::pages_of(const TextureBrick& part) const {
     return pages;
 }
 
+// A row of pages along x is one box.
+void TileVolume::will_read(std::span<const std::uint32_t> pages) const {
+    const BrickPlaces places{volume_.grid().size, cache_->count(), first_of_pages()};
+    const std::int64_t margin = lit_ ? 1 : 0, row = places.count[0];
+    std::vector<SampleBox> boxes;
+    for (std::size_t begin = 0, end = 0; begin < pages.size(); begin = end) {
+        while (end < pages.size() && pages[end] / row == pages[begin] / row) ++end;
+        boxes.push_back(places.box_of(pages[begin], pages[end - 1], margin));
+    }
+    volume_.store().source().will_read(boxes);
+}
+
 void TileVolume::fill_own_pages(std::span<const BrickCache::Wanted> wanted) const {
     const BrickPlaces places{volume_.grid().size, own_cache_->count(), first_of_pages()};
     with_sample_type(volume_.type(), [&](auto zero) {

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t together = 64;
 
 // Bricks along x of which those that are expected are read together.
-constexpr std::uint32_t neighbours = 8;
+constexpr std::uint32_t neighbours = 16;
 
 std::int64_t cache_bricks_along(std::int64_t size) {
     return std::max<std::int64_t>(1, (size - 1 + BrickCache::edge - 1) / BrickCache::edge);
@@ -79,21 +79,21 @@ void BrickCache::expect(std::span<const std::uint32_t> bricks) {
     for (const std::uint32_t brick : bricks) expected_[brick] = 1;
 }
 
-// In ascending order, each once.
+// In ascending order, each once. All threads together may claim half of the slots.
 std::vector<std::uint32_t> BrickCache::with_neighbours(
     std::span<const std::uint32_t> bricks) const {
     std::vector<std::uint32_t> all(bricks.begin(), bricks.end());
-    if (capacity() >= neighbours * fewest_bytes()) {
-        const auto columns = static_cast<std::uint32_t>(count_[0]);
-        for (const std::uint32_t brick : bricks) {
-            const std::uint32_t x = brick % columns, first = x / neighbours * neighbours;
-            for (std::uint32_t other = first; other < std::min(first + neighbours, columns);
-                 ++other) {
-                const std::uint32_t number = brick - x + other;
-                if ((expected_.empty() || expected_[number] != 0) &&
-                    slots_[number].load(std::memory_order_relaxed) == no_slot)
-                    all.push_back(number);
-            }
+    const std::uint64_t threads = std::max(2u, std::thread::hardware_concurrency());
+    const std::uint64_t room = capacity() / (2 * threads * bricks.size() * brick_bytes_);
+    const auto together = static_cast<std::uint32_t>(std::min<std::uint64_t>(neighbours, room));
+    const auto columns = static_cast<std::uint32_t>(count_[0]);
+    for (const std::uint32_t brick : together > 1 ? bricks : std::span<const std::uint32_t>()) {
+        const std::uint32_t x = brick % columns, first = x / together * together;
+        for (std::uint32_t other = first; other < std::min(first + together, columns); ++other) {
+            const std::uint32_t number = brick - x + other;
+            if ((expected_.empty() || expected_[number] != 0) &&
+                slots_[number].load(std::memory_order_relaxed) == no_slot)
+                all.push_back(number);
         }
     }
     std::ranges::sort(all);
@@ -203,13 +203,18 @@ void BrickCache::clear() {
     memory_.clear();
 }
 
-void BrickCache::load_ahead(std::span<const std::uint32_t> bricks) const {
+std::vector<std::uint32_t> BrickCache::missing(std::span<const std::uint32_t> bricks) const {
     std::vector<std::uint32_t> missing;
     for (const std::uint32_t brick : bricks) {
         if (slots_[brick].load(std::memory_order_relaxed) == no_slot) missing.push_back(brick);
     }
-    if (missing.empty()) return;
     std::ranges::sort(missing);
+    return missing;
+}
+
+void BrickCache::load_ahead(std::span<const std::uint32_t> bricks) const {
+    const std::vector<std::uint32_t> missing = this->missing(bricks);
+    if (missing.empty()) return;
     Progress progress("reading bricks", static_cast<std::int64_t>(missing.size()));
     const auto parts = static_cast<std::int64_t>((missing.size() + together - 1) / together);
     parallel_for(parts, 1, [&](std::int64_t part) {

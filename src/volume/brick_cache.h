@@ -91,6 +91,8 @@ class BrickCache {
     // along x among these are read with it, because they lie beside each other in files. Without
     // this, all neighbours are.
     void expect(std::span<const std::uint32_t> bricks);
+    // Those of the bricks that are not in memory, ascending.
+    std::vector<std::uint32_t> missing(std::span<const std::uint32_t> bricks) const;
     // Reads bricks that are to be used soon, and that fit, if they are not in memory, in ascending
     // order on all cores.
     void load_ahead(std::span<const std::uint32_t> bricks) const;

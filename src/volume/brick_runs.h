@@ -24,6 +24,24 @@ struct BrickPlaces {
                 origin[1] + number / count[0] % count[1] * BrickCache::edge,
                 origin[2] + number / (count[0] * count[1]) * BrickCache::edge};
     }
+
+    // The volume's samples of bricks that lie beside each other along x, and so many more on each
+    // side.
+    SampleBox box_of(std::uint32_t first_brick, std::uint32_t last_brick,
+                     std::int64_t margin) const {
+        const auto first = first_sample(first_brick), last = first_sample(last_brick);
+        SampleBox box;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int64_t last_of_all = size[axis] - 1;
+            const std::int64_t from =
+                std::clamp<std::int64_t>(first[axis] - margin, 0, last_of_all);
+            const std::int64_t to =
+                std::clamp<std::int64_t>(last[axis] + BrickCache::edge + margin, from, last_of_all);
+            box.first[axis] = from;
+            box.size[axis] = to - from + 1;
+        }
+        return box;
+    }
 };
 
 // Reads the samples of bricks, with `margin` more on each side, at once for those that lie beside
@@ -41,17 +59,8 @@ void read_brick_runs(const SampleSource& source, const BrickPlaces& places,
                               wanted[end].brick == wanted[end - 1].brick + 1 &&
                               together(wanted[end].brick, wanted[begin].brick);)
             ++end;
-        const auto first = places.first_sample(wanted[begin].brick);
         SampleWindow<T> window;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto bricks = axis == 0 ? static_cast<std::int64_t>(end - begin) : 1;
-            const std::int64_t last = places.size[axis] - 1;
-            const std::int64_t from = std::clamp<std::int64_t>(first[axis] - margin, 0, last);
-            const std::int64_t to = std::clamp<std::int64_t>(
-                first[axis] + bricks * BrickCache::edge + margin, from, last);
-            window.box.first[axis] = from;
-            window.box.size[axis] = to - from + 1;
-        }
+        window.box = places.box_of(wanted[begin].brick, wanted[end - 1].brick, margin);
         const auto samples =
             std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(window.box.count()));
         source.read(window.box, samples.get());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace lamina {
@@ -30,6 +31,10 @@ class SampleSource {
 
     // Boxes of this size, and on multiples of it, are read at the least cost. 0: any size.
     virtual std::array<std::int64_t, 3> block() const { return {0, 0, 0}; }
+
+    // Boxes that are read soon: brings them from the disk to the system's cache, in the order of
+    // the files, where that has room for them.
+    virtual void will_read(std::span<const SampleBox> /*boxes*/) const {}
 
     // The most bytes that it keeps in memory.
     virtual std::uint64_t memory() const { return 0; }

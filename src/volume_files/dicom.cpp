@@ -30,15 +30,16 @@ class SliceReader {
         }
     }
 
-    StoredSamples read() {
+    // Where compressed slices are read, by a library in a process of its own, `line` is that
+    // process's.
+    StoredSamples read(IsolatedLine* line = nullptr) {
         expect_room();
         const auto& size = series_.grid.size;
         const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
         samples_.type = scales_alike_ ? type_ : ValueType::float32;
         const std::size_t bytes = stored_bytes(series_.name, axes, bytes_of(samples_.type));
-        const bool isolated = std::ranges::any_of(series_.slices, &DicomImage::compressed);
-        if (isolated) allow_bytes(bytes);
-        samples_.bytes = isolated ? shared_sample_memory(bytes) : sample_memory(bytes);
+        if (line != nullptr) line->allow_bytes(bytes);
+        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : sample_memory(bytes);
         std::size_t done = 0;
         for (const DicomImage& slice : series_.slices) {
             check_interrupt();
@@ -105,8 +106,8 @@ Volume read_dicom(const std::filesystem::path& path, const VolumeRequest& reques
     const auto compressed = [](const DicomImage& slice) { return slice.compressed; };
     if (std::ranges::none_of(series.slices, compressed))
         return drawn_volume(series.grid, SliceReader(series).read());
-    const ReadSamples found = read_isolated(series.name, "GDCM", [&] {
-        return ReadSamples{series.grid, SliceReader(series).read()};
+    const ReadSamples found = read_isolated(series.name, "GDCM", [&](IsolatedLine& line) {
+        return ReadSamples{series.grid, SliceReader(series).read(&line)};
     });
     return drawn_volume(series.grid, found.samples);
 }

@@ -12,6 +12,9 @@
 #include "base/content_hash.h"
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/memory_limit.h"
+#include "base/parallel.h"
+#include "base/progress.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
@@ -21,6 +24,8 @@ namespace {
 // many times as far as they are long: a call of the system takes as long as to copy as much.
 constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
 constexpr std::size_t most_extents = 1 << 20;
+// A disk reads on over so many bytes rather than to begin anew.
+constexpr std::uint64_t most_skipped = 1 << 20, piece_bytes = 1 << 26;
 
 constexpr std::uint64_t hashed_places = 64, hashed_bytes = 4096;
 
@@ -29,7 +34,8 @@ constexpr std::uint64_t hashed_places = 64, hashed_bytes = 4096;
 bool FileSource::can_read(const StoredData& data) {
     const auto axes = std::ranges::count_if(
         data.axes, [](const StoredAxis& axis) { return !axis.taken.has_value(); });
-    return data.encoding == DataEncoding::raw && axes == 3 && drawn_type(data.type);
+    return data.encoding == DataEncoding::raw && axes == 3 && drawn_type(data.type) &&
+           !data.is_scaled();
 }
 
 FileSource::FileSource(const StoredData& data, const std::array<std::int64_t, 3>& size)
@@ -85,9 +91,7 @@ bool FileSource::known_as_zero(const SampleBox& box) const {
         return next != extents_.end() && next->begin < end;
     };
     const auto place = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-        return static_cast<std::uint64_t>(offsets_[0]) + first_ +
-               static_cast<std::uint64_t>(x) * step_[0] + static_cast<std::uint64_t>(y) * step_[1] +
-               static_cast<std::uint64_t>(z) * step_[2];
+        return static_cast<std::uint64_t>(offsets_[0]) + place_of(x, y, z);
     };
     const auto [x, y, z] = box.first;
     const auto [nx, ny, nz] = box.size;
@@ -121,9 +125,7 @@ void FileSource::read_bytes(std::uint64_t place, char* to, std::size_t count) co
 // Rows y .. y + rows - 1 of the box, with what lies between them.
 void FileSource::read_rows(const SampleBox& box, std::int64_t y, std::int64_t z, std::int64_t rows,
                            char* to) const {
-    const std::uint64_t begin = first_ + static_cast<std::uint64_t>(box.first[0]) * step_[0] +
-                                static_cast<std::uint64_t>(y) * step_[1] +
-                                static_cast<std::uint64_t>(z) * step_[2];
+    const std::uint64_t begin = place_of(box.first[0], y, z);
     const auto along = static_cast<std::uint64_t>(box.size[0] - 1) * step_[0] + bytes_;
     const std::uint64_t span = static_cast<std::uint64_t>(rows - 1) * step_[1] + along;
     const std::size_t row_bytes = static_cast<std::size_t>(box.size[0]) * bytes_;
@@ -143,6 +145,13 @@ void FileSource::read_rows(const SampleBox& box, std::int64_t y, std::int64_t z,
     }
 }
 
+// How many rows of a box are read at once, with what lies between them.
+std::int64_t FileSource::rows_together(const SampleBox& box) const {
+    const std::uint64_t row_bytes = static_cast<std::uint64_t>(box.size[0]) * bytes_;
+    const bool together = step_[1] <= std::max(most_between_bytes, most_between_rows * row_bytes);
+    return together ? box.size[1] : 1;
+}
+
 void FileSource::read(const SampleBox& box, void* to) const {
     auto* at = static_cast<char*>(to);
     const std::size_t row_bytes = static_cast<std::size_t>(box.size[0]) * bytes_;
@@ -150,8 +159,8 @@ void FileSource::read(const SampleBox& box, void* to) const {
         std::memset(at, 0, row_bytes * static_cast<std::size_t>(box.size[1] * box.size[2]));
         return;
     }
-    const bool together = step_[1] <= std::max<std::uint64_t>(most_between_bytes,
-                                                              most_between_rows * row_bytes);
+    const bool together =
+        step_[1] <= std::max<std::uint64_t>(most_between_bytes, most_between_rows * row_bytes);
     const std::int64_t rows = together ? box.size[1] : 1;
     for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
         for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; y += rows) {
@@ -160,6 +169,46 @@ void FileSource::read(const SampleBox& box, void* to) const {
         }
     }
     if (swap_) swap_bytes_alone(to, box.count(), bytes_);
+}
+
+void FileSource::will_read(std::span<const SampleBox> boxes) const {
+    if (!only_file_) return;
+    std::vector<Extent> extents;
+    for (const SampleBox& box : boxes) {
+        const std::int64_t rows = rows_together(box);
+        const std::int64_t last_x = box.first[0] + box.size[0] - 1;
+        for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
+            for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; y += rows)
+                extents.push_back(
+                    {place_of(box.first[0], y, z), place_of(last_x, y + rows - 1, z) + bytes_});
+        }
+    }
+    std::ranges::sort(extents, {}, &Extent::begin);
+    std::vector<Extent> pieces;  // far from each other, or as long as is read at a time
+    std::uint64_t bytes = 0;
+    for (const Extent& extent : extents) {
+        const std::uint64_t done = pieces.empty() ? 0 : pieces.back().end;
+        if (extent.end <= done) continue;
+        if (pieces.empty() || extent.begin > done + most_skipped ||
+            extent.end > pieces.back().begin + piece_bytes)
+            pieces.push_back({std::max(extent.begin, done), extent.end});
+        else
+            pieces.back().end = extent.end;
+        bytes += extent.end - std::max(extent.begin, done);
+    }
+    if (bytes > machine_memory() / 2) return;  // the first would be gone before they are read
+    Progress progress("reading ahead", static_cast<std::int64_t>(pieces.size()));
+    parallel_for(std::ssize(pieces), 1, [&](std::int64_t number) {
+        const Extent& piece = pieces[static_cast<std::size_t>(number)];
+        const RandomAccessFile file(files_[0].path);  // each has a place in it of its own
+        file.expect_in_order();
+        char some[1 << 17];
+        for (std::uint64_t at = piece.begin; at < piece.end; at += sizeof some) {
+            file.read_some(static_cast<std::uint64_t>(offsets_[0]) + at, some,
+                           std::min<std::uint64_t>(sizeof some, piece.end - at));
+        }
+        progress.advance();
+    });
 }
 
 void FileSource::check_unchanged() const {

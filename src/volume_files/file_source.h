@@ -25,6 +25,7 @@ class FileSource : public SampleSource {
     FileSource(const StoredData& data, const std::array<std::int64_t, 3>& size);
 
     void read(const SampleBox& box, void* to) const override;
+    void will_read(std::span<const SampleBox> boxes) const override;
     bool known_as_zero(const SampleBox& box) const override;
     void check_unchanged() const override;
     std::filesystem::path main_file() const override { return files_[0].path; }
@@ -38,6 +39,11 @@ class FileSource : public SampleSource {
     };
 
     void find_extents();
+    std::uint64_t place_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return first_ + static_cast<std::uint64_t>(x) * step_[0] +
+               static_cast<std::uint64_t>(y) * step_[1] + static_cast<std::uint64_t>(z) * step_[2];
+    }
+    std::int64_t rows_together(const SampleBox& box) const;
     void read_bytes(std::uint64_t place, char* to, std::size_t count) const;
     void read_rows(const SampleBox& box, std::int64_t y, std::int64_t z, std::int64_t rows,
                    char* to) const;

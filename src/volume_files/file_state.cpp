@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/content_hash.h"
 #include "base/error.h"
+#include "base/random_access_file.h"
 
 namespace lamina {
 
@@ -30,6 +32,16 @@ void FileState::check_unchanged() const {
 
 std::string FileState::text() const {
     return fmt::format("{} {} {}", std::filesystem::absolute(path).string(), bytes, modified);
+}
+
+std::string FileState::bytes_hash() const {
+    constexpr std::uint64_t places = 64, most_bytes = 4096;
+    const RandomAccessFile file(path);
+    ContentHash hash;
+    char some[most_bytes];
+    for (std::uint64_t i = 0; i < places; ++i)
+        hash.add(some, file.read_some(file.size() / places * i, some, most_bytes));
+    return hash.hex();
 }
 
 }  // namespace lamina

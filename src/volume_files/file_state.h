@@ -14,7 +14,8 @@ struct FileState {
 
     // Throws Error where the file has another size or time now.
     void check_unchanged() const;
-    std::string text() const;  // its name, size and time
+    std::string text() const;        // its name, size and time
+    std::string bytes_hash() const;  // of some of its bytes, as they are now; throws Error
 
     std::filesystem::path path;
     std::uint64_t bytes = 0;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/hdf5_array.h"
 
+#include <fmt/ranges.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/interrupt.h"
-#include "volume_files/isolated_read.h"
-#include "volume_files/stored_axes.h"
-#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -165,56 +162,36 @@ void Hdf5Array::expect_filters() const {
     }
 }
 
-// Slabs of whole chunks, of some 64 MiB.
-std::int64_t Hdf5Array::slab_thickness(std::size_t axis, std::size_t slice_bytes) const {
-    constexpr std::size_t wanted_bytes = std::size_t{1} << 26;
-    std::int64_t chunk = 1;
+std::vector<std::int64_t> Hdf5Array::chunk() const {
     const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
-    if (properties.valid() && H5Pget_layout(properties.id()) == H5D_CHUNKED) {
-        hsize_t edges[most_rank] = {};
-        if (H5Pget_chunk(properties.id(), most_rank, edges) > static_cast<int>(axis))
-            chunk = static_cast<std::int64_t>(std::clamp<hsize_t>(edges[axis], 1, 1 << 20));
-    }
-    const auto slices =
-        static_cast<std::int64_t>(wanted_bytes / std::max<std::size_t>(1, slice_bytes));
-    return std::max<std::int64_t>(1, slices / chunk) * chunk;
+    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CHUNKED) return {};
+    hsize_t edges[most_rank] = {};
+    const int rank = static_cast<int>(shape_.size());
+    if (H5Pget_chunk(properties.id(), most_rank, edges) != rank) return {};
+    std::vector<std::int64_t> chunk;
+    for (std::size_t axis = 0; axis < shape_.size(); ++axis)
+        chunk.push_back(
+            std::clamp<std::int64_t>(static_cast<std::int64_t>(edges[axis]), 1, shape_[axis]));
+    return chunk;
 }
 
-void Hdf5Array::read_slabs(const std::vector<std::int64_t>& index, char* to) const {
-    const std::size_t rank = shape_.size(), cut = index.size();
-    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
-    std::vector<hsize_t> begin(rank, 0), count(rank, 1);
-    std::size_t slice_bytes = bytes_of(type_);
-    for (std::size_t axis = 0; axis < rank; ++axis) {
-        if (axis < cut) begin[axis] = static_cast<hsize_t>(index[axis]);
-        if (axis > cut) {
-            count[axis] = static_cast<hsize_t>(shape_[axis]);
-            slice_bytes *= static_cast<std::size_t>(shape_[axis]);
-        }
+std::optional<Hdf5Array::RawPlace> Hdf5Array::raw_place() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CONTIGUOUS ||
+        H5Pget_external_count(properties.id()) != 0)
+        return {};
+    const haddr_t place = H5Dget_offset(set_.id());
+    if (place == HADDR_UNDEF || place > (haddr_t{1} << 62)) return {};
+    const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);
+    for (const H5T_order_t order : {H5T_ORDER_LE, H5T_ORDER_BE}) {
+        const Hdf5Handle plain(H5Tcopy(memory_type(type_)), H5Tclose);
+        if (H5Tset_order(plain.id(), order) >= 0 && H5Tequal(stored.id(), plain.id()) > 0)
+            return RawPlace{static_cast<std::int64_t>(place), order == H5T_ORDER_BE};
     }
-    const std::int64_t thickness = slab_thickness(cut, slice_bytes);
-    for (std::int64_t at = 0; at < shape_[cut]; at += thickness) {
-        check_interrupt();
-        const std::int64_t slices = std::min(thickness, shape_[cut] - at);
-        begin[cut] = static_cast<hsize_t>(at);
-        count[cut] = static_cast<hsize_t>(slices);
-        H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(),
-                            nullptr);
-        const Hdf5Handle memory(H5Screate_simple(static_cast<int>(rank), count.data(), nullptr),
-                                H5Sclose);
-        if (H5Dread(set_.id(), memory_type(type_), memory.id(), space.id(), H5P_DEFAULT,
-                    to + static_cast<std::size_t>(at) * slice_bytes) < 0)
-            fail("{}: damaged data: HDF5 cannot read the samples {} to {} of dimension {}", name_,
-                 at, at + slices - 1, cut);
-    }
+    return {};
 }
 
-std::shared_ptr<void> Hdf5Array::read(const std::vector<std::int64_t>& index,
-                                      std::uint64_t file_bytes) const {
-    std::vector<StoredAxis> axes;
-    for (std::size_t axis = shape_.size(); axis > index.size(); --axis)
-        axes.push_back({shape_[axis - 1], {}});
-    const std::size_t bytes = stored_bytes(name_, axes, bytes_of(type_));
+void Hdf5Array::expect_readable(std::uint64_t bytes, std::uint64_t file_bytes) const {
     const std::uint64_t stored =
         std::min<std::uint64_t>(H5Dget_storage_size(set_.id()), file_bytes);
     if (stored == 0) fail("{}: found no samples in it, expected {} bytes", name_, bytes);
@@ -223,10 +200,19 @@ std::shared_ptr<void> Hdf5Array::read(const std::vector<std::int64_t>& index,
              bytes, stored);
     }
     expect_filters();
-    allow_bytes(bytes);
-    std::shared_ptr<void> samples = shared_sample_memory(bytes);
-    read_slabs(index, static_cast<char*>(samples.get()));
-    return samples;
+}
+
+void Hdf5Array::read(std::vector<std::int64_t> begin, std::vector<std::int64_t> count,
+                     char* to) const {
+    const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
+    const std::vector<hsize_t> first(begin.begin(), begin.end()), sizes(count.begin(), count.end());
+    H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, first.data(), nullptr, sizes.data(), nullptr);
+    const Hdf5Handle memory(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr),
+                            H5Sclose);
+    if (H5Dread(set_.id(), memory_type(type_), memory.id(), space.id(), H5P_DEFAULT, to) < 0) {
+        fail("{}: damaged data: HDF5 cannot read the samples from {} on, {} of each dimension",
+             name_, fmt::join(begin, ", "), fmt::join(count, ", "));
+    }
 }
 
 }  // namespace lamina

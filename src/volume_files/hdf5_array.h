@@ -26,15 +26,26 @@ class Hdf5Array {
     // The coordinates of an axis that its dimension scale has; nothing where it has none.
     std::vector<double> scale_of(std::size_t axis) const;
 
-    // The last axes from `index` on: of the axes before these the index, of these all samples.
-    // `file_bytes`: the length of the file. Throws Error.
-    std::shared_ptr<void> read(const std::vector<std::int64_t>& index,
-                               std::uint64_t file_bytes) const;
+    // Samples of a chunk along each axis; empty where the samples are not in chunks.
+    std::vector<std::int64_t> chunk() const;
+
+    struct RawPlace {
+        std::int64_t offset;  // of the first sample in the file
+        bool big_endian;
+    };
+    // Where the samples lie in the file as they are, one after the other; nothing where they do
+    // not.
+    std::optional<RawPlace> raw_place() const;
+
+    // Throws Error where the samples cannot be read: a filter is missing here, or the file's
+    // `file_bytes` cannot hold the `bytes` that are to be read of them.
+    void expect_readable(std::uint64_t bytes, std::uint64_t file_bytes) const;
+
+    // Reads the samples begin .. begin + count - 1 of each axis. Throws Error.
+    void read(std::vector<std::int64_t> begin, std::vector<std::int64_t> count, char* to) const;
 
   private:
     void expect_filters() const;
-    void read_slabs(const std::vector<std::int64_t>& index, char* to) const;
-    std::int64_t slab_thickness(std::size_t axis, std::size_t slice_bytes) const;
 
     std::string name_;
     Hdf5Handle set_;

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/hdf5_file.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
-#include <cmath>
+#include <memory>
 #include <string_view>
 
-#include "base/error.h"
 #include "base/file_bytes.h"
-#include "base/warning.h"
-#include "volume_files/grid_check.h"
-#include "volume_files/hdf5_array.h"
-#include "volume_files/isolated_read.h"
-#include "volume_files/stored_axes.h"
+#include "volume_files/file_source.h"
+#include "volume_files/hdf5_source.h"
 #include "volume_files/stored_samples.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {
@@ -35,141 +32,19 @@ ArrayPath array_path(const std::filesystem::path& path) {
     return {path, ""};
 }
 
-// The data sets that a volume can be, by their paths.
-struct FoundArrays {
-    std::vector<std::string> names;
-};
-
-herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* data) {
-    constexpr std::size_t most_names = 1000;
-    auto& found = *static_cast<FoundArrays*>(data);
-    if (info->type != H5O_TYPE_DATASET) return 0;
-    const Hdf5Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-    if (!set.valid()) return 0;
-    const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
-    const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose);
-    const H5T_class_t kind = H5Tget_class(type.id());
-    const int rank = H5Sget_simple_extent_ndims(space.id());
-    if (rank >= 3 && rank <= 5 && (kind == H5T_INTEGER || kind == H5T_FLOAT))
-        found.names.push_back(std::string("/") + name);
-    return found.names.size() < most_names ? 0 : 1;
-}
-
-std::string only_array(hid_t file, const std::string& name) {
-    FoundArrays found;
-    H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_array, &found);
-    if (found.names.empty())
-        fail("{}: found no array of three dimensions and more in it, expected one", name);
-    if (found.names.size() > 1) {
-        fail("{}: found the arrays {}, expected one, as in {}:{}", name,
-             one_line(fmt::format("{}", fmt::join(found.names, ", "))), name,
-             one_line(found.names.front()));
-    }
-    return found.names.front();
-}
-
-// Distance and beginning of equally spaced coordinates; nothing where they are not.
-struct RegularAxis {
-    double step, first;
-};
-std::optional<RegularAxis> regular(const std::vector<double>& coordinates) {
-    // Coordinates in float32 are off by 6e-8 of themselves; what people call regular is closer.
-    constexpr double tolerance = 1e-3;
-    const std::size_t count = coordinates.size();
-    if (count < 2) return {};
-    const double step = (coordinates.back() - coordinates.front()) / static_cast<double>(count - 1);
-    if (!std::isfinite(step) || step == 0) return {};
-    for (std::size_t i = 0; i < count; ++i) {
-        const double expected = coordinates.front() + step * static_cast<double>(i);
-        if (!(std::abs(coordinates[i] - expected) <= tolerance * std::abs(step))) return {};
-    }
-    return RegularAxis{step, coordinates.front()};
-}
-
-Grid hdf5_grid(const Hdf5Array& array, const std::string& name) {
-    Grid grid;
-    const std::vector<double> sizes = array.attribute("element_size_um");  // z, y, x
-    const std::size_t rank = array.shape().size();
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, rank); ++i) {  // x, y, z
-        const std::size_t axis = rank - 1 - i;
-        grid.size[i] = array.shape()[axis];
-        grid.centering[i] = grid.size[i] > 1 ? Centering::node : Centering::cell;
-        if (sizes.size() == 3) grid.step[i] *= sizes[2 - i];
-        const std::vector<double> coordinates = array.scale_of(axis);
-        if (coordinates.empty()) continue;
-        if (const auto found = regular(coordinates)) {
-            grid.step[i] = glm::dvec3(0);
-            grid.step[i][static_cast<int>(i)] = found->step;
-            grid.origin[static_cast<int>(i)] = found->first;
-        } else if (coordinates.size() > 1) {
-            warn(fmt::format(
-                "{}: the coordinates of {} are not equally spaced: its samples are taken 1 apart",
-                name, "xyz"[i]));
-        }
-    }
-    check_grid(name, grid, {"coordinates", "coordinates"});
-    return grid;
-}
-
-double attribute_or(const Hdf5Array& array, const char* key, double otherwise) {
-    const std::vector<double> numbers = array.attribute(key);
-    return numbers.size() == 1 && std::isfinite(numbers[0]) ? numbers[0] : otherwise;
-}
-
-// Samples that NetCDF calls missing become NaN where there is one.
-void mark_missing(const Hdf5Array& array, StoredSamples& samples, std::int64_t count) {
-    for (const char* const key : {"_FillValue", "missing_value"}) {
-        const std::vector<double> numbers = array.attribute(key);
-        if (numbers.size() != 1 || std::isnan(numbers[0])) continue;
-        std::int64_t missing = 0;
-        with_type(samples.type, [&](auto zero) {
-            using Value = decltype(zero);
-            auto* const values = static_cast<Value*>(samples.bytes.get());
-            for (std::int64_t i = 0; i < count; ++i) {
-                if (static_cast<double>(values[i]) != numbers[0]) continue;
-                ++missing;
-                if constexpr (std::is_floating_point_v<Value>)
-                    values[i] = std::numeric_limits<Value>::quiet_NaN();
-            }
-        });
-        if (missing == 0) continue;
-        warn(
-            fmt::format("{}: {} samples have the value {}, which \"{}\" calls missing: they are {}",
-                        samples.file, missing, numbers[0], key,
-                        is_integer(samples.type) ? "drawn as it" : "NaN"));
-    }
-}
-
-ReadSamples read_samples(const std::filesystem::path& path, const VolumeRequest& request) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its errors become ours
-    const ArrayPath named = array_path(path);
-    const std::string file_name = named.file.string();
-    const Hdf5Handle file(H5Fopen(file_name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (!file.valid()) fail("{}: truncated or damaged HDF5 file", file_name);
-    std::string array_name = named.array.empty() ? request.array : named.array;
-    if (array_name.empty()) array_name = only_array(file.id(), file_name);
-    const std::string name = file_name + ":" + one_line(array_name);
-    const Hdf5Array array(file.id(), array_name, name);
-
-    std::vector<std::int64_t> index;
-    const std::size_t rank = array.shape().size();
-    const std::int64_t times = rank > 3 ? array.shape()[0] : 1;
-    const std::int64_t time = taken_of(name, "time", request.time, times);
-    if (rank > 3) index.push_back(time);
-    const std::int64_t channels = rank > 4 ? array.shape()[1] : 1;
-    const std::int64_t channel = taken_of(name, "channel", request.channel, channels);
-    if (rank > 4) index.push_back(channel);
-
-    const Grid grid = hdf5_grid(array, name);
-    StoredSamples samples;
-    samples.file = name;
-    samples.type = array.type();
-    samples.bytes = array.read(index, std::filesystem::file_size(named.file));
-    mark_missing(array, samples, grid.sample_count());
-    samples.scale = attribute_or(array, "scale_factor", 1);
-    if (samples.scale == 0) fail("{}: scale_factor: found 0, expected another number", name);
-    samples.offset = attribute_or(array, "add_offset", 0);
-    return {grid, samples};
+// Of an array that lies in its file as it is.
+StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
+    StoredData data;
+    data.path = file;
+    data.teller = "the array";
+    data.type = head.type;
+    for (const std::int64_t size : head.grid.size) data.axes.emplace_back(size);
+    for (std::size_t i = 0; i < 2; ++i)
+        if (head.outer[i] > 1) data.axes.emplace_back(head.outer[i], head.taken[i], "", true);
+    set_byte_order(data, head.raw.big_endian);
+    data.files = {file};
+    data.offset = head.raw.offset;
+    return data;
 }
 
 }  // namespace
@@ -188,9 +63,33 @@ bool is_hdf5(const std::filesystem::path& path) {
 }
 
 Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request) {
-    const ReadSamples found =
-        read_isolated(path.string(), "libhdf5", [&] { return read_samples(path, request); });
-    return drawn_volume(found.grid, found.samples);
+    return open_hdf5(path, request, {});
+}
+
+Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use) {
+    const ArrayPath named = array_path(path);
+    const Hdf5Place place{named.file.string(), named.array.empty() ? request.array : named.array,
+                          request};
+    auto process = std::make_unique<Hdf5Process>(place);
+    const Hdf5Head& head = process->head();
+    const auto type = drawn_type(head.type);
+    const bool is_scaled = head.scale != 1 || head.offset != 0;
+    if (!type || is_scaled) {
+        expect_room(path.string(),
+                    static_cast<std::uint64_t>(head.grid.sample_count()) * bytes_of(head.type), use,
+                    is_scaled ? "its samples are scaled"
+                              : fmt::format("its samples are of type {}", name_of(head.type)));
+    } else if (stays_in_files(head.grid, *type, use)) {
+        if (head.raw.offset < 0 || head.has_missing)
+            return stored_volume(head.grid, *type,
+                                 std::make_unique<Hdf5Source>(place, std::move(process)));
+        return stored_volume(
+            head.grid, *type,
+            std::make_unique<FileSource>(raw_data(named.file, head), head.grid.size));
+    }
+    return drawn_volume(head.grid,
+                        {path.string(), head.type, process->read_all(), head.scale, head.offset});
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {

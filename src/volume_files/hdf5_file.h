@@ -6,6 +6,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -17,8 +18,11 @@ bool is_hdf5(const std::filesystem::path& path);
 // only one of three dimensions and more. Distances and places come from dimension scales
 // (NetCDF's coordinate variables) or the attribute element_size_um; the attributes scale_factor and
 // add_offset count. Throws Error. libhdf5 runs in a process of
-// its own (volume_files/isolated_read.h).
+// its own (volume_files/hdf5_process.h).
 Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request);
+// The same; the volume may stay in its file, unless its samples are scaled.
+Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
+                 const VolumeUse& use);
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path);
 

@@ -93,6 +93,10 @@ bool is_nifti(const Path& path) {
 }
 
 Volume read_nifti(const Path& path, const VolumeRequest& request) {
+    return open_nifti(path, request, {});
+}
+
+Volume open_nifti(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     const NiftiHeader header = expected_header(path);
     check_dimensions(header);
     const NiftiType type = type_of(header);
@@ -108,16 +112,15 @@ Volume read_nifti(const Path& path, const VolumeRequest& request) {
     set_byte_order(data, header.big_endian);
     data.files = {header.data_path};
     data.byte_skip = header.data_offset;
-    StoredSamples samples = read_stored(data);
     // No slope, 0, means that samples are values (nifti1.h, "Data scaling").
     if (type.colors == 1 && header.slope != 0 && std::isfinite(header.slope)) {
         if (!std::isfinite(header.intercept))
             fail("{}: scl_inter: found {}, expected a finite number", header.path.string(),
                  header.intercept);
-        samples.scale = header.slope;
-        samples.offset = header.intercept;
+        data.scale = header.slope;
+        data.shift = header.intercept;
     }
-    return drawn_volume(grid, samples);
+    return open_stored(grid, data, use);
 }
 
 std::vector<Path> files_of_nifti(const Path& path) {

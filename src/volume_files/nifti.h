@@ -6,6 +6,7 @@
 
 #include "lamina/volume.h"
 #include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 
@@ -16,6 +17,9 @@ bool is_nifti(const std::filesystem::path& path);
 // colours are channels. The fourth axis is time; the fifth, of vectors, is channels. scl_slope and
 // scl_inter apply. Throws Error.
 Volume read_nifti(const std::filesystem::path& path, const VolumeRequest& request);
+// The same; the volume may stay in its file.
+Volume open_nifti(const std::filesystem::path& path, const VolumeRequest& request,
+                  const VolumeUse& use);
 
 // The file, or both of a pair. Throws Error.
 std::vector<std::filesystem::path> files_of_nifti(const std::filesystem::path& path);

@@ -67,7 +67,12 @@ bool is_npy(const std::filesystem::path& path) {
     return file_beginning(path, npy_magic.size()) == npy_magic;
 }
 
-Volume read_npy_volume(const std::filesystem::path& path, const VolumeRequest&) {
+Volume read_npy_volume(const std::filesystem::path& path, const VolumeRequest& request) {
+    return open_npy_volume(path, request, {});
+}
+
+Volume open_npy_volume(const std::filesystem::path& path, const VolumeRequest&,
+                       const VolumeUse& use) {
     expect_regular_file(path);
     const NpyHeader header(path);
     const std::string descr = header.descr();
@@ -86,8 +91,11 @@ Volume read_npy_volume(const std::filesystem::path& path, const VolumeRequest&) 
     set_byte_order(data, descr[0] == '>');
     data.files = {path};
     data.byte_skip = header.data_offset();
+    if (!header.is_fortran_order()) return open_stored(plain_grid(size), data, use);
+    expect_room(path.string(), stored_bytes(path.string(), data.axes, bytes_of(*type)), use,
+                "its first axis is the fastest");
     StoredSamples samples = read_stored(data);
-    if (header.is_fortran_order()) samples.bytes = turned(*type, samples.bytes.get(), size);
+    samples.bytes = turned(*type, samples.bytes.get(), size);
     return drawn_volume(plain_grid(size), samples);
 }
 

@@ -29,6 +29,9 @@ struct StoredData {
     // Bytes to skip last, of the decompressed stream. -1 - n means raw data that end n bytes before
     // the end of the file.
     std::int64_t byte_skip = 0;
+    double scale = 1, shift = 0;  // what samples mean (StoredSamples)
+
+    bool is_scaled() const { return scale != 1 || shift != 0; }
 };
 
 // Sets swap_bytes.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file_bytes.h"
+#include "volume_files/bricked_copy.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/raw_volume.h"
 #include "volume_files/volume_format.h"
@@ -66,6 +67,11 @@ Volume read_volume(const Path& path, const VolumeRequest& request) {
 Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     const VolumeFormat& format = request.raw ? raw_format : expected_format(path);
     expect_known_keys(path, format, request);
+    if (use.residence == VolumeUse::Residence::as_fits ||
+        use.residence == VolumeUse::Residence::in_files) {
+        if (const auto copy = open_bricked_copy(path, request, use))
+            return placed(path, *copy, request);
+    }
     if (format.open == nullptr && use.residence == VolumeUse::Residence::in_files)
         expect_room(path.string(), 0, use, fmt::format("{} is read as a whole", format.name));
     return placed(

@@ -34,7 +34,16 @@ constexpr VolumeFormat formats[] = {
      open_nrrd},
     {"Zarr", {".zarr"}, is_zarr, read_zarr, files_of_zarr, true, true, true, true, open_zarr},
 #ifdef LAMINA_HAS_HDF5
-    {"HDF5", {".h5", ".hdf5", ".nc"}, is_hdf5, read_hdf5, files_of_hdf5, true, false, true, true},
+    {"HDF5",
+     {".h5", ".hdf5", ".nc"},
+     is_hdf5,
+     read_hdf5,
+     files_of_hdf5,
+     true,
+     false,
+     true,
+     true,
+     open_hdf5},
 #endif
 #ifdef LAMINA_HAS_GDCM
     {"DICOM", {".dcm"}, is_dicom, read_dicom, files_of_dicom, true, false, false, true},
@@ -67,7 +76,8 @@ constexpr VolumeFormat formats[] = {
      false,
      false,
      true,
-     true},
+     true,
+     open_nifti},
     {"VTK image data", {".vti"}, is_vti, read_vti, files_of_vti, true, false, true, false},
     {"TIFF",
      {".tif", ".tiff"},
@@ -78,7 +88,16 @@ constexpr VolumeFormat formats[] = {
      false,
      true,
      true},
-    {"NumPy", {".npy"}, is_npy, read_npy_volume, files_of_npy, false, false, false, false}};
+    {"NumPy",
+     {".npy"},
+     is_npy,
+     read_npy_volume,
+     files_of_npy,
+     false,
+     false,
+     false,
+     false,
+     open_npy_volume}};
 
 bool has_extension(const VolumeFormat& format, const Path& path) {
     std::string name = path.filename().string();

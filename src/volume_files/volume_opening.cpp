@@ -9,6 +9,7 @@
 #include "base/memory_limit.h"
 #include "volume/volume_store.h"
 #include "volume_files/file_source.h"
+#include "volume_files/stream_source.h"
 
 namespace lamina {
 namespace {
@@ -23,7 +24,7 @@ constexpr double gradient_bytes = 8, float_bytes = 4;  // of a sample
 
 bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
     if (use.residence != VolumeUse::Residence::as_fits)
-        return use.residence == VolumeUse::Residence::in_files;
+        return use.residence != VolumeUse::Residence::in_memory;
     const auto samples = static_cast<double>(grid.sample_count());
     const auto each = static_cast<double>(bytes_of(type));
     double bytes = samples * (each + (2 * each + bytes_per_brick) / samples_per_brick);
@@ -37,17 +38,20 @@ bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
 
 void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& use,
                  const std::string& why) {
-    if (use.residence == VolumeUse::Residence::in_memory) return;
+    using Residence = VolumeUse::Residence;
+    if (use.residence == Residence::in_memory || use.residence == Residence::in_order) return;
     if (use.residence == VolumeUse::Residence::in_files) {
         fail(
             "{}: {}, so it cannot stay in its file: expected raw data of uint8, int16, uint16 or "
-            "float samples (NRRD, MetaImage, --raw), or Zarr",
+            "float samples (NRRD, MetaImage, NIfTI, NumPy, --raw), Zarr or HDF5: lamina index "
+            "--bricks "
+            "makes a copy of it that can",
             name, why);
     }
     if (memory_limit_is_told() && bytes > memory_limit()) {
         fail(
             "{}: {}, so all {} bytes of its samples would be in memory, more than the limit of {}: "
-            "raw data (NRRD, MetaImage, --raw) and Zarr are read by parts",
+            "lamina index --bricks makes a copy of it that is read by parts",
             name, why, bytes, memory_limit());
     }
 }
@@ -58,16 +62,21 @@ Volume stored_volume(const Grid& grid, SampleType type,
 }
 
 Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use) {
+    if (StreamSource::can_read(data) && use.residence == VolumeUse::Residence::in_order)
+        return stored_volume(grid, *drawn_type(data.type),
+                             std::make_unique<StreamSource>(data, grid.size));
     if (FileSource::can_read(data)) {
         const SampleType type = *drawn_type(data.type);
         if (stays_in_files(grid, type, use))
             return stored_volume(grid, type, std::make_unique<FileSource>(data, grid.size));
     } else {
-        const bool raw = data.encoding == DataEncoding::raw;
+        std::string why = "its data are not raw";
+        if (data.encoding == DataEncoding::raw)
+            why = data.is_scaled() ? "its samples are scaled"
+                                   : fmt::format("its samples are of type {}", name_of(data.type));
         expect_room(data.path.string(),
                     static_cast<std::uint64_t>(grid.sample_count()) * bytes_of(data.type), use,
-                    raw ? fmt::format("its samples are of type {}", name_of(data.type))
-                        : "its data are not raw");
+                    why);
     }
     return drawn_volume(grid, read_stored(data));
 }

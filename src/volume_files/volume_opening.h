@@ -17,6 +17,7 @@ struct VolumeUse {
         in_memory,
         as_fits,   // in its files where it does not fit the memory limit and can stay there
         in_files,  // Error where it cannot stay there
+        in_order,  // in its files where they can be read at least once, from first to last
     };
     Residence residence = Residence::in_memory;
     bool lit = false;  // drawing takes memory for gradients, too

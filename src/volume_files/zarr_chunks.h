@@ -25,9 +25,6 @@ class ZarrChunks {
     const Triple& size() const { return size_; }  // samples that are selected
     const Triple& edge() const { return edge_; }  // of a chunk
     std::int64_t count() const { return counts_[0] * counts_[1] * counts_[2]; }
-    std::int64_t number_of(const Triple& place) const {
-        return (place[0] * counts_[1] + place[1]) * counts_[2] + place[2];
-    }
     std::size_t selected_bytes() const;
     std::size_t chunk_bytes() const {
         return static_cast<std::size_t>(array_.chunk_samples()) * bytes_;

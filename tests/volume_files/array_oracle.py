@@ -167,8 +167,15 @@ def hdf5_cases():
         array[1, 2, 3] = -9999
         file.create_dataset("v", data=array).attrs["_FillValue"] = np.float32(-9999)
         file["v"].attrs["element_size_um"] = [4, 2, 1]
+        file.create_dataset("thin", data=array, chunks=(1, 4, 5), compression="gzip")
+        several = np.stack([array + step for step in range(3)])
+        file.create_dataset("several", data=several, chunks=(2, 2, 3, 4))
+        file.create_dataset("pairs", data=several[None].repeat(2, 0).astype(">u2"))
+        case("nc_thin", "fill.nc:/thin", array)
+        case("nc_several", "fill.nc:/several", several[1], time=1)
+        case("nc_pairs", "fill.nc:/pairs", several[2].astype("u2"), time=1, channel=2)
         array[1, 2, 3] = np.nan
-        case("nc_fill", "fill.nc", array, [[1, 0, 0], [0, 2, 0], [0, 0, 4]])
+        case("nc_fill", "fill.nc:/v", array, [[1, 0, 0], [0, 2, 0], [0, 0, 4]])
     with h5py.File(f"{FOLDER}/empty.h5", "w") as file:
         file.create_dataset("v", shape=(1000, 1000, 1000), chunks=(100, 100, 100), dtype="f8")
         file.create_dataset("lzf", data=samples("<u2"), compression="lzf")

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_text.h"
+#include "expect_boxes.h"
 #include "nrrd_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -70,7 +71,21 @@ void expect_place(const Grid& grid, const nlohmann::json& expected) {
     }
 }
 
+// Whether it can stay in its files: then it is the same there.
+bool stays_as_it_is(const Volume& whole, const std::filesystem::path& path,
+                    const VolumeRequest& request) {
+    std::optional<Volume> in_files;
+    try {
+        in_files.emplace(open_volume(path, request, {.residence = VolumeUse::Residence::in_files}));
+    } catch (const Error&) {
+        return false;
+    }
+    test::expect_boxes(whole, *in_files, 20);
+    return true;
+}
+
 TEST(ArrayOracle, ReadsWhatOthersWrite) {
+    int in_files = 0, in_hdf5 = 0;
     const TemporaryFolder folder;
     const std::string script =
         std::string(LAMINA_SOURCE_DIR) + "/tests/volume_files/array_oracle.py";
@@ -105,6 +120,9 @@ TEST(ArrayOracle, ReadsWhatOthersWrite) {
             continue;
         }
         expect_place(volume->grid(), one);
+        const bool stays = stays_as_it_is(*volume, path, request);
+        in_files += stays;
+        in_hdf5 += stays && hdf5;
         const std::vector<double> values = values_of(*volume),
                                   expected = expected_values(folder / (name + ".values"));
         ASSERT_EQ(values.size(), expected.size());
@@ -113,6 +131,10 @@ TEST(ArrayOracle, ReadsWhatOthersWrite) {
             // What is drawn is float32 at most.
             ASSERT_EQ(values[i], static_cast<double>(static_cast<float>(expected[i]))) << i;
         }
+    }
+    EXPECT_GT(in_files, 30);
+    if (formats.find("HDF5") != std::string::npos) {
+        EXPECT_GT(in_hdf5, 8);
     }
 }
 

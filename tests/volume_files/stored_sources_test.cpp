@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "expect_boxes.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "volume/volume_store.h"
@@ -29,35 +30,7 @@ std::string noise_bytes(std::size_t count) {
 
 void expect_boxes(const fs::path& path, const VolumeRequest& request = {}) {
     SCOPED_TRACE(path);
-    const Volume whole = read_volume(path, request), in_files = open_volume(path, request, stays);
-    ASSERT_FALSE(in_files.in_memory());
-    EXPECT_EQ(in_files.grid().size, whole.grid().size);
-    EXPECT_EQ(in_files.grid().origin, whole.grid().origin);
-    ASSERT_EQ(in_files.type(), whole.type());
-    const std::size_t bytes = bytes_of(whole.type());
-    const auto& size = whole.grid().size;
-    std::mt19937 random(1);
-    for (int trial = 0; trial < 200; ++trial) {
-        SampleBox box;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.first[axis] = static_cast<std::int64_t>(random()) % size[axis];
-            box.size[axis] =
-                1 + static_cast<std::int64_t>(random()) % (size[axis] - box.first[axis]);
-        }
-        if (trial == 0) box = {{0, 0, 0}, size};
-        std::string found(static_cast<std::size_t>(box.count()) * bytes, '\0'), expected;
-        in_files.store().source().read(box, found.data());
-        for (std::int64_t z = 0; z < box.size[2]; ++z) {
-            for (std::int64_t y = 0; y < box.size[1]; ++y) {
-                const std::int64_t place =
-                    ((box.first[2] + z) * size[1] + box.first[1] + y) * size[0] + box.first[0];
-                expected.append(static_cast<const char*>(whole.data()) +
-                                    static_cast<std::size_t>(place) * bytes,
-                                static_cast<std::size_t>(box.size[0]) * bytes);
-            }
-        }
-        ASSERT_EQ(found, expected) << trial;
-    }
+    test::expect_boxes(read_volume(path, request), open_volume(path, request, stays));
 }
 
 class StoredSources : public ::testing::Test {
@@ -111,6 +84,18 @@ TEST_F(StoredSources, RawFiles) {
                        "NDims = 3\nDimSize = 31 17 23\nElementType = MET_USHORT\n"
                        "ElementByteOrderMSB = True\nElementDataFile = LOCAL\n" +
                            noise_bytes(2 * 31 * 17 * 23)));
+}
+
+TEST_F(StoredSources, NumPyArrays) {
+    const auto npy = [&](const char* order) {
+        std::string head =
+            fmt::format("{{'descr': '>i2', 'fortran_order': {}, 'shape': (23, 17, 31), }}", order);
+        head.resize(117, ' ');
+        return write("a.npy", std::string("\x93NUMPY\x01\0\x76\0", 10) + head + "\n" +
+                                  noise_bytes(2 * 31 * 17 * 23));
+    };
+    expect_boxes(npy("False"));
+    expect_error([&] { open_volume(npy("True"), {}, stays); }, {"a.npy", "first axis"});
 }
 
 TEST_F(StoredSources, OneChannelOfSeveralAndFilesOfSlices) {

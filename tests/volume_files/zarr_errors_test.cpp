@@ -121,13 +121,17 @@ TEST_F(ZarrErrors, Images) {
 
 // What a library does in a process of its own does not end this one.
 TEST(IsolatedRead, CrashesAndHangsAreErrors) {
-    expect_error([] { read_isolated("a.h5", "libx", []() -> ReadSamples { std::abort(); }); },
-                 {"a.h5", "libx ended with signal"});
-    expect_error([] { read_isolated("a.h5", "libx", []() -> ReadSamples { fail("a.h5: no"); }); },
-                 {"a.h5: no"});
+    expect_error(
+        [] { read_isolated("a.h5", "libx", [](IsolatedLine&) -> ReadSamples { std::abort(); }); },
+        {"a.h5", "libx ended with signal"});
     expect_error(
         [] {
-            read_isolated("a.h5", "libx", []() -> ReadSamples {
+            read_isolated("a.h5", "libx", [](IsolatedLine&) -> ReadSamples { fail("a.h5: no"); });
+        },
+        {"a.h5: no"});
+    expect_error(
+        [] {
+            read_isolated("a.h5", "libx", [](IsolatedLine&) -> ReadSamples {
                 for (volatile bool never = false; !never;) {
                 }
                 return {};

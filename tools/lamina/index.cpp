@@ -11,6 +11,7 @@
 #include "raw_options.h"
 #include "verbs.h"
 #include "volume/volume_index.h"
+#include "volume_files/bricked_copy.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -19,10 +20,19 @@ namespace {
 struct IndexOptions {
     std::string file;
     RawOptions raw;
+    bool bricks = false;
     bool quiet = false;
 };
 
+void write_bricks(const IndexOptions& options) {
+    const BrickedCopy copy = write_bricked_copy(options.file, request_of(options.raw));
+    if (options.quiet) return;
+    print_message("lamina: wrote {} ({} bytes in up to {} chunks)\n", copy.folder.string(),
+                  copy.bytes, copy.chunks);
+}
+
 void run(const IndexOptions& options) {
+    if (options.bricks) write_bricks(options);
     const Volume volume = open_volume(options.file, request_of(options.raw),
                                       {.residence = VolumeUse::Residence::in_files});
     const std::filesystem::path file = index_file_of(volume);
@@ -45,12 +55,17 @@ void add_index(CLI::App& app, int&) {
         "of 4^3 cells, and how often each value occurs. Without it the first picture of a volume "
         "that does not fit the memory (--memory) makes one in the cache folder "
         "($XDG_CACHE_HOME/lamina).");
-    verb->add_option("FILE", options->file,
-                     "A volume that can stay in its files: raw NRRD or MetaImage, Zarr, or with "
-                     "--raw")
+    verb->add_option(
+            "FILE", options->file,
+            "A volume that can stay in its files (raw NRRD, MetaImage, NIfTI, NumPy, Zarr, "
+            "HDF5, or with --raw); with --bricks any volume")
         ->required();
     add_raw_options(*verb, options->raw);
     add_memory_option(*verb);
+    verb->add_flag("--bricks", options->bricks,
+                   "Copy the volume in bricks to FILE.lamina-bricks, too: for files of which no "
+                   "part can be read alone, because they are compressed as a whole; commands that "
+                   "take --memory find it there");
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         Progress::set_quiet(options->quiet);

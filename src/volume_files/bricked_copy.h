@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "lamina/volume.h"
+#include "lamina/volume_request.h"
+#include "volume_files/volume_opening.h"
+
+namespace lamina {
+
+// A copy of a volume's samples beside its files, as FILE.lamina-bricks: a Zarr array of chunks, for
+// files of which no part can be read alone. What it is a copy of, and the volume's grid, its
+// attributes say.
+std::filesystem::path bricked_copy_of(const std::filesystem::path& file);
+
+// What `--bricks` has written, for messages.
+struct BrickedCopy {
+    std::filesystem::path folder;
+    std::int64_t chunks = 0;
+    std::uint64_t bytes = 0;
+};
+
+// Writes the copy, in place of one that was there; the volume is read slice by slice where its
+// files allow that. Throws Error, and then leaves nothing. Distances and origin of the request do
+// not matter.
+BrickedCopy write_bricked_copy(const std::filesystem::path& file, const VolumeRequest& request);
+
+// The volume of the copy, if there is one and the volume stays in files by this use. Where the
+// files are not those that were copied, or another part of them is requested, a warning says so.
+std::optional<Volume> open_bricked_copy(const std::filesystem::path& file,
+                                        const VolumeRequest& request, const VolumeUse& use);
+
+}  // namespace lamina

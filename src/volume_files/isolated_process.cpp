@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/isolated_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <new>
+
+#include "base/client.h"
+#include "base/error.h"
+#include "base/interrupt.h"
+#include "base/warning.h"
+
+namespace lamina {
+namespace {
+
+constexpr rlim_t seconds_for_headers = 5;
+
+// What the other process sends: one of these letters, a length, and so many bytes.
+enum Message : char { warning = 'W', refusal = 'E', result = 'R' };
+
+std::shared_ptr<void> mapped(int file, std::size_t bytes) {
+    if (ftruncate(file, static_cast<off_t>(bytes)) != 0) throw std::bad_alloc();
+    void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    return {memory, [bytes](void* mapping) { munmap(mapping, bytes); }};
+}
+
+bool send_all(int to, const void* bytes, std::size_t count) {
+    const char* at = static_cast<const char*>(bytes);
+    while (count > 0) {
+        const ssize_t sent = send(to, at, count, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) return false;
+        at += sent;
+        count -= static_cast<std::size_t>(sent);
+    }
+    return true;
+}
+
+// A few seconds, and what so many bytes take.
+void allow_time(std::size_t bytes) {
+    constexpr std::size_t slowest = 1 << 20;  // bytes a second, decompressed
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    rlimit limit{};
+    getrlimit(RLIMIT_CPU, &limit);
+    limit.rlim_cur =
+        std::min<rlim_t>(limit.rlim_max, static_cast<rlim_t>(used.ru_utime.tv_sec) +
+                                             static_cast<rlim_t>(used.ru_stime.tv_sec) +
+                                             seconds_for_headers + bytes / slowest);
+    setrlimit(RLIMIT_CPU, &limit);
+}
+
+// Address space beside what there is: for headers, and for copies of the bytes: the samples, what
+// is packed, and what a library holds while it unpacks. Sanitizers reserve more than any limit.
+void allow_memory([[maybe_unused]] std::size_t bytes) {
+#ifndef LAMINA_SANITIZED
+    constexpr std::size_t for_headers = std::size_t{256} << 20, copies = 4;
+    std::size_t pages = 0;
+    if (!(std::ifstream("/proc/self/statm") >> pages)) return;
+    rlimit limit{};
+    getrlimit(RLIMIT_AS, &limit);
+    const rlim_t there = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, there + for_headers + copies * bytes);
+    setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+// The line's end in the process of its own.
+class OwnLine final : public IsolatedLine {
+  public:
+    OwnLine(int line, int memory, pid_t starter)
+        : line_(line), memory_(memory), starter_(starter) {}
+
+    // The processes of other files hold copies of this line, so its end does not tell that the
+    // starter has ended.
+    bool next(void* question, std::size_t count) override {
+        constexpr int milliseconds = 1000;
+        pollfd waiting{line_, POLLIN, 0};
+        while (poll(&waiting, 1, milliseconds) <= 0)
+            if (getppid() != starter_) return false;
+        return recv(line_, question, count, MSG_WAITALL) == static_cast<ssize_t>(count);
+    }
+
+    void answer(const void* bytes, std::size_t count) override { message(result, bytes, count); }
+
+    void allow_bytes(std::size_t bytes) override {
+        allow_time(bytes);
+        allow_memory(bytes);
+    }
+
+    std::shared_ptr<void> shared_memory(std::size_t bytes) override {
+        return mapped(memory_, bytes);
+    }
+
+    void message(char kind, const void* bytes, std::size_t count) const {
+        const bool heard = send_all(line_, &kind, 1) && send_all(line_, &count, sizeof count) &&
+                           send_all(line_, bytes, count);
+        if (!heard) _exit(1);
+    }
+    void text(char kind, const std::string& text) const { message(kind, text.data(), text.size()); }
+
+  private:
+    int line_, memory_;
+    pid_t starter_;
+};
+
+[[noreturn]] void run_isolated(OwnLine& line, const std::string& too_much,
+                               const IsolatedProcess::Work& work) {
+    // A terminal interrupts both processes: the other one hears of it, and ends this one.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_IGN);
+    signal(SIGABRT, SIG_DFL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    line.allow_bytes(0);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);  // what libraries print of their assertions
+    const WarningTaker taker = [&](const std::string& text) { line.text(warning, text); };
+    try {
+        const ClientScope scope({{}, &taker, nullptr});
+        work(line);
+    } catch (const std::bad_alloc&) {
+        line.text(refusal, too_much);
+    } catch (const std::exception& error) {
+        line.text(refusal, error.what());
+    }
+    _exit(0);
+}
+
+}  // namespace
+
+IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
+    : name_(std::move(name)), library_(library) {
+    int ends[2] = {-1, -1};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+        fail("{}: cannot be read: no line to a process: {}", name_, std::strerror(errno));
+    memory_ = memfd_create("samples", MFD_CLOEXEC);
+    const pid_t starter = getpid();
+    process_ = memory_ < 0 ? -1 : fork();
+    if (process_ == 0) {
+        close(ends[0]);
+        OwnLine line(ends[1], memory_, starter);
+        run_isolated(line,
+                     name_ + ": damaged, or memory is short: " + library +
+                         " asks for far more than the samples take",
+                     work);
+    }
+    const int reason = errno;
+    close(ends[1]);
+    line_ = ends[0];
+    if (process_ > 0) return;
+    close(line_);
+    if (memory_ >= 0) close(memory_);
+    fail("{}: cannot be read: no process: {}", name_, std::strerror(reason));
+}
+
+IsolatedProcess::~IsolatedProcess() {
+    close(line_);
+    close(memory_);
+    if (!ended_) {
+        kill(process_, SIGKILL);
+        wait_for();
+    }
+}
+
+void IsolatedProcess::ask(const void* question, std::size_t count) {
+    if (!send_all(line_, question, count)) fail_as_ended();
+}
+
+void IsolatedProcess::receive(void* bytes, std::size_t count) {
+    for (char kind = 0; receive_all(&kind, 1);) {
+        std::size_t length = 0;
+        expect_all(&length, sizeof length);
+        if (kind == result) {
+            if (length == count) return expect_all(bytes, count);
+            kill(process_, SIGKILL);  // the library has overwritten what does not belong to it
+            fail_as_ended();
+        }
+        constexpr std::size_t most_text = 1 << 16;
+        std::string text(std::min(length, most_text), '\0');
+        expect_all(text.data(), text.size());
+        if (kind == refusal) throw Error(text);
+        warn(text);
+    }
+    fail_as_ended();
+}
+
+std::shared_ptr<void> IsolatedProcess::shared_memory(std::size_t bytes) {
+    return mapped(memory_, bytes);
+}
+
+// False at the end.
+bool IsolatedProcess::receive_all(void* bytes, std::size_t count) {
+    char* at = static_cast<char*>(bytes);
+    while (count > 0) {
+        pollfd waiting{line_, POLLIN, 0};
+        constexpr int milliseconds = 100;  // between looks for a requested stop
+        if (poll(&waiting, 1, milliseconds) <= 0) {
+            check_interrupt();
+            continue;
+        }
+        const ssize_t got = recv(line_, at, count, 0);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        at += got;
+        count -= static_cast<std::size_t>(got);
+        check_interrupt();
+    }
+    return true;
+}
+
+void IsolatedProcess::expect_all(void* bytes, std::size_t count) {
+    if (!receive_all(bytes, count)) fail_as_ended();
+}
+
+int IsolatedProcess::wait_for() {
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    ended_ = true;
+    return status;
+}
+
+void IsolatedProcess::fail_as_ended() {
+    if (ended_) fail("{}: cannot be read: {} has ended", name_, library_);
+    const int status = wait_for();
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+        fail("{}: damaged: {} does not come to an end with it", name_, library_);
+    fail("{}: damaged: {} ended with signal {} ({})", name_, library_,
+         WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+         WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "none");
+}
+
+}  // namespace lamina

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace lamina {
+
+// In a process of its own: its line to the process that started it.
+class IsolatedLine {
+  public:
+    // What is asked next, `count` bytes; false where nothing is asked any more.
+    virtual bool next(void* question, std::size_t count) = 0;
+    virtual void answer(const void* bytes, std::size_t count) = 0;
+    // Allows more processor time and memory, beside those of headers: those of so many bytes of
+    // samples.
+    virtual void allow_bytes(std::size_t bytes) = 0;
+    // Memory that both processes see, of the size that was given last.
+    virtual std::shared_ptr<void> shared_memory(std::size_t bytes) = 0;
+
+  protected:
+    ~IsolatedLine() = default;
+};
+
+// A process that works with `library`, which may crash at a damaged file, or never end: both become
+// an Error. Its warnings and its Error are passed on. The work must start no threads. The process
+// ends with this object, with its work, and when the client requests a stop.
+class IsolatedProcess {
+  public:
+    using Work = std::function<void(IsolatedLine&)>;
+
+    // `name`: of the file, for messages.
+    IsolatedProcess(std::string name, const char* library, const Work& work);
+    ~IsolatedProcess();
+    IsolatedProcess(const IsolatedProcess&) = delete;
+    IsolatedProcess& operator=(const IsolatedProcess&) = delete;
+
+    void ask(const void* question, std::size_t count);
+    // The next answer, which has `count` bytes. Throws Error.
+    void receive(void* bytes, std::size_t count);
+    // Memory that both processes see. The other one must not use what it had before.
+    std::shared_ptr<void> shared_memory(std::size_t bytes);
+
+  private:
+    bool receive_all(void* bytes, std::size_t count);
+    void expect_all(void* bytes, std::size_t count);
+    int wait_for();
+    [[noreturn]] void fail_as_ended();
+
+    std::string name_;
+    const char* library_;
+    pid_t process_ = -1;
+    int line_ = -1, memory_ = -1;
+    bool ended_ = false;
+};
+
+}  // namespace lamina

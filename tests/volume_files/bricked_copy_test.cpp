@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/bricked_copy.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <random>
+
+#include "base/memory_limit.h"
+#include "base/warning.h"
+#include "expect_boxes.h"
+#include "lamina/memory.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr VolumeUse stays{.residence = VolumeUse::Residence::in_files};
+
+// Mostly zeros: some chunks have nothing else.
+std::string some_bytes(std::size_t count) {
+    std::mt19937 random(7);
+    std::string bytes(count, '\0');
+    for (std::size_t i = count / 2; i < count; ++i) bytes[i] = static_cast<char>(random());
+    return bytes;
+}
+
+std::string gzipped(const std::string& bytes) {
+    std::string packed(compressBound(bytes.size()) + 100, '\0');
+    z_stream stream{};
+    deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(stream.total_out);
+    deflateEnd(&stream);
+    return packed;
+}
+
+class BrickedCopies : public ::testing::Test {
+  protected:
+    fs::path nrrd(const std::string& fields, const std::string& data) {
+        const fs::path path = folder_ / "a.nrrd";
+        write_bytes_to(path, "NRRD0004\n" + fields + "\n" + data);
+        return path;
+    }
+    static void expect_copy(const fs::path& path, const VolumeRequest& request = {}) {
+        SCOPED_TRACE(path);
+        const BrickedCopy copy = write_bricked_copy(path, request);
+        EXPECT_TRUE(fs::exists(copy.folder / ".zarray"));
+        test::expect_boxes(read_volume(path, request), open_volume(path, request, stays));
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(BrickedCopies, OfPackedFiles) {
+    const std::string sizes = "dimension: 3\nsizes: 131 67 70\nencoding: gzip\n";
+    const std::size_t count = 131 * 67 * 70;
+    expect_copy(nrrd("type: uint8\n" + sizes, gzipped(some_bytes(count))));
+    for (const char* const endian : {"little", "big"}) {
+        expect_copy(nrrd(fmt::format("type: ushort\nendian: {}\n{}", endian, sizes),
+                         gzipped(some_bytes(2 * count))));
+    }
+    expect_copy(
+        nrrd("type: float\nendian: little\nspace dimension: 3\nspace directions: (0,1,0) "
+             "(2,0,0) (0,0,-3)\nspace origin: (5,6,7)\n" +
+                 sizes,
+             gzipped(some_bytes(4 * count))));
+}
+
+// One of several channels, and one of several times: what is not taken is passed over.
+TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
+    const std::size_t count = 3 * 31 * 17 * 23 * 2;
+    const fs::path path = nrrd(
+        "type: short\nendian: little\ndimension: 5\nsizes: 3 31 17 23 2\nkinds: vector domain "
+        "domain domain time\nencoding: gzip\n",
+        gzipped(some_bytes(2 * count)));
+    VolumeRequest request;
+    request.channel = 2;
+    for (const std::int64_t time : {0, 1}) {
+        request.time = time;
+        expect_copy(path, request);
+    }
+}
+
+// Of types that are drawn as others, and of files that are read as a whole.
+TEST_F(BrickedCopies, OfWhatIsDrawn) {
+    expect_copy(nrrd("type: int8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
+                     some_bytes(31 * 17 * 23)));
+    expect_copy(nrrd("type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
+                     std::string(31 * 17 * 23, '\0')));
+}
+
+// Where memory is short, chunks are flatter.
+TEST_F(BrickedCopies, InLayersThatFitTheMemory) {
+    set_memory_limit(std::uint64_t{1} << 20);
+    const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 300 200 70\nencoding: gzip\n",
+                               gzipped(some_bytes(300 * 200 * 70)));
+    expect_copy(path);
+    set_memory_limit(0);
+}
+
+TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
+    const std::string head = "type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n";
+    const fs::path path = nrrd(head, some_bytes(31 * 17 * 23));
+    const fs::path copy = write_bricked_copy(path, {}).folder;
+    std::string said;
+    take_warnings([&](const std::string& text) { said += text; });
+    EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), copy);
+    EXPECT_EQ(said, "");
+    fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
+    EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), path);
+    EXPECT_NE(said.find("other samples"), std::string::npos) << said;
+    take_warnings({});
+    write_bytes_to(copy / ".zattrs", "{\"lamina_bricks\": 3}");
+    expect_error([&] { open_volume(path, {}, stays); }, {".zattrs", "damaged"});
+}
+
+TEST_F(BrickedCopies, LeaveNothingOfAFailedOne) {
+    const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: gzip\n",
+                               gzipped(some_bytes(31 * 17 * 22)));
+    expect_error([&] { write_bricked_copy(path, {}); }, {"a.nrrd", "truncated"});
+    EXPECT_FALSE(fs::exists(bricked_copy_of(path)));
+    EXPECT_FALSE(fs::exists(bricked_copy_of(path).string() + ".part"));
+    fs::create_directory(bricked_copy_of(path));
+    write_bytes_to(bricked_copy_of(path) / "thesis.txt", "mine");
+    expect_error([&] { write_bricked_copy(path, {}); }, {"not written"});
+    EXPECT_TRUE(fs::exists(bricked_copy_of(path) / "thesis.txt"));
+}
+
+}  // namespace
+}  // namespace lamina
