@@ -14,17 +14,25 @@ std::int64_t brick_of(double place, std::int64_t count) {
         std::clamp(place * (1 / edge), 0.0, static_cast<double>(count - 1)));
 }
 
-std::uint8_t one_more(std::uint8_t distance) {
-    return distance < OccupiedBricks::farthest ? static_cast<std::uint8_t>(distance + 1) : distance;
+// The largest power of two among distances.
+constexpr std::size_t longest_step = 128;
+static_assert(OccupiedBricks::farthest < 2 * longest_step);
+
+std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
+    const auto most = static_cast<std::uint8_t>(OccupiedBricks::farthest - steps);
+    return static_cast<std::uint8_t>(std::min(distance, most) + steps);
 }
 
 // Takes over what is near in rows that are known already, each brick and its two neighbours there.
+// Beyond a row's ends nothing is near, so that loops have no ends of their own and are vectors.
 class RowSweep {
   public:
     RowSweep(SparseBytes& distance, std::int64_t count)
         : distance_(distance),
-          near_(static_cast<std::size_t>(count)),
-          row_(static_cast<std::size_t>(count)) {}
+          count_(static_cast<std::size_t>(count)),
+          near_(count_ + 2, OccupiedBricks::farthest),
+          row_(count_ + 2 * longest_step, OccupiedBricks::farthest),
+          next_(row_) {}
 
     void begin() { std::ranges::fill(near_, std::uint8_t{OccupiedBricks::farthest}); }
 
@@ -32,26 +40,38 @@ class RowSweep {
     void include(std::size_t first) {
         const std::uint8_t* const row = distance_.coded() + first;
         const std::uint8_t background = distance_.background();
-        for (std::size_t x = 0; x < near_.size(); ++x)
-            near_[x] = std::min(near_[x], static_cast<std::uint8_t>(row[x] ^ background));
+        for (std::size_t x = 0; x < count_; ++x)
+            near_[x + 1] = std::min(near_[x + 1], static_cast<std::uint8_t>(row[x] ^ background));
     }
 
     void finish(std::size_t first) {
-        const std::size_t count = near_.size();
-        for (std::size_t x = 0; x < count; ++x) {
-            const std::uint8_t left = near_[x > 0 ? x - 1 : x];
-            const std::uint8_t right = near_[x + 1 < count ? x + 1 : x];
-            row_[x] = std::min(distance_[first + x], one_more(std::min({left, near_[x], right})));
+        const std::uint8_t* const coded = distance_.coded() + first;
+        const std::uint8_t background = distance_.background();
+        std::uint8_t* row = row_.data() + longest_step;
+        for (std::size_t x = 0; x < count_; ++x) {
+            const std::uint8_t near = std::min(std::min(near_[x], near_[x + 1]), near_[x + 2]);
+            row[x] = std::min(static_cast<std::uint8_t>(coded[x] ^ background), plus(near, 1));
         }
-        for (std::size_t x = 1; x < count; ++x) row_[x] = std::min(row_[x], one_more(row_[x - 1]));
-        for (std::size_t x = count - 1; x-- > 0;)
-            row_[x] = std::min(row_[x], one_more(row_[x + 1]));
-        for (std::size_t x = 0; x < count; ++x) distance_.set(first + x, row_[x]);
+        for (std::size_t step = 1; step <= longest_step && step < count_; step *= 2)
+            row = spread(step);
+        for (std::size_t x = 0; x < count_; ++x) distance_.set(first + x, row[x]);
     }
 
   private:
+    // Along the row, by so many bricks: after steps of 1, 2, 4 and so on each brick has heard of
+    // all others.
+    std::uint8_t* spread(std::size_t step) {
+        const std::uint8_t* const from = row_.data() + longest_step;
+        std::uint8_t* const to = next_.data() + longest_step;
+        for (std::size_t x = 0; x < count_; ++x)
+            to[x] = std::min(from[x], plus(std::min(*(from + x - step), from[x + step]), step));
+        std::swap(row_, next_);
+        return to;
+    }
+
     SparseBytes& distance_;
-    std::vector<std::uint8_t> near_, row_;
+    std::size_t count_;
+    std::vector<std::uint8_t> near_, row_, next_;
 };
 
 }  // namespace

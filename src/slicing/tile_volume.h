@@ -67,7 +67,8 @@ class TileVolume {
     const std::vector<TileBrick>& bricks() const { return bricks_; }
     // The pages of a volume that is not in memory; null where it is.
     BrickCache* pages() const { return cache_; }
-    // Pages that are read soon, ascending (SampleSource::will_read()).
+    // Pages that are read soon, ascending (SampleSource::will_read()); each is told to the source
+    // once.
     void will_read(std::span<const std::uint32_t> pages) const;
     // The sample of the volume, on each axis, with which the first page begins: -1 where bricks
     // have a border.
@@ -102,6 +103,7 @@ class TileVolume {
     std::unique_ptr<BrickCache> own_cache_;
     BrickCache* cache_ = nullptr;
     std::vector<TilePages> pages_;
+    mutable std::vector<std::uint8_t> told_;  // 1: pages that will_read() has had
 };
 
 }  // namespace lamina

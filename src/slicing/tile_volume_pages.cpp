@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "base/error.h"
 #include "base/memory_limit.h"
@@ -97,16 +98,20 @@ TilePages TileVolume::pages_of(const TextureBrick& part) const {
     return pages;
 }
 
-// A row of pages along x is one box.
+// The pages of a row along x are one box.
 void TileVolume::will_read(std::span<const std::uint32_t> pages) const {
+    told_.resize(cache_->brick_count());
+    std::vector<std::uint32_t> news;
+    for (const std::uint32_t page : pages)
+        if (std::exchange(told_[page], std::uint8_t{1}) == 0) news.push_back(page);
     const BrickPlaces places{volume_.grid().size, cache_->count(), first_of_pages()};
     const std::int64_t margin = lit_ ? 1 : 0, row = places.count[0];
     std::vector<SampleBox> boxes;
-    for (std::size_t begin = 0, end = 0; begin < pages.size(); begin = end) {
-        while (end < pages.size() && pages[end] / row == pages[begin] / row) ++end;
-        boxes.push_back(places.box_of(pages[begin], pages[end - 1], margin));
+    for (std::size_t begin = 0, end = 0; begin < news.size(); begin = end) {
+        while (end < news.size() && news[end] / row == news[begin] / row) ++end;
+        boxes.push_back(places.box_of(news[begin], news[end - 1], margin));
     }
-    volume_.store().source().will_read(boxes);
+    if (!boxes.empty()) volume_.store().source().will_read(boxes);
 }
 
 void TileVolume::fill_own_pages(std::span<const BrickCache::Wanted> wanted) const {

@@ -85,11 +85,11 @@ std::vector<std::uint32_t> BrickCache::with_neighbours(
     std::vector<std::uint32_t> all(bricks.begin(), bricks.end());
     const std::uint64_t threads = std::max(2u, std::thread::hardware_concurrency());
     const std::uint64_t room = capacity() / (2 * threads * bricks.size() * brick_bytes_);
-    const auto together = static_cast<std::uint32_t>(std::min<std::uint64_t>(neighbours, room));
+    const auto group = static_cast<std::uint32_t>(std::min<std::uint64_t>(neighbours, room));
     const auto columns = static_cast<std::uint32_t>(count_[0]);
-    for (const std::uint32_t brick : together > 1 ? bricks : std::span<const std::uint32_t>()) {
-        const std::uint32_t x = brick % columns, first = x / together * together;
-        for (std::uint32_t other = first; other < std::min(first + together, columns); ++other) {
+    for (const std::uint32_t brick : group > 1 ? bricks : std::span<const std::uint32_t>()) {
+        const std::uint32_t x = brick % columns, first = x / group * group;
+        for (std::uint32_t other = first; other < std::min(first + group, columns); ++other) {
             const std::uint32_t number = brick - x + other;
             if ((expected_.empty() || expected_[number] != 0) &&
                 slots_[number].load(std::memory_order_relaxed) == no_slot)

@@ -9,7 +9,6 @@
 #include "base/byte_buffer.h"
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/folder.h"
 #include "base/interrupt.h"
 #include "base/json_text.h"
 #include "base/memory_limit.h"
@@ -18,6 +17,7 @@
 #include "volume/volume_store.h"
 #include "volume_files/file_state.h"
 #include "volume_files/grid_check.h"
+#include "volume_files/replaced_folder.h"
 #include "volume_files/stored_samples.h"
 #include "volume_files/volume_file.h"
 #include "volume_files/zarr_source.h"
@@ -86,11 +86,16 @@ std::array<std::int64_t, 3> chunk_edge(const Grid& grid, SampleType type) {
     std::array<std::int64_t, 3> edge{64, 64, 64};
     const std::uint64_t slice =
         static_cast<std::uint64_t>(grid.size[0] * grid.size[1]) * bytes_of(type);
-    for (std::size_t wider = 0; edge[2] > 4; wider = 1 - wider) {
+    std::size_t wider = 0;
+    for (; edge[2] > 4; wider = 1 - wider) {
         if (static_cast<std::uint64_t>(edge[2]) * slice <= memory_limit() / 4) break;
         edge[2] /= 2;
         edge[wider] *= 2;
     }
+    const auto chunks = [&](std::size_t axis) {
+        return (grid.size[axis] + edge[axis] - 1) / edge[axis];
+    };
+    for (; chunks(0) * chunks(1) * chunks(2) > most_chunks; wider = 1 - wider) edge[wider] *= 2;
     return edge;
 }
 
@@ -107,35 +112,6 @@ ValueType stored_type(SampleType type) {
     }
     return ValueType::float32;
 }
-
-// A folder that disappears unless it gets its name.
-class NewFolder {
-  public:
-    explicit NewFolder(const Path& path) : path_(path), temporary_(path.string() + ".part") {
-        std::error_code absent;
-        if (std::filesystem::exists(path_, absent) && !std::filesystem::exists(path_ / ".zarray"))
-            fail("{}: found a folder that lamina has not written, expected none", path_.string());
-        std::filesystem::remove_all(temporary_, absent);  // of a run that was killed
-        make_folder(temporary_);
-    }
-    ~NewFolder() {
-        std::error_code absent;
-        std::filesystem::remove_all(temporary_, absent);
-    }
-    NewFolder(const NewFolder&) = delete;
-    NewFolder& operator=(const NewFolder&) = delete;
-
-    const Path& temporary() const { return temporary_; }
-    void commit() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-        std::filesystem::rename(temporary_, path_, error);
-        if (error) fail("{}: cannot write: {}", path_.string(), error.message());
-    }
-
-  private:
-    Path path_, temporary_;
-};
 
 void write_layers(const Volume& volume, ZarrWriter& writer) {
     const auto& size = volume.grid().size;
@@ -160,8 +136,10 @@ void write_layers(const Volume& volume, ZarrWriter& writer) {
 }  // namespace
 
 Path bricked_copy_of(const Path& file) {
-    std::string name = file.string();
+    std::string name = file.lexically_normal().string();
     while (name.size() > 1 && name.back() == '/') name.pop_back();
+    // "." and ".." are no names that another could follow.
+    if (name.ends_with('.')) name = std::filesystem::canonical(file).string();
     // "FILE.h5:/group/array" lies in no folder.
     std::error_code absent;
     const std::size_t inside = name.find(":/");
@@ -178,7 +156,7 @@ BrickedCopy write_bricked_copy(const Path& file, const VolumeRequest& request) {
     stored.origin.reset();
     const std::string of = copied(file, stored);
     const Volume volume = open_volume(file, stored, {.residence = VolumeUse::Residence::in_order});
-    NewFolder folder(bricked_copy_of(file));
+    ReplacedFolder folder(bricked_copy_of(file));
     const Json attributes{{attribute, {{"of", of}, {"grid", json_of(volume.grid())}}}};
     ZarrWriter writer(folder.temporary(), volume.grid().size,
                       chunk_edge(volume.grid(), volume.type()), stored_type(volume.type()),
@@ -195,25 +173,29 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
     const Path folder = bricked_copy_of(file);
     std::error_code absent;
     if (!std::filesystem::exists(folder / ".zattrs", absent)) return {};
+    const auto is_not_used = [&](const char* why) {
+        warn(
+            fmt::format("{}: the bricks are {}, and are not used: lamina index --bricks makes "
+                        "them again",
+                        folder.string(), why));
+        return std::nullopt;
+    };
     try {
         const Json attributes = load_json(folder / ".zattrs");
         const Json& about = attributes.at(attribute);
         const ZarrArray array = read_zarray(folder);
+        const auto type = drawn_type(array.type);
+        if (array.shape.size() != 3 || !type) return is_not_used("damaged");
         const Grid grid = grid_in(about.at("grid"), array);
         check_grid(folder.string(), grid, {"step", "origin"});
-        const auto type = drawn_type(array.type);
-        if (!type || !stays_in_files(grid, *type, use)) return {};
-        if (about.at("of") != copied(file, request)) {
-            warn(fmt::format(
-                "{}: the bricks are of other samples, and are not used: lamina index --bricks "
-                "makes them again",
-                folder.string()));
-            return {};
-        }
+        if (!stays_in_files(grid, *type, use)) return {};
+        if (about.at("of") != copied(file, request)) return is_not_used("of other samples");
         ZarrChunks chunks(array, {{0, 1, 2}, {0, 0, 0}});
         return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
     } catch (const Json::exception&) {
-        fail("{}: damaged: lamina index --bricks makes it again", (folder / ".zattrs").string());
+        return is_not_used("damaged");
+    } catch (const Error&) {
+        return is_not_used("damaged");
     }
 }
 

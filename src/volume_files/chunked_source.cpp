@@ -15,26 +15,29 @@ namespace {
 // of bricks touches take more, up to a quarter; and two a thread at least.
 constexpr std::uint64_t most_kept = std::uint64_t{1} << 26;
 
+using Triple = std::array<std::int64_t, 3>;
+
+// `count`: of all chunks along each axis.
+std::uint64_t bytes_to_keep(const Triple& edge, const Triple& count, std::uint64_t chunk_bytes) {
+    std::int64_t touched = count[0];  // by a row of bricks, read before the next row is
+    for (const std::size_t axis : {1, 2})
+        touched *= std::min(count[axis], BrickCache::samples / edge[axis] + 2);
+    const std::uint64_t limit = memory_limit();
+    const std::uint64_t row = static_cast<std::uint64_t>(touched) * chunk_bytes;
+    const std::uint64_t fewest = 2 * std::max(1u, std::thread::hardware_concurrency());
+    return std::max(
+        {std::min(most_kept, limit / 8), std::min(row, limit / 4), fewest * chunk_bytes});
+}
+
 }  // namespace
 
-ChunkedSource::ChunkedSource(const std::array<std::int64_t, 3>& size,
-                             const std::array<std::int64_t, 3>& edge, std::size_t sample_bytes)
+ChunkedSource::ChunkedSource(const Triple& size, const Triple& edge, std::size_t sample_bytes)
     : size_(size), edge_(edge), sample_bytes_(sample_bytes), chunk_bytes_(sample_bytes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         count_[axis] = (size_[axis] + edge_[axis] - 1) / edge_[axis];
         chunk_bytes_ *= static_cast<std::size_t>(edge_[axis]);
     }
-}
-
-std::uint64_t ChunkedSource::memory() const {
-    std::int64_t touched = count_[0];  // by a row of bricks, read before the next row is
-    for (const std::size_t axis : {1, 2})
-        touched *= std::min(count_[axis], BrickCache::samples / edge_[axis] + 2);
-    const std::uint64_t limit = memory_limit();
-    const std::uint64_t row = static_cast<std::uint64_t>(touched) * chunk_bytes_;
-    const std::uint64_t fewest = 2 * std::max(1u, std::thread::hardware_concurrency());
-    return std::max(
-        {std::min(most_kept, limit / 8), std::min(row, limit / 4), fewest * chunk_bytes_});
+    most_kept_ = bytes_to_keep(edge_, count_, chunk_bytes_);
 }
 
 template <typename Visit>
@@ -58,13 +61,12 @@ void ChunkedSource::for_each_chunk(const SampleBox& box, const Visit& visit) con
 
 // The chunk's place among the kept ones; the one used least recently makes room for it.
 std::shared_ptr<ChunkedSource::Kept> ChunkedSource::kept(std::int64_t chunk) const {
-    const std::uint64_t most = memory();
     const std::lock_guard lock(access_);
     std::shared_ptr<Kept>& found = decoded_[chunk];
     if (!found) found = std::make_shared<Kept>();
     found->used = ++clock_;
     const std::shared_ptr<Kept> result = found;
-    if (decoded_.size() * chunk_bytes_ > most) {
+    if (decoded_.size() * chunk_bytes_ > most_kept_) {
         const auto oldest = std::ranges::min_element(
             decoded_, {}, [](const auto& each) { return each.second->used; });
         decoded_.erase(oldest);

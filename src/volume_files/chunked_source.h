@@ -17,7 +17,7 @@ class ChunkedSource : public SampleSource {
   public:
     void read(const SampleBox& box, void* to) const override;
     std::array<std::int64_t, 3> block() const override { return edge_; }
-    std::uint64_t memory() const override;
+    std::uint64_t memory() const override { return most_kept_; }
     bool known_as_zero(const SampleBox& box) const override;
 
   protected:
@@ -46,6 +46,7 @@ class ChunkedSource : public SampleSource {
 
     std::array<std::int64_t, 3> size_, edge_, count_{};
     std::size_t sample_bytes_, chunk_bytes_;
+    std::uint64_t most_kept_;  // bytes of decoded chunks
     mutable std::mutex access_;
     mutable std::map<std::int64_t, std::shared_ptr<Kept>> decoded_;
     mutable std::int64_t clock_ = 0;

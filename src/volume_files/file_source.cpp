@@ -173,8 +173,11 @@ void FileSource::read(const SampleBox& box, void* to) const {
 
 void FileSource::will_read(std::span<const SampleBox> boxes) const {
     if (!only_file_) return;
+    // More would be gone from the cache before it is read.
+    const std::uint64_t most_bytes = machine_memory() / 2;
     std::vector<Extent> extents;
     for (const SampleBox& box : boxes) {
+        if (extents.size() > most_extents) return;
         const std::int64_t rows = rows_together(box);
         const std::int64_t last_x = box.first[0] + box.size[0] - 1;
         for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
@@ -196,7 +199,7 @@ void FileSource::will_read(std::span<const SampleBox> boxes) const {
             pieces.back().end = extent.end;
         bytes += extent.end - std::max(extent.begin, done);
     }
-    if (bytes > machine_memory() / 2) return;  // the first would be gone before they are read
+    if (bytes > most_bytes) return;
     Progress progress("reading ahead", static_cast<std::int64_t>(pieces.size()));
     parallel_for(std::ssize(pieces), 1, [&](std::int64_t number) {
         const Extent& piece = pieces[static_cast<std::size_t>(number)];

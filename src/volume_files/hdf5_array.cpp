@@ -175,11 +175,20 @@ std::vector<std::int64_t> Hdf5Array::chunk() const {
     return chunk;
 }
 
+bool Hdf5Array::lies_elsewhere(hid_t file) const {
+    const auto name_of_file = [](hid_t id) {
+        char name[4096] = {};
+        return H5Fget_name(id, name, sizeof name) > 0 ? std::string(name) : std::string();
+    };
+    if (name_of_file(set_.id()) != name_of_file(file)) return true;
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    return !properties.valid() || H5Pget_layout(properties.id()) == H5D_VIRTUAL ||
+           H5Pget_external_count(properties.id()) > 0;
+}
+
 std::optional<Hdf5Array::RawPlace> Hdf5Array::raw_place() const {
     const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
-    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CONTIGUOUS ||
-        H5Pget_external_count(properties.id()) != 0)
-        return {};
+    if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CONTIGUOUS) return {};
     const haddr_t place = H5Dget_offset(set_.id());
     if (place == HADDR_UNDEF || place > (haddr_t{1} << 62)) return {};
     const Hdf5Handle stored(H5Dget_type(set_.id()), H5Tclose);

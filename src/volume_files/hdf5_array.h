@@ -37,6 +37,9 @@ class Hdf5Array {
     // not.
     std::optional<RawPlace> raw_place() const;
 
+    // Whether the samples lie in another file than this one.
+    bool lies_elsewhere(hid_t file) const;
+
     // Throws Error where the samples cannot be read: a filter is missing here, or the file's
     // `file_bytes` cannot hold the `bytes` that are to be read of them.
     void expect_readable(std::uint64_t bytes, std::uint64_t file_bytes) const;

@@ -75,11 +75,13 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
     const Hdf5Head& head = process->head();
     const auto type = drawn_type(head.type);
     const bool is_scaled = head.scale != 1 || head.offset != 0;
-    if (!type || is_scaled) {
+    if (!type || is_scaled || head.elsewhere) {
+        std::string why = fmt::format("its samples are of type {}", name_of(head.type));
+        if (is_scaled) why = "its samples are scaled";
+        if (head.elsewhere) why = "its samples lie in another file";
         expect_room(path.string(),
                     static_cast<std::uint64_t>(head.grid.sample_count()) * bytes_of(head.type), use,
-                    is_scaled ? "its samples are scaled"
-                              : fmt::format("its samples are of type {}", name_of(head.type)));
+                    why);
     } else if (stays_in_files(head.grid, *type, use)) {
         if (head.raw.offset < 0 || head.has_missing)
             return stored_volume(head.grid, *type,

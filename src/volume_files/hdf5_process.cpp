@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/hdf5_process.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace lamina {
@@ -28,7 +29,7 @@ void Hdf5Process::serve(IsolatedLine& line, const Hdf5Place& place) {
     Shared shared;
     for (Question question; line.next(&question, sizeof question);) {
         const std::size_t bytes = bytes_in(question.box, volume.head().type);
-        line.allow_bytes(bytes);
+        line.allow_bytes(std::max(bytes, volume.chunk_bytes()));
         volume.read(question.box, question.is_all, shared.room(bytes, line));
         line.answer(nullptr, 0);
     }

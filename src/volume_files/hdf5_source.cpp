@@ -8,15 +8,22 @@
 
 #include "base/client.h"
 #include "base/content_hash.h"
+#include "base/error.h"
 
 namespace lamina {
 namespace {
 
-// Of arrays that are not in chunks: what is read at a time.
-constexpr std::array<std::int64_t, 3> no_chunk{64, 64, 64};
+// Less is not worth a question: smaller chunks are read several at a time. Arrays that are not in
+// chunks are read in boxes of this edge.
+constexpr std::int64_t least_edge = 64;
 
-const std::array<std::int64_t, 3>& edge_of(const Hdf5Head& head) {
-    return head.chunk[0] > 0 ? head.chunk : no_chunk;
+std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
+    std::array<std::int64_t, 3> edge{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::int64_t chunk = std::max<std::int64_t>(head.chunk[axis], 1);
+        edge[axis] = std::min((least_edge + chunk - 1) / chunk * chunk, head.grid.size[axis]);
+    }
+    return edge;
 }
 
 }  // namespace
@@ -25,25 +32,34 @@ Hdf5Source::Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> firs
     : ChunkedSource(first->head().grid.size, edge_of(first->head()), bytes_of(first->head().type)),
       place_(place),
       file_(FileState::of(place.file)),
-      taken_(fmt::format("{} {}", fmt::join(first->head().taken, " "),
-                         fmt::join(first->head().grid.size, " "))) {
+      head_(first->head()) {
     idle_.push_back(std::move(first));
+    const unsigned count = std::min(most_processes, std::thread::hardware_concurrency());
+    while (idle_.size() < count) idle_.push_back(started());
+}
+
+// One more. What is to be said of the file, the first one has said.
+std::unique_ptr<Hdf5Process> Hdf5Source::started() const {
+    const WarningTaker nobody = [](const std::string&) {};
+    Client client = ClientScope::current();
+    client.warnings = &nobody;
+    const ClientScope scope(client);
+    auto process = std::make_unique<Hdf5Process>(place_);
+    const Hdf5Head& head = process->head();
+    file_.check_unchanged();
+    if (head.grid.size != head_.grid.size || head.type != head_.type || head.taken != head_.taken)
+        fail("{}: the file was changed while it was read", place_.file);
+    return process;
 }
 
 std::unique_ptr<Hdf5Process> Hdf5Source::take_process() const {
-    const unsigned most = std::max(1u, std::thread::hardware_concurrency());
     std::unique_lock lock(access_);
-    if (idle_.empty() && started_ < most) {
-        ++started_;
+    given_back_.wait(lock, [&] { return !idle_.empty() || lost_ > 0; });
+    if (idle_.empty()) {
+        --lost_;
         lock.unlock();
-        // What is to be said of the file, the first one has said.
-        const WarningTaker nobody = [](const std::string&) {};
-        Client client = ClientScope::current();
-        client.warnings = &nobody;
-        const ClientScope scope(client);
-        return std::make_unique<Hdf5Process>(place_);
+        return started();
     }
-    given_back_.wait(lock, [&] { return !idle_.empty(); });
     std::unique_ptr<Hdf5Process> process = std::move(idle_.back());
     idle_.pop_back();
     return process;
@@ -51,16 +67,20 @@ std::unique_ptr<Hdf5Process> Hdf5Source::take_process() const {
 
 void Hdf5Source::give_back(std::unique_ptr<Hdf5Process> process) const {
     const std::lock_guard lock(access_);
-    idle_.push_back(std::move(process));
+    if (process)
+        idle_.push_back(std::move(process));
+    else
+        ++lost_;
     given_back_.notify_one();
 }
 
 void Hdf5Source::decode(std::int64_t /*chunk*/, const SampleBox& box, void* to) const {
-    std::unique_ptr<Hdf5Process> process = take_process();
+    std::unique_ptr<Hdf5Process> process;
     try {
+        process = take_process();
         process->read(box, to);
     } catch (...) {
-        give_back(std::move(process));  // for who waits: it says again that it has ended
+        give_back({});  // it may have an answer under way, or have ended
         throw;
     }
     give_back(std::move(process));
@@ -74,8 +94,8 @@ std::filesystem::path Hdf5Source::main_file() const {
 }
 
 std::string Hdf5Source::name() const {
-    return fmt::format("{} {} {}", std::filesystem::absolute(place_.file).string(), place_.array,
-                       taken_);
+    return fmt::format("{} {} {} {}", std::filesystem::absolute(place_.file).string(), place_.array,
+                       fmt::join(head_.taken, " "), fmt::join(head_.grid.size, " "));
 }
 
 std::string Hdf5Source::identity() const {

@@ -12,7 +12,8 @@
 
 namespace lamina {
 
-// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core.
+// Samples in the chunks of an HDF5 file, which processes of their own decode: one for each core, up
+// to most_processes. They are started first of all, because this process has few threads then.
 class Hdf5Source : public ChunkedSource {
   public:
     Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first);
@@ -24,16 +25,19 @@ class Hdf5Source : public ChunkedSource {
 
   private:
     void decode(std::int64_t chunk, const SampleBox& box, void* to) const override;
+    std::unique_ptr<Hdf5Process> started() const;
     std::unique_ptr<Hdf5Process> take_process() const;
     void give_back(std::unique_ptr<Hdf5Process> process) const;
 
+    static constexpr unsigned most_processes = 16;
+
     Hdf5Place place_;
     FileState file_;
-    std::string taken_;  // tells what is taken of the array
+    Hdf5Head head_;
     mutable std::mutex access_;
     mutable std::condition_variable given_back_;
     mutable std::vector<std::unique_ptr<Hdf5Process>> idle_;
-    mutable unsigned started_ = 1;
+    mutable unsigned lost_ = 0;  // processes that have to be started anew
 };
 
 }  // namespace lamina

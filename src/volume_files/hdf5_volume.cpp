@@ -116,13 +116,10 @@ std::optional<double> missing_value(const Hdf5Array& array, const char* key) {
 
 Hdf5Volume::Hdf5Volume(const std::string& file, const std::string& array,
                        const VolumeRequest& request)
-    : Hdf5Volume(file, opened(file), array, request) {}
-
-Hdf5Volume::Hdf5Volume(const std::string& file, Hdf5Handle opened, const std::string& array,
-                       const VolumeRequest& request)
-    : name_(file + ":" + one_line(array.empty() ? only_array(opened.id(), file) : array)),
-      file_(std::move(opened)),
-      array_(file_.id(), name_.substr(file.size() + 1), name_) {
+    : file_(opened(file)),
+      path_(array.empty() ? only_array(file_.id(), file) : array),
+      name_(file + ":" + one_line(path_)),
+      array_(file_.id(), path_, name_) {
     const std::size_t rank = array_.shape().size();
     head_.outer = {rank > 4 ? array_.shape()[1] : 1, rank > 3 ? array_.shape()[0] : 1};
     head_.taken[1] = taken_of(name_, "time", request.time, head_.outer[1]);
@@ -140,6 +137,9 @@ Hdf5Volume::Hdf5Volume(const std::string& file, Hdf5Handle opened, const std::st
     const std::vector<std::int64_t> chunk = array_.chunk();
     for (std::size_t i = 0; i < 3 && !chunk.empty(); ++i)
         head_.chunk[i] = i < rank ? chunk[rank - 1 - i] : 1;
+    chunk_bytes_ = chunk.empty() ? 0 : bytes_of(head_.type);
+    for (const std::int64_t edge : chunk) chunk_bytes_ *= static_cast<std::size_t>(edge);
+    head_.elsewhere = array_.lies_elsewhere(file_.id());
     if (const auto raw = array_.raw_place()) head_.raw = *raw;
 
     std::vector<StoredAxis> axes;

@@ -19,6 +19,7 @@ struct Hdf5Head {
     ValueType type = ValueType::uint8;
     double scale = 1, offset = 0;                // of samples (StoredSamples)
     bool has_missing = false;                    // some values become NaN
+    bool elsewhere = false;                      // the samples lie in another file
     std::array<std::int64_t, 3> chunk{0, 0, 0};  // samples along x, y and z; 0: not in chunks
     // Where all samples of the array, of which there may be more than the volume's, lie in the file
     // as they are; offset below 0: they do not.
@@ -33,21 +34,22 @@ class Hdf5Volume {
     Hdf5Volume(const std::string& file, const std::string& array, const VolumeRequest& request);
 
     const Hdf5Head& head() const { return head_; }
+    // Of what is unpacked at a time, whatever is read: a chunk of all axes.
+    std::size_t chunk_bytes() const { return chunk_bytes_; }
     // Reads a box of samples, in native byte order, x fastest; `is_all`: a warning counts what is
     // missing.
     void read(const SampleBox& box, bool is_all, void* to) const;
 
   private:
-    Hdf5Volume(const std::string& file, Hdf5Handle opened, const std::string& array,
-               const VolumeRequest& request);
-
     void mark_missing(std::int64_t count, bool is_told, void* samples) const;
 
-    std::string name_;
     Hdf5Handle file_;
+    std::string path_;  // of the array, in the file
+    std::string name_;
     Hdf5Array array_;
     std::vector<std::int64_t> index_;  // of the axes before the volume's
     Hdf5Head head_;
+    std::size_t chunk_bytes_ = 0;
 };
 
 }  // namespace lamina

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <mutex>
 #include <new>
 
 #include "base/client.h"
@@ -143,6 +144,9 @@ class OwnLine final : public IsolatedLine {
 
 IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
     : name_(std::move(name)), library_(library) {
+    // One at a time: a process that began meanwhile would keep the other end open.
+    static std::mutex starting;
+    const std::lock_guard lock(starting);
     int ends[2] = {-1, -1};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         fail("{}: cannot be read: no line to a process: {}", name_, std::strerror(errno));
@@ -209,6 +213,9 @@ bool IsolatedProcess::receive_all(void* bytes, std::size_t count) {
         constexpr int milliseconds = 100;  // between looks for a requested stop
         if (poll(&waiting, 1, milliseconds) <= 0) {
             check_interrupt();
+            siginfo_t ended{};
+            waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+            if (ended.si_pid != 0 && poll(&waiting, 1, 0) == 0) return false;
             continue;
         }
         const ssize_t got = recv(line_, at, count, 0);

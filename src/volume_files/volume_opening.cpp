@@ -43,8 +43,7 @@ void expect_room(const std::string& name, std::uint64_t bytes, const VolumeUse& 
     if (use.residence == VolumeUse::Residence::in_files) {
         fail(
             "{}: {}, so it cannot stay in its file: expected raw data of uint8, int16, uint16 or "
-            "float samples (NRRD, MetaImage, NIfTI, NumPy, --raw), Zarr or HDF5: lamina index "
-            "--bricks "
+            "float samples, not scaled, or such samples in Zarr or HDF5; lamina index --bricks "
             "makes a copy of it that can",
             name, why);
     }

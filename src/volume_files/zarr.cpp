@@ -117,6 +117,7 @@ PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRe
 
 // All that is selected, in native byte order.
 std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
+    chunks.expect_all();
     const std::size_t bytes = chunks.selected_bytes();
     const std::shared_ptr<void> memory = sample_memory(bytes);
     const auto& size = chunks.size();

@@ -16,8 +16,6 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t most_chunks = 1'000'000;
-
 template <typename Word>
 void copy_row(const char* from, std::size_t step, char* to, std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i)
@@ -45,22 +43,24 @@ ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
         fail("{}: chunks: found {} x {} x {} of them, expected at most {}", name, counts_[2],
              counts_[1], counts_[0], most_chunks);
     }
-    const std::size_t bytes = selected_bytes();
-    std::uint64_t there = 0;
+    selected_bytes();
     states_.reserve(static_cast<std::size_t>(total));
     for (std::int64_t chunk = 0; chunk < total; ++chunk) {
         if ((chunk & 0xfff) == 0) check_interrupt();
         std::uint64_t stored = 0;
         states_.push_back(state_now(chunk, stored));
-        there += stored;
+        stored_ += stored;
     }
-    if (there == 0) {
+    if (stored_ == 0) {
         fail("{}: found no chunk, expected files as {}", name,
              file_of(0).lexically_relative(array_.folder).string());
     }
-    if (bytes / most_chunk_expansion > there) {
-        fail("{}: the array promises {} bytes, its chunks have {}, which cannot hold them", name,
-             bytes, there);
+}
+
+void ZarrChunks::expect_all() const {
+    if (const std::size_t bytes = selected_bytes(); bytes / most_chunk_expansion > stored_) {
+        fail("{}: the array promises {} bytes, its chunks have {}, which cannot hold them",
+             array_.folder.string(), bytes, stored_);
     }
 }
 

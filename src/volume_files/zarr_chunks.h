@@ -13,6 +13,8 @@
 
 namespace lamina {
 
+inline constexpr std::int64_t most_chunks = 1'000'000;
+
 // The chunks of an array that hold what is selected of it. Safe from any thread.
 class ZarrChunks {
   public:
@@ -36,6 +38,8 @@ class ZarrChunks {
         return states_[static_cast<std::size_t>(chunk)];
     }
     std::int64_t missing() const;
+    // Throws Error where the files cannot hold all that is selected, what is missing included.
+    void expect_all() const;
     std::string selection_text() const;  // tells what is selected from what else might be
 
     // A chunk's samples, decoded, in the byte order of the file. Throws Error where it is damaged
@@ -60,6 +64,7 @@ class ZarrChunks {
     std::size_t bytes_;  // of a sample
     Triple size_{1, 1, 1}, edge_{1, 1, 1}, counts_{1, 1, 1};
     std::vector<std::uint64_t> states_;
+    std::uint64_t stored_ = 0;  // bytes of all files
 };
 
 }  // namespace lamina

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
 #include "base/byte_buffer.h"
 #include "base/error.h"
@@ -25,10 +24,10 @@ namespace {
 constexpr int level = 5;  // Blosc's own default
 
 void write_small_file(const std::filesystem::path& path, const void* bytes, std::size_t count) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"),
-                                                               &std::fclose);
-    const bool written =
-        file && std::fwrite(bytes, 1, count, file.get()) == count && std::fflush(file.get()) == 0;
+    std::FILE* const file = std::fopen(path.c_str(), "wb");
+    bool written = file != nullptr && std::fwrite(bytes, 1, count, file) == count;
+    // Some file systems say only now that the disk is full.
+    if (file != nullptr) written &= std::fclose(file) == 0;
     if (!written) fail("{}: cannot write: {}", path.string(), std::strerror(errno));
 }
 

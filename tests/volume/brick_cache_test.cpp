@@ -131,7 +131,9 @@ TEST(BrickCache, PassesAnErrorOnAndTriesAgain) {
     BrickCache cache(size, 4096, [&](std::span<const BrickCache::Wanted>) {
         if (fails) fail("volume.raw: truncated");
     });
-    const auto use = [&] { cache.hold(1, [](std::size_t) { return 3u; }); };
+    constexpr std::uint32_t used = 3;
+    cache.expect({&used, 1});  // none of its neighbours
+    const auto use = [&] { cache.hold(1, [](std::size_t) { return used; }); };
     expect_error([&] { use(); }, {"truncated"});
     fails = false;
     use();

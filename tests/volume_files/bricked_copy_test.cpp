@@ -68,11 +68,11 @@ TEST_F(BrickedCopies, OfPackedFiles) {
         expect_copy(nrrd(fmt::format("type: ushort\nendian: {}\n{}", endian, sizes),
                          gzipped(some_bytes(2 * count))));
     }
-    expect_copy(
-        nrrd("type: float\nendian: little\nspace dimension: 3\nspace directions: (0,1,0) "
-             "(2,0,0) (0,0,-3)\nspace origin: (5,6,7)\n" +
-                 sizes,
-             gzipped(some_bytes(4 * count))));
+    const std::string place =
+        "space dimension: 3\nspace directions: (0,1,0) (2,0,0) (0,0,-3)\nspace origin: (5,6,7)\n";
+    const std::string in_space = place + "sizes: 131 67 70\nencoding: gzip\n";
+    expect_copy(nrrd("type: float\nendian: little\ndimension: 3\n" + in_space,
+                     gzipped(some_bytes(4 * count))));
 }
 
 // One of several channels, and one of several times: what is not taken is passed over.
@@ -94,8 +94,8 @@ TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
 TEST_F(BrickedCopies, OfWhatIsDrawn) {
     expect_copy(nrrd("type: int8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
                      some_bytes(31 * 17 * 23)));
-    expect_copy(nrrd("type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n",
-                     std::string(31 * 17 * 23, '\0')));
+    const std::string empty = gzipped(std::string(600 * 600 * 300, '\0'));
+    expect_copy(nrrd("type: uint8\ndimension: 3\nsizes: 600 600 300\nencoding: gzip\n", empty));
 }
 
 // Where memory is short, chunks are flatter.
@@ -118,9 +118,14 @@ TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
     fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
     EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), path);
     EXPECT_NE(said.find("other samples"), std::string::npos) << said;
+    said.clear();
+    for (const char* const damaged : {"{\"lamina_bricks\": 3}", "{", "{}"}) {
+        write_bytes_to(copy / ".zattrs", damaged);
+        EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), path);
+        EXPECT_NE(said.find("damaged"), std::string::npos) << said;
+        said.clear();
+    }
     take_warnings({});
-    write_bytes_to(copy / ".zattrs", "{\"lamina_bricks\": 3}");
-    expect_error([&] { open_volume(path, {}, stays); }, {".zattrs", "damaged"});
 }
 
 TEST_F(BrickedCopies, LeaveNothingOfAFailedOne) {
