@@ -36,11 +36,6 @@ std::array<double, 8> corners_in(const T* samples, const Triple& step) {
 template <typename T>
 std::array<double, 8> corners_in_files(const VolumeStore& store, const Triple& lower,
                                        const Triple& upper) {
-    std::array<double, 8> corners{};
-    if (store.source().block()[0] > 0) {  // a sample alone costs a block
-        std::ranges::copy(store.template corners<T>(lower, upper), corners.begin());
-        return corners;
-    }
     SampleBox box{lower, {}};
     for (std::size_t axis = 0; axis < 3; ++axis) box.size[axis] = upper[axis] - lower[axis] + 1;
     std::array<T, 8> samples{};

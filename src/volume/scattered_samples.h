@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples here and there, far from each other: of a volume that stays in its files they are read
-// alone where the files allow that, so that no bricks are read for the sake of a few samples.
+// alone, so that no bricks are read for the sake of a few samples.
 #pragma once
 
 #include <array>

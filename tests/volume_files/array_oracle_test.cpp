@@ -74,13 +74,13 @@ void expect_place(const Grid& grid, const nlohmann::json& expected) {
 // Whether it can stay in its files: then it is the same there.
 bool stays_as_it_is(const Volume& whole, const std::filesystem::path& path,
                     const VolumeRequest& request) {
-    std::optional<Volume> in_files;
+    std::optional<Volume> by_parts;
     try {
-        in_files.emplace(open_volume(path, request, {.residence = VolumeUse::Residence::in_files}));
+        by_parts.emplace(open_volume(path, request, test::in_files));
     } catch (const Error&) {
         return false;
     }
-    test::expect_boxes(whole, *in_files, 20);
+    test::expect_boxes(whole, *by_parts, 20);
     return true;
 }
 

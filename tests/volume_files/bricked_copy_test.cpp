@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VolumeUse stays{.residence = VolumeUse::Residence::in_files};
+using test::in_files;
 
 // Mostly zeros: some chunks have nothing else.
 std::string some_bytes(std::size_t count) {
@@ -54,7 +54,7 @@ class BrickedCopies : public ::testing::Test {
         SCOPED_TRACE(path);
         const BrickedCopy copy = write_bricked_copy(path, request);
         EXPECT_TRUE(fs::exists(copy.folder / ".zarray"));
-        test::expect_boxes(read_volume(path, request), open_volume(path, request, stays));
+        test::expect_boxes(read_volume(path, request), open_volume(path, request, in_files));
     }
 
     TemporaryFolder folder_;
@@ -113,15 +113,15 @@ TEST_F(BrickedCopies, OfOtherSamplesAreNotUsed) {
     const fs::path copy = write_bricked_copy(path, {}).folder;
     std::string said;
     take_warnings([&](const std::string& text) { said += text; });
-    EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), copy);
+    EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), copy);
     EXPECT_EQ(said, "");
     fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
-    EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), path);
+    EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), path);
     EXPECT_NE(said.find("other samples"), std::string::npos) << said;
     said.clear();
     for (const char* const damaged : {"{\"lamina_bricks\": 3}", "{", "{}"}) {
         write_bytes_to(copy / ".zattrs", damaged);
-        EXPECT_EQ(open_volume(path, {}, stays).store().source().main_file(), path);
+        EXPECT_EQ(open_volume(path, {}, in_files).store().source().main_file(), path);
         EXPECT_NE(said.find("damaged"), std::string::npos) << said;
         said.clear();
     }

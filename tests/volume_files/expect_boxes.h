@@ -7,19 +7,22 @@
 #include <string>
 
 #include "volume/volume_store.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina::test {
 
+inline constexpr VolumeUse in_files{.residence = VolumeUse::Residence::in_files};
+
 // Any box of samples of a volume that stays in its files is that of the volume in memory.
-inline void expect_boxes(const Volume& whole, const Volume& in_files, int trials = 200) {
+inline void expect_boxes(const Volume& whole, const Volume& by_parts, int trials = 200) {
     ASSERT_TRUE(whole.in_memory());
-    ASSERT_FALSE(in_files.in_memory());
+    ASSERT_FALSE(by_parts.in_memory());
     const auto& size = whole.grid().size;
-    EXPECT_EQ(in_files.grid().size, size);
-    EXPECT_EQ(in_files.grid().origin, whole.grid().origin);
-    EXPECT_EQ(in_files.grid().step, whole.grid().step);
-    EXPECT_EQ(in_files.grid().centering, whole.grid().centering);
-    ASSERT_EQ(in_files.type(), whole.type());
+    EXPECT_EQ(by_parts.grid().size, size);
+    EXPECT_EQ(by_parts.grid().origin, whole.grid().origin);
+    EXPECT_EQ(by_parts.grid().step, whole.grid().step);
+    EXPECT_EQ(by_parts.grid().centering, whole.grid().centering);
+    ASSERT_EQ(by_parts.type(), whole.type());
     const std::size_t bytes = bytes_of(whole.type());
     std::mt19937 random(1);
     for (int trial = 0; trial < trials; ++trial) {
@@ -31,7 +34,7 @@ inline void expect_boxes(const Volume& whole, const Volume& in_files, int trials
         }
         if (trial == 0) box = {{0, 0, 0}, size};
         std::string found(static_cast<std::size_t>(box.count()) * bytes, '\0'), expected;
-        in_files.store().source().read(box, found.data());
+        by_parts.store().source().read(box, found.data());
         for (std::int64_t z = 0; z < box.size[2]; ++z) {
             for (std::int64_t y = 0; y < box.size[1]; ++y) {
                 const std::int64_t place =

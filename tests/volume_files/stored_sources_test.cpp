@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr VolumeUse stays{.residence = VolumeUse::Residence::in_files};
+using test::in_files;
 
 std::string noise_bytes(std::size_t count) {
     std::mt19937 random(5);
@@ -30,7 +30,7 @@ std::string noise_bytes(std::size_t count) {
 
 void expect_boxes(const fs::path& path, const VolumeRequest& request = {}) {
     SCOPED_TRACE(path);
-    test::expect_boxes(read_volume(path, request), open_volume(path, request, stays));
+    test::expect_boxes(read_volume(path, request), open_volume(path, request, in_files));
 }
 
 class StoredSources : public ::testing::Test {
@@ -95,7 +95,7 @@ TEST_F(StoredSources, NumPyArrays) {
                                   noise_bytes(2 * 31 * 17 * 23));
     };
     expect_boxes(npy("False"));
-    expect_error([&] { open_volume(npy("True"), {}, stays); }, {"a.npy", "first axis"});
+    expect_error([&] { open_volume(npy("True"), {}, in_files); }, {"a.npy", "first axis"});
 }
 
 TEST_F(StoredSources, OneChannelOfSeveralAndFilesOfSlices) {
@@ -131,7 +131,7 @@ TEST_F(StoredSources, HolesOfSparseFiles) {
     ASSERT_EQ(pwrite(file, data.data(), data.size(), place), 4096);
     close(file);
     expect_boxes(path);
-    const Volume volume = open_volume(path, {}, stays);
+    const Volume volume = open_volume(path, {}, in_files);
     const SampleSource& source = volume.store().source();
     EXPECT_FALSE(source.known_as_zero({{0, 0, 0}, {1024, 1024, 64}}));
     EXPECT_FALSE(source.known_as_zero({{5, 101, 40}, {1, 1, 1}}));
@@ -144,7 +144,7 @@ TEST_F(StoredSources, HolesOfSparseFiles) {
 TEST_F(StoredSources, SayThatAFileWasChanged) {
     const std::string head = "type: uint8\ndimension: 3\nsizes: 31 17 23\nencoding: raw\n";
     const fs::path path = nrrd("a.nrrd", head, noise_bytes(31 * 17 * 23));
-    const Volume volume = open_volume(path, {}, stays);
+    const Volume volume = open_volume(path, {}, in_files);
     const SampleSource& source = volume.store().source();
     source.check_unchanged();
     const std::string identity = source.identity();
@@ -159,12 +159,12 @@ TEST_F(StoredSources, SayThatAFileWasChanged) {
     nrrd("a.nrrd", head, noise_bytes(31 * 17 * 23 - 1) + "x");
     fs::last_write_time(path, fs::last_write_time(path) + std::chrono::seconds(5));
     expect_error([&] { source.check_unchanged(); }, {"a.nrrd", "changed"});
-    EXPECT_NE(open_volume(path, {}, stays).store().source().identity(), identity);
+    EXPECT_NE(open_volume(path, {}, in_files).store().source().identity(), identity);
 }
 
 TEST_F(StoredSources, AChunkThatChangesIsAnError) {
     const fs::path path = zarr(nlohmann::json::object());
-    const Volume volume = open_volume(path, {}, stays);
+    const Volume volume = open_volume(path, {}, in_files);
     std::string samples(31 * 17 * 23, '\0');
     write("a.zarr/0.1.0", noise_bytes(8 * 9 * 16 - 3));
     expect_error(
@@ -175,7 +175,7 @@ TEST_F(StoredSources, AChunkThatChangesIsAnError) {
 }
 
 TEST_F(StoredSources, WhatHasToBeReadAsAWholeSaysSo) {
-    const auto open = [](const fs::path& path) { open_volume(path, {}, stays); };
+    const auto open = [](const fs::path& path) { open_volume(path, {}, in_files); };
     const std::string sizes = "dimension: 3\nsizes: 2 2 2\n";
     expect_error(
         [&] {
