@@ -15,7 +15,7 @@ std::int64_t brick_of(double place, std::int64_t count) {
 }
 
 // The largest power of two among distances.
-constexpr std::size_t longest_step = 128;
+constexpr std::size_t longest_step = 32;
 static_assert(OccupiedBricks::farthest < 2 * longest_step);
 
 std::uint8_t plus(std::uint8_t distance, std::size_t steps) {

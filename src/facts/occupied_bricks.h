@@ -14,7 +14,8 @@ namespace lamina {
 // Which bricks of MinMaxBricks show something under the transfer function, and how far each brick
 // is from them.
 struct OccupiedBricks {
-    static constexpr int farthest = 255;
+    // Bricks farther away take no memory (base/sparse_bytes.h): large volumes are mostly empty.
+    static constexpr int farthest = 63;
 
     std::array<std::int64_t, 3> count{0, 0, 0};
     // From each brick the distance to the nearest one that shows something: 0 for those that do. It

@@ -14,13 +14,10 @@ CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* vari
     map.count = any->count;
     const std::size_t bricks = any->distance.size();
     map.kinds = SparseBytes(bricks, occupied != nullptr ? CellMap::farthest : 0);
-    const auto reach = [](std::uint8_t distance) {
-        return std::min<int>(distance, CellMap::farthest);
-    };
     parallel_for(static_cast<std::int64_t>(bricks), 1 << 16, [&](std::int64_t number) {
         const auto i = static_cast<std::size_t>(number);
-        const int empty = occupied != nullptr ? reach(occupied->distance[i]) : 0;
-        const int constant = varied != nullptr ? reach(varied->distance[i]) : 0;
+        const int empty = occupied != nullptr ? occupied->distance[i] : 0;
+        const int constant = varied != nullptr ? varied->distance[i] : 0;
         map.kinds.set(i, static_cast<std::uint8_t>(empty > 0      ? empty
                                                    : constant > 0 ? CellMap::constant + constant
                                                                   : 0));

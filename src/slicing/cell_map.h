@@ -11,10 +11,10 @@
 namespace lamina {
 
 // How rays that walk from cell to cell pass the bricks of a volume (MinMaxBricks). Kind 0: cell by
-// cell. Kind r from 1 to 127: the cube of 2 r - 1 bricks around this one shows nothing, and rays
+// cell. Kind r from 1 to 63: the cube of 2 r - 1 bricks around this one shows nothing, and rays
 // cross it in one step. Kind constant + r: the cube has one colour and one extinction.
 struct CellMap {
-    static constexpr int constant = 128, farthest = 127;
+    static constexpr int constant = 128, farthest = OccupiedBricks::farthest;
 
     std::array<std::int64_t, 3> count{};  // bricks along each axis
     // One byte a brick, x fastest. Empty where all bricks are of kind 0.
