@@ -15,7 +15,7 @@ bool memory_limit_is_told();  // whether somebody has set one
 // Sets the limit that holds where nobody has set one.
 void set_default_memory_limit(std::uint64_t bytes);
 
-// Of the machine, or of the control group that the process is in.
+// The memory of the machine, or of the control group that the process is in.
 std::uint64_t machine_memory();
 
 // The process's resident memory in bytes; 0 where that is not known.

@@ -37,6 +37,21 @@ std::array<std::int64_t, 3> cells_of(const Grid& grid) {
     return cells;
 }
 
+// Calls visit(x) for the bricks of a row that show something. Most have the range of their
+// neighbour, a hole's.
+template <typename Visit>
+void for_shown_bricks(const MinMaxBricks& bricks, std::int64_t y, std::int64_t z,
+                      const Shows& shows, const Visit& visit) {
+    ValueRange before;
+    bool shown = false;
+    for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
+        const ValueRange range = bricks.at(x, y, z);
+        if (range != before) shown = !range.empty() && shows(range);
+        before = range;
+        if (shown) visit(x);
+    }
+}
+
 // The cells of one row along x, in a window that holds their samples.
 template <typename T>
 class CellRow {
@@ -128,18 +143,12 @@ class RowSpans {
     void find_in_block(std::int64_t first_y, std::int64_t first_z) {
         std::vector<BrickRow> rows;
         Span columns;
-        ValueRange before;  // most bricks have the range of their neighbour: a hole
-        bool shown = false;
         for (std::int64_t z = first_z; z < std::min(first_z + block_edge, bricks_.count[2]); ++z) {
             for (std::int64_t y = first_y; y < std::min(first_y + block_edge, bricks_.count[1]);
                  ++y) {
                 BrickRow row{y, z, {}};
-                for (std::int64_t x = 0; x < bricks_.count[0]; ++x) {
-                    const ValueRange range = bricks_.at(x, y, z);
-                    if (range != before) shown = !range.empty() && shows_(range);
-                    before = range;
-                    if (shown) row.shown.push_back(x);
-                }
+                for_shown_bricks(bricks_, y, z, shows_,
+                                 [&](std::int64_t x) { row.shown.push_back(x); });
                 if (row.shown.empty()) continue;
                 columns.include({row.shown.front(), row.shown.back() + 1});
                 rows.push_back(std::move(row));
@@ -202,16 +211,9 @@ std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBrick
     };
     std::vector<std::vector<glm::dvec3>> of_slices(static_cast<std::size_t>(bricks.count[2]));
     parallel_for(bricks.count[2], 1, [&](std::int64_t z) {
-        ValueRange before;
-        bool shown = false;
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
             Span row;
-            for (std::int64_t x = 0; x < bricks.count[0]; ++x) {
-                const ValueRange range = bricks.at(x, y, z);
-                if (range != before) shown = !range.empty() && shows(range);
-                before = range;
-                if (shown) row.include({x, x + 1});
-            }
+            for_shown_bricks(bricks, y, z, shows, [&](std::int64_t x) { row.include({x, x + 1}); });
             if (row.empty()) continue;
             for (int corner = 0; corner < 8; ++corner) {
                 of_slices[static_cast<std::size_t>(z)].push_back(

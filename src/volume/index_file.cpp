@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/all_zero.h"
 #include "base/atomic_file.h"
 #include "base/content_hash.h"
 #include "base/error.h"
@@ -43,10 +44,6 @@ template <typename Bytes, typename Visit>
 void for_each_piece(Bytes* data, std::size_t count, const Visit& visit) {
     for (std::size_t at = 0; at < count; at += piece_bytes)
         visit(data + at, std::min(piece_bytes, count - at));
-}
-
-bool all_zero(const std::byte* bytes, std::size_t count) {
-    return bytes[0] == std::byte{0} && std::memcmp(bytes, bytes + 1, count - 1) == 0;
 }
 
 template <typename Value>

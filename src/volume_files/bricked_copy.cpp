@@ -99,18 +99,9 @@ std::array<std::int64_t, 3> chunk_edge(const Grid& grid, SampleType type) {
     return edge;
 }
 
+// The type of a file's samples that are drawn as they are.
 ValueType stored_type(SampleType type) {
-    switch (type) {
-        case SampleType::uint8:
-            return ValueType::uint8;
-        case SampleType::int16:
-            return ValueType::int16;
-        case SampleType::uint16:
-            return ValueType::uint16;
-        case SampleType::float32:
-            break;
-    }
-    return ValueType::float32;
+    return *std::ranges::find(value_types, std::optional(type), drawn_type);
 }
 
 void write_layers(const Volume& volume, ZarrWriter& writer) {

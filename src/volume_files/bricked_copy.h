@@ -15,7 +15,7 @@ namespace lamina {
 // attributes say.
 std::filesystem::path bricked_copy_of(const std::filesystem::path& file);
 
-// What `--bricks` has written, for messages.
+// A copy that was written, for messages.
 struct BrickedCopy {
     std::filesystem::path folder;
     std::int64_t chunks = 0;

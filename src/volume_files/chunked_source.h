@@ -21,7 +21,7 @@ class ChunkedSource : public SampleSource {
     bool known_as_zero(const SampleBox& box) const override;
 
   protected:
-    // Of the volume, and of a chunk: samples along x, y and z.
+    // `size`, `edge`: samples of the volume and of a chunk along x, y and z.
     ChunkedSource(const std::array<std::int64_t, 3>& size, const std::array<std::int64_t, 3>& edge,
                   std::size_t sample_bytes);
 

@@ -11,10 +11,10 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/interrupt.h"
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "volume_files/some_bytes.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
@@ -26,8 +26,6 @@ constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
 constexpr std::size_t most_extents = 1 << 20;
 // A disk reads on over so many bytes rather than to begin anew.
 constexpr std::uint64_t most_skipped = 1 << 20, piece_bytes = 1 << 26;
-
-constexpr std::uint64_t hashed_places = 64, hashed_bytes = 4096;
 
 }  // namespace
 
@@ -159,9 +157,7 @@ void FileSource::read(const SampleBox& box, void* to) const {
         std::memset(at, 0, row_bytes * static_cast<std::size_t>(box.size[1] * box.size[2]));
         return;
     }
-    const bool together =
-        step_[1] <= std::max<std::uint64_t>(most_between_bytes, most_between_rows * row_bytes);
-    const std::int64_t rows = together ? box.size[1] : 1;
+    const std::int64_t rows = rows_together(box);
     for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
         for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; y += rows) {
             read_rows(box, y, z, rows, at);
@@ -229,16 +225,9 @@ std::string FileSource::identity() const {
     ContentHash hash;
     hash.add(name());
     for (const FileState& file : files_) hash.add(file.text());
-    const std::uint64_t all = bytes_each_ * files_.size();
-    char bytes[hashed_bytes];
-    for (std::uint64_t i = 0; i < hashed_places; ++i) {
-        check_interrupt();
-        const std::uint64_t place = all / hashed_places * i;
-        const auto count =
-            static_cast<std::size_t>(std::min<std::uint64_t>(hashed_bytes, all - place));
-        read_bytes(place, bytes, count);
-        hash.add(bytes, count);
-    }
+    add_some_bytes(
+        hash, bytes_each_ * files_.size(),
+        [&](std::uint64_t place, char* to, std::size_t count) { read_bytes(place, to, count); });
     return hash.hex();
 }
 

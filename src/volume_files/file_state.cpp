@@ -7,9 +7,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/random_access_file.h"
+#include "volume_files/some_bytes.h"
 
 namespace lamina {
 
@@ -35,12 +35,11 @@ std::string FileState::text() const {
 }
 
 std::string FileState::bytes_hash() const {
-    constexpr std::uint64_t places = 64, most_bytes = 4096;
     const RandomAccessFile file(path);
     ContentHash hash;
-    char some[most_bytes];
-    for (std::uint64_t i = 0; i < places; ++i)
-        hash.add(some, file.read_some(file.size() / places * i, some, most_bytes));
+    add_some_bytes(hash, file.size(), [&](std::uint64_t place, char* to, std::size_t count) {
+        file.read(place, to, count);
+    });
     return hash.hex();
 }
 

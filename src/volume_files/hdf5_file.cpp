@@ -32,7 +32,7 @@ ArrayPath array_path(const std::filesystem::path& path) {
     return {path, ""};
 }
 
-// Of an array that lies in its file as it is.
+// Tells where the samples of an array lie that its file holds as they are.
 StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
     StoredData data;
     data.path = file;

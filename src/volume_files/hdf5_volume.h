@@ -34,7 +34,7 @@ class Hdf5Volume {
     Hdf5Volume(const std::string& file, const std::string& array, const VolumeRequest& request);
 
     const Hdf5Head& head() const { return head_; }
-    // Of what is unpacked at a time, whatever is read: a chunk of all axes.
+    // The bytes that libhdf5 unpacks at a time, however few are read: a chunk along all axes.
     std::size_t chunk_bytes() const { return chunk_bytes_; }
     // Reads a box of samples, in native byte order, x fastest; `is_all`: a warning counts what is
     // missing.

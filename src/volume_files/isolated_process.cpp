@@ -28,7 +28,7 @@ namespace {
 
 constexpr rlim_t seconds_for_headers = 5;
 
-// What the other process sends: one of these letters, a length, and so many bytes.
+// The other process sends one of these letters, a length, and so many bytes.
 enum Message : char { warning = 'W', refusal = 'E', result = 'R' };
 
 std::shared_ptr<void> mapped(int file, std::size_t bytes) {

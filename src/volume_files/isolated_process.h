@@ -12,7 +12,7 @@ namespace lamina {
 // In a process of its own: its line to the process that started it.
 class IsolatedLine {
   public:
-    // What is asked next, `count` bytes; false where nothing is asked any more.
+    // Takes the next question, of `count` bytes; false where no more come.
     virtual bool next(void* question, std::size_t count) = 0;
     virtual void answer(const void* bytes, std::size_t count) = 0;
     // Allows more processor time and memory, beside those of headers: those of so many bytes of

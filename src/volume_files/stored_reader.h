@@ -18,12 +18,12 @@ class StoredReader {
     // `data` is used as long as this. Throws Error where the files cannot hold them.
     explicit StoredReader(const StoredData& data);
 
-    // What is taken of the data, as read_stored() does.
+    // Reads what is taken of the data, as read_stored() does.
     StoredSamples read() const;
-    // Of raw data: the byte of each file with which its samples begin.
+    // The byte of each file with which its samples begin, of raw data.
     std::vector<std::int64_t> raw_offsets() const;
-    // All data of all files, whatever is taken of them; not of text. It is used no longer than
-    // this.
+    // Opens all data of all files, whatever is taken of them; not of text. The reader is used no
+    // longer than this.
     std::unique_ptr<ByteReader> open_all() const;
     // Warns of what there is more than the header says, once all is read.
     void warn_of_surplus(ByteReader& reader) const;

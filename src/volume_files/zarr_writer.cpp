@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "base/all_zero.h"
 #include "base/byte_buffer.h"
 #include "base/error.h"
 #include "base/folder.h"
@@ -100,10 +101,8 @@ std::uint64_t ZarrWriter::write_chunk(std::int64_t x, std::int64_t y, const char
                         layer + static_cast<std::size_t>(from) * bytes_, copied);
         }
     }
-    const std::string_view all = chunk.text();
     const bool first = x == 0 && y == 0 && next_ == 0;  // an array without any is no array
-    if (!first && all[0] == 0 && std::memcmp(all.data(), all.data() + 1, all.size() - 1) == 0)
-        return 0;
+    if (!first && all_zero(chunk.data(), chunk.size())) return 0;
     ByteBuffer packed(chunk.size() + BLOSC_MAX_OVERHEAD);
     const int bytes = blosc_compress_ctx(level, BLOSC_SHUFFLE, bytes_, chunk.size(), chunk.data(),
                                          packed.data(), packed.size(), BLOSC_LZ4_COMPNAME, 0, 1);

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <random>
-
 #include "base/memory_limit.h"
 #include "base/warning.h"
 #include "expect_boxes.h"
@@ -21,12 +19,9 @@ namespace fs = std::filesystem;
 
 using test::in_files;
 
-// Mostly zeros: some chunks have nothing else.
+// Half of them zeros: some chunks have nothing else.
 std::string some_bytes(std::size_t count) {
-    std::mt19937 random(7);
-    std::string bytes(count, '\0');
-    for (std::size_t i = count / 2; i < count; ++i) bytes[i] = static_cast<char>(random());
-    return bytes;
+    return std::string(count / 2, '\0') + test::noise_bytes(count - count / 2);
 }
 
 std::string gzipped(const std::string& bytes) {

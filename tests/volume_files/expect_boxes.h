@@ -13,6 +13,13 @@ namespace lamina::test {
 
 inline constexpr VolumeUse in_files{.residence = VolumeUse::Residence::in_files};
 
+inline std::string noise_bytes(std::size_t count) {
+    std::mt19937 random(5);
+    std::string bytes(count, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    return bytes;
+}
+
 // Any box of samples of a volume that stays in its files is that of the volume in memory.
 inline void expect_boxes(const Volume& whole, const Volume& by_parts, int trials = 200) {
     ASSERT_TRUE(whole.in_memory());

@@ -6,7 +6,6 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "expect_boxes.h"
 #include "support/expect_error.h"
@@ -20,13 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 using test::in_files;
-
-std::string noise_bytes(std::size_t count) {
-    std::mt19937 random(5);
-    std::string bytes(count, '\0');
-    for (char& byte : bytes) byte = static_cast<char>(random());
-    return bytes;
-}
+using test::noise_bytes;
 
 void expect_boxes(const fs::path& path, const VolumeRequest& request = {}) {
     SCOPED_TRACE(path);
