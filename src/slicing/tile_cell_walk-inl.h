@@ -50,7 +50,8 @@ class CellWalk {
             const auto i = static_cast<std::size_t>(axis);
             direction_[i] = each_half<FloatTag>(crossing, rays.direction[axis]);
             slope_[i] = to_floats(d, direction_[i]);
-            inverse_[i] = to_floats(d, each_half<FloatTag>(inverse, direction_[i]));
+            precise_inverse_[i] = each_half<FloatTag>(inverse, direction_[i]);
+            inverse_[i] = to_floats(d, precise_inverse_[i]);
             forward_[i] = hn::Gt(slope_[i].v, hn::Zero(d));
             last_[i] = static_cast<std::int32_t>(view.brick.last_sample[i]);
             first_[i] = static_cast<std::int32_t>(view.first[axis]);
@@ -77,7 +78,9 @@ class CellWalk {
     }
 
     // Within a run of a few steps depths and places are floats relative to its beginning. A ray's
-    // steps do not depend on the rays beside it.
+    // steps do not depend on the rays beside it. A run of a lit walk is one step: whether light
+    // that bends is cut changes the picture by more than a rounding does, and so must not depend on
+    // where the walk began.
     HWY_INLINE void begin_run() {
         const FloatTag d;
         const auto place = [](HalfDoubles depth, HalfDoubles direction, HalfDoubles origin)
@@ -127,14 +130,17 @@ class CellWalk {
             }
         }
         Number crossings[3];
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            crossings[axis] = (planes[axis] - place_[axis]) * inverse_[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            crossings[axis] = lit_ ? to_floats(d, precise_crossing(axis, planes[axis]))
+                                   : (planes[axis] - place_[axis]) * inverse_[axis];
+        }
         const Number to =
             max(min(min(crossings[0], crossings[1]), min(crossings[2], run_end_)), at_);
         const StoredLanes lanes = store(cells, leaps, to - at_, parts);
         for (std::size_t axis = 0; axis < 3; ++axis)
             advance(axis, leaps, planes[axis], crossings[axis], to);
         at_ = to;
+        if (lit_) begin_run_at(planes);
         return lanes;
     }
 
@@ -275,6 +281,29 @@ class CellWalk {
                                     place(start.high, depth.high, direction.high, from.high)});
     }
 
+    // How far a plane, counted from the run's first cell, is from where the run began.
+    HWY_INLINE TwoDoubles precise_crossing(std::size_t axis, Number plane) const {
+        const auto crossing = [](HalfDoubles to, HalfDoubles from, HalfDoubles inverse)
+                                  HWY_ATTR { return hn::Mul(hn::Sub(to, from), inverse); };
+        return each_half<FloatTag>(crossing, to_doubles(FloatTag(), plane.v), start_[axis],
+                                   precise_inverse_[axis]);
+    }
+
+    // Begins a run at the nearest of the planes, or where the walk ends.
+    HWY_INLINE void begin_run_at(const Number (&planes)[3]) {
+        const auto nearer = [](HalfDoubles end, HalfDoubles depth, HalfDoubles crossing) HWY_ATTR {
+            return hn::Min(end, hn::Add(depth, hn::Max(crossing, hn::Zero(DoubleTag()))));
+        };
+        TwoDoubles there = end_;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            there =
+                each_half<FloatTag>(nearer, there, depth_, precise_crossing(axis, planes[axis]));
+        }
+        depth_ = there;
+        for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
+        begin_run();
+    }
+
     // Enters the next cell on one axis. After a leap that is where the ray is then; it lies in the
     // cube that was crossed, or behind the plane at which the ray leaves it.
     HWY_INLINE void advance(std::size_t axis, const Leaps& leaps, Number plane, Number crossing,
@@ -297,6 +326,7 @@ class CellWalk {
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     TwoDoubles depth_, end_;
     TwoDoubles direction_[3];
+    TwoDoubles precise_inverse_[3];
     Number slope_[3], inverse_[3];  // the directions in float
     FloatMask forward_[3];          // towards larger indices
     bool lit_ = false;

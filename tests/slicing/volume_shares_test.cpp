@@ -102,6 +102,23 @@ TEST(VolumeShares, OfLitVolumesMakeOnePicture) {
         });
     }
 }
+// Whether light that bends is cut turns on roundings, and shows more than they do: walks must be
+// the same to the last digit wherever they begin.
+TEST(VolumeShares, CutLightThatBendsInTheSamePlaces) {
+    const Volume waves = test::volume_of<std::uint8_t>(
+        test::grid_of({72, 60, 50}, Centering::node), [](double x, double y, double z) {
+            return std::round(120 * (1 + std::sin(.5 * x) * std::cos(.4 * y) * std::sin(.3 * z)));
+        });
+    for (const glm::dvec3& direction : directions) {
+        Scene scene =
+            unit_box_scene(in_view_of(waves, 20, steps), Projection::perspective, 180, 135);
+        scene.slice.classification = Classification::exact;
+        scene.lighting = Lighting{};
+        scene.lighting->smallest_gradient = 1;
+        look_from(waves, direction, 1.2, scene);
+        expect_same_together(waves, scene, "waves");
+    }
+}
 TEST(VolumeShares, OfClippedVolumesMakeOnePicture) {
     for (const auto classification : {Classification::exact, Classification::post}) {
         expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
