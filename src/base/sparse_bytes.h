@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
+#include <span>
 
+#include "base/all_zero.h"
 #include "base/reserved_memory.h"
 
 namespace lamina {
@@ -29,6 +34,22 @@ class SparseBytes {
         const auto code = static_cast<std::uint8_t>(value ^ background_);
         auto* const at = reinterpret_cast<std::uint8_t*>(memory_->data()) + i;
         if (*at != code) *at = code;
+    }
+    // Sets the bytes from `first` on. Pages that get the background alone stay without memory, and
+    // the others are written without being read first, which would map them twice.
+    void set(std::size_t first, std::span<const std::uint8_t> values) {
+        constexpr std::size_t page = 4096;
+        std::array<std::uint8_t, page> codes;
+        auto* const bytes = reinterpret_cast<std::uint8_t*>(memory_->data());
+        while (!values.empty()) {
+            const std::size_t count = std::min(page - first % page, values.size());
+            for (std::size_t i = 0; i < count; ++i)
+                codes[i] = static_cast<std::uint8_t>(values[i] ^ background_);
+            if (!all_zero(codes.data(), count) || !all_zero(bytes + first, count))
+                std::memcpy(bytes + first, codes.data(), count);
+            first += count;
+            values = values.subspan(count);
+        }
     }
 
     // The bytes combined with the background by exclusive or. Three more than size() may be read,

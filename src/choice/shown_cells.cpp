@@ -10,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "choice/large_volume.h"
+#include "volume/range_answers.h"
 #include "volume/volume_store.h"
 #include "volume/with_sample_type.h"
 
@@ -209,11 +210,18 @@ std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBrick
         const std::int64_t count = cells[static_cast<std::size_t>(axis)];
         return plane_at(grid, axis, std::min(brick * edge, count), count);
     };
+    const RangeAnswers<std::uint8_t> shown(bricks.ranges, [&](const ValueRange& range) {
+        return std::uint8_t{!range.empty() && shows(range)};
+    });
     std::vector<std::vector<glm::dvec3>> of_slices(static_cast<std::size_t>(bricks.count[2]));
     parallel_for(bricks.count[2], 1, [&](std::int64_t z) {
+        RangeAnswers<std::uint8_t>::Reader is_shown(shown);
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
             Span row;
-            for_shown_bricks(bricks, y, z, shows, [&](std::int64_t x) { row.include({x, x + 1}); });
+            const auto first =
+                static_cast<std::size_t>((z * bricks.count[1] + y) * bricks.count[0]);
+            for (std::int64_t x = 0; x < bricks.count[0]; ++x)
+                if (is_shown[first + static_cast<std::size_t>(x)] != 0) row.include({x, x + 1});
             if (row.empty()) continue;
             for (int corner = 0; corner < 8; ++corner) {
                 of_slices[static_cast<std::size_t>(z)].push_back(

@@ -14,11 +14,11 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
-#include "facts/range_memo.h"
 #include "facts/world_unit.h"
 #include "optics/curved_pieces.h"
 #include "optics/front_weights.h"
 #include "volume/code_counts.h"
+#include "volume/range_answers.h"
 
 namespace lamina {
 namespace {
@@ -67,16 +67,16 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
     const auto leading = [&](double extinction) {
         return std::bit_cast<std::uint32_t>(static_cast<float>(extinction / unit)) >> rest_bits;
     };
-    const auto key_of = [&](const ValueRange& range) {
+    const RangeAnswers<std::uint32_t> keys(bricks.ranges, [&](const ValueRange& range) {
         return leading(transfer_function.max_extinction(range.lo, range.hi));
-    };
+    });
     const Counts counts =
         count_in_parts(static_cast<std::int64_t>(count), std::size_t{1} << (31 - rest_bits),
                        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
-                           RangeMemo<std::uint32_t> keys;
+                           RangeAnswers<std::uint32_t>::Reader key_of(keys);
                            for (std::int64_t number = first; number < end; ++number) {
                                const auto i = static_cast<std::size_t>(number);
-                               ++into[distance[i] > 0 ? 0 : keys.get(bricks.ranges[i], key_of)];
+                               ++into[distance[i] > 0 ? 0 : key_of[i]];
                            }
                        });
     const auto quantile = [&](double share) {
@@ -136,22 +136,27 @@ void empty_cut_bricks(Facts& facts) {
 
 void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks& bricks,
                    Facts& facts) {
+    constexpr std::uint8_t hidden = OccupiedBricks::farthest;
+    constexpr std::size_t together = 1 << 17;
     OccupiedBricks& occupied = facts.occupied_bricks;
     const double margin = margin_of(facts), faint = faint_extinction(facts);
-    const auto shown = [&](const ValueRange& range) {
-        if (range.empty() || facts.max_extinction == 0) return false;
+    const RangeAnswers<std::uint8_t> distances(bricks.ranges, [&](const ValueRange& range) {
+        if (range.empty() || facts.max_extinction == 0) return hidden;
         const double most = transfer_function.max_extinction(range.lo - margin, range.hi + margin);
-        return most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
-    };
-    occupied = {bricks.count, SparseBytes(bricks.ranges.size(), OccupiedBricks::farthest)};
-    constexpr std::size_t together = 1 << 17;
+        const bool shows =
+            most > faint || (most > 0 && !transfer_function.transparent(range.lo, range.hi));
+        return shows ? std::uint8_t{0} : hidden;
+    });
+    occupied = {bricks.count, SparseBytes(bricks.ranges.size(), hidden)};
     const std::size_t count = bricks.ranges.size();
     parallel_for(static_cast<std::int64_t>((count + together - 1) / together), 1,
                  [&](std::int64_t part) {
                      const std::size_t first = static_cast<std::size_t>(part) * together;
-                     RangeMemo<bool> shows;
-                     for (std::size_t i = first; i < std::min(count, first + together); ++i)
-                         if (shows.get(bricks.ranges[i], shown)) occupied.distance.set(i, 0);
+                     RangeAnswers<std::uint8_t>::Reader distance(distances);
+                     std::vector<std::uint8_t> of_part(std::min(together, count - first));
+                     for (std::size_t i = 0; i < of_part.size(); ++i)
+                         of_part[i] = distance[first + i];
+                     occupied.distance.set(first, of_part);
                  });
     if (!facts.clip.empty()) {
         const bool some = occupied.distance.count(0) > 0;

@@ -54,7 +54,7 @@ class RowSweep {
         }
         for (std::size_t step = 1; step <= longest_step && step < count_; step *= 2)
             row = spread(step);
-        for (std::size_t x = 0; x < count_; ++x) distance_.set(first + x, row[x]);
+        distance_.set(first, {row, count_});
     }
 
   private:

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/parallel.h"
+
 namespace lamina {
 namespace {
 
@@ -21,7 +23,7 @@ PageSpan pages_of_brick(std::int64_t brick, std::int64_t first_sample, std::int6
     return {std::min(from, pages - 1), std::min(to, pages - 1)};
 }
 
-// The bricks on one axis that touch a share.
+// The bricks on one axis that touch a share, or a page.
 struct BrickSpan {
     std::int64_t first, end;
 };
@@ -35,6 +37,34 @@ BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
     };
     return {std::min(brick_at(share->min[axis]), count - 1),
             std::min(brick_at(share->max[axis]) + 1, count)};
+}
+
+// For each page on one axis its bricks among those of `span`; none where first = end.
+std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first_sample,
+                                       std::int64_t pages) {
+    std::vector<BrickSpan> bricks(static_cast<std::size_t>(pages), {0, 0});
+    for (std::int64_t brick = span.first; brick < span.end; ++brick) {
+        const PageSpan touched = pages_of_brick(brick, first_sample, pages);
+        for (std::int64_t page = touched.first; page <= touched.last; ++page) {
+            BrickSpan& of_page = bricks[static_cast<std::size_t>(page)];
+            if (of_page.end == 0) of_page.first = brick;
+            of_page.end = brick + 1;
+        }
+    }
+    return bricks;
+}
+
+bool any_shown(const OccupiedBricks& occupied, const BrickSpan& across, const BrickSpan& along,
+               const BrickSpan& deep) {
+    const std::uint8_t shown = occupied.distance.background();  // the code of 0
+    for (std::int64_t z = deep.first; z < deep.end; ++z) {
+        for (std::int64_t y = along.first; y < along.end; ++y) {
+            const std::uint8_t* const row = occupied.distance.coded() + occupied.place(0, y, z);
+            if (std::find(row + across.first, row + across.end, shown) != row + across.end)
+                return true;
+        }
+    }
+    return false;
 }
 
 // How far a point lies outside each of a view's five planes: behind the eye, and beside the
@@ -55,29 +85,21 @@ std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedB
                                        const std::optional<IndexBox>& share) {
     const BrickCache& cache = *volume.pages();
     const auto& count = cache.count();
-    std::vector<std::uint8_t> shown(cache.brick_count());
-    const auto mark = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
-        const auto span = [&](std::size_t axis, std::int64_t brick) {
-            return pages_of_brick(brick, volume.first_of_pages()[axis], count[axis]);
-        };
-        const PageSpan across = span(0, x), along = span(1, y), deep = span(2, z);
-        for (std::int64_t pz = deep.first; pz <= deep.last; ++pz) {
-            for (std::int64_t py = along.first; py <= along.last; ++py) {
-                for (std::int64_t px = across.first; px <= across.last; ++px)
-                    shown[cache.number(px, py, pz)] = 1;
-            }
-        }
-    };
-    const BrickSpan wide = bricks_of(share, 0, occupied), high = bricks_of(share, 1, occupied),
-                    far = bricks_of(share, 2, occupied);
-    for (std::int64_t z = far.first; z < far.end; ++z) {
-        for (std::int64_t y = high.first; y < high.end; ++y) {
-            const std::size_t row = occupied.place(0, y, z);
-            for (std::int64_t x = wide.first; x < wide.end; ++x) {
-                if (occupied.distance[row + static_cast<std::size_t>(x)] == 0) mark(x, y, z);
-            }
-        }
+    std::array<std::vector<BrickSpan>, 3> bricks;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        bricks[axis] = bricks_of_pages(bricks_of(share, static_cast<int>(axis), occupied),
+                                       volume.first_of_pages()[axis], count[axis]);
     }
+    std::vector<std::uint8_t> shown(cache.brick_count());
+    parallel_for(std::ssize(bricks[2]), 1, [&](std::int64_t z) {
+        for (std::size_t y = 0; y < bricks[1].size(); ++y) {
+            for (std::size_t x = 0; x < bricks[0].size(); ++x) {
+                shown[cache.number(static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), z)] =
+                    any_shown(occupied, bricks[0][x], bricks[1][y],
+                              bricks[2][static_cast<std::size_t>(z)]);
+            }
+        }
+    });
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t page = 0; page < shown.size(); ++page)
         if (shown[page] != 0) numbers.push_back(page);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "base/reserved_memory.h"
@@ -22,9 +23,10 @@ class BrickRanges {
   public:
     BrickRanges() = default;
     BrickRanges(std::size_t count, SampleType type)
-        : count_(count), type_(type), memory_(count * 2 * bytes_of(type)) {}
+        : count_(count), type_(type), memory_(count * 2 * lamina::bytes_of(type)) {}
 
     std::size_t size() const { return count_; }
+    SampleType type() const { return type_; }
     std::size_t byte_count() const { return memory_.size(); }
     std::byte* data() { return memory_.data(); }
     const std::byte* data() const { return memory_.data(); }
@@ -41,6 +43,12 @@ class BrickRanges {
                 return range_as<float>(i);
         }
         __builtin_unreachable();  // there is a case for every value
+    }
+
+    // Of samples of 8 bits: lo + 256 hi.
+    std::size_t bytes_of(std::size_t i) const {
+        const auto* const range = reinterpret_cast<const std::uint8_t*>(memory_.data()) + 2 * i;
+        return range[0] + (std::size_t{range[1]} << 8);
     }
 
     // T: the volume's type.

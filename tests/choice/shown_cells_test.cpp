@@ -8,8 +8,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <random>
 
+#include "base/reserved_memory.h"
 #include "choice/volume_field.h"
 #include "support/volume_of.h"
 
@@ -136,6 +138,34 @@ TEST(ShownCells, AreTheSameForAxesThatAreStoredTheOtherWayRound) {
         EXPECT_EQ(reach_of(one, along).lo, reach_of(other, along).lo);
         EXPECT_EQ(reach_of(one, along).hi, reach_of(other, along).hi);
     }
+}
+
+// Of large volumes (choice/large_volume.h) the corners of bricks are taken. The samples are not
+// looked at.
+TEST(ShownCells, OfLargeVolumesAreBricks) {
+    const Grid grid = test::grid_of({1024, 1024, 258}, Centering::node);
+    const auto samples =
+        std::make_shared<ReservedMemory>(static_cast<std::size_t>(grid.sample_count()));
+    const Volume volume(grid, SampleType::uint8,
+                        std::shared_ptr<const void>(samples, samples->data()));
+    MinMaxBricks bricks = MinMaxBricks::of(grid, SampleType::uint8);
+    const auto show = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+        const std::int64_t brick = (z * bricks.count[1] + y) * bricks.count[0] + x;
+        bricks.ranges.set<std::uint8_t>(static_cast<std::size_t>(brick), 5, 101);
+    };
+    show(7, 30, 2);
+    show(9, 30, 2);
+    show(200, 255, 64);  // the last brick along y and z, which have 1023 and 257 cells
+    const auto points = hull_of_shown_cells(volume, bricks, shows);
+    const auto expect_reach = [&](const glm::dvec3& axis, double lo, double hi) {
+        const Reach reach = reach_of(points, axis);
+        EXPECT_EQ(reach.lo, lo);
+        EXPECT_EQ(reach.hi, hi);
+    };
+    expect_reach({1, 0, 0}, 7 * 4, 201 * 4);
+    expect_reach({0, 1, 0}, 30 * 4, 1023);
+    expect_reach({0, 0, 1}, 2 * 4, 257);
+    EXPECT_EQ(points.size(), 16u);
 }
 
 }  // namespace

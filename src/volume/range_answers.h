@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "volume/min_max_bricks.h"
+
+namespace lamina {
+
+// Answers of a slow function of the ranges of bricks. Samples of 8 bits have few different ranges:
+// of many bricks all are answered at once. Otherwise answers are remembered for a while, since
+// holes of any type have one range.
+template <typename Answer>
+class RangeAnswers {
+    static_assert(!std::is_same_v<Answer, bool>);  // threads cannot set bits of a vector
+  public:
+    using Compute = std::function<Answer(const ValueRange&)>;
+
+    // `ranges` must outlive this.
+    RangeAnswers(const BrickRanges& ranges, Compute compute)
+        : ranges_(ranges), compute_(std::move(compute)) {
+        if (ranges.type() == SampleType::uint8 && ranges.size() > many) answer_all();
+    }
+
+    // Answers for bricks, for one thread.
+    class Reader {
+      public:
+        explicit Reader(const RangeAnswers& answers) : answers_(answers) {
+            if (answers.of_bytes_.empty()) remembered_.resize(std::size_t{1} << address_bits);
+        }
+
+        Answer operator[](std::size_t brick) {
+            if (remembered_.empty()) return answers_.of_bytes_[answers_.ranges_.bytes_of(brick)];
+            const BrickRange range = answers_.ranges_[brick];
+            const auto bits = [](float value) {
+                return std::uint64_t{std::bit_cast<std::uint32_t>(value)};
+            };
+            const std::uint64_t mixed =
+                (bits(range.lo) << 32 | bits(range.hi)) * 0x9e3779b97f4a7c15u;  // 2^64 / phi
+            Remembered& entry = remembered_[mixed >> (64 - address_bits)];
+            if (entry.range.lo != range.lo || entry.range.hi != range.hi)
+                entry = {range, answers_.compute_(ValueRange{range.lo, range.hi})};
+            return entry.answer;
+        }
+
+      private:
+        static constexpr int address_bits = 12;
+
+        struct Remembered {
+            BrickRange range{std::numeric_limits<float>::quiet_NaN(), 0};  // equal to no other
+            Answer answer{};
+        };
+        const RangeAnswers& answers_;
+        std::vector<Remembered> remembered_;
+    };
+
+  private:
+    static constexpr std::size_t many = 1 << 20;
+    static constexpr int values = 256;
+
+    void answer_all() {
+        of_bytes_.resize(std::size_t{values} * values);
+        parallel_for(values, 1, [&](std::int64_t hi) {
+            for (std::int64_t lo = 0; lo <= hi; ++lo) {
+                of_bytes_[static_cast<std::size_t>(lo + values * hi)] =
+                    compute_({static_cast<double>(lo), static_cast<double>(hi)});
+            }
+        });
+    }
+
+    const BrickRanges& ranges_;
+    Compute compute_;
+    std::vector<Answer> of_bytes_;  // lo + 256 hi; empty where there are too many ranges
+};
+
+}  // namespace lamina

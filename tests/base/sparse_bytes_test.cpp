@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/sparse_bytes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+namespace lamina {
+namespace {
+
+// Runs of any length, across pages or not, over what was set before.
+TEST(SparseBytes, HoldWhatWasSetLast) {
+    constexpr std::size_t size = 20000;
+    constexpr std::uint8_t background = 63;
+    SparseBytes bytes(size, background);
+    std::vector<std::uint8_t> expected(size, background);
+    std::mt19937 random(3);
+    for (int round = 0; round < 200; ++round) {
+        const std::size_t first = random() % size;
+        std::vector<std::uint8_t> run(std::min<std::size_t>(1 + random() % 9000, size - first));
+        const bool empty = round % 3 == 0;
+        for (std::uint8_t& byte : run)
+            byte = empty ? background : static_cast<std::uint8_t>(random() % 256);
+        bytes.set(first, run);
+        std::ranges::copy(run, expected.begin() + static_cast<std::ptrdiff_t>(first));
+        const std::size_t single = random() % size;
+        bytes.set(single, expected[single] = static_cast<std::uint8_t>(random() % 256));
+    }
+    for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(bytes[i], expected[i]) << i;
+    EXPECT_EQ(bytes.count(background), std::ranges::count(expected, background));
+}
+
+}  // namespace
+}  // namespace lamina
