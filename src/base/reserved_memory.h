@@ -9,7 +9,9 @@ namespace lamina {
 class ReservedMemory {
   public:
     ReservedMemory() = default;
-    explicit ReservedMemory(std::size_t bytes);
+    // sparse: a byte here and there. dense: from the beginning on.
+    enum class Filling { sparse, dense };
+    explicit ReservedMemory(std::size_t bytes, Filling filling = Filling::sparse);
     ReservedMemory(ReservedMemory&& other) noexcept { swap(other); }
     ReservedMemory& operator=(ReservedMemory&& other) noexcept {
         swap(other);

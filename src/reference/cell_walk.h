@@ -40,8 +40,20 @@ class CellWalk {
     // to. It ends early where visit returns false.
     template <typename Visit>
     void run(const Visit& visit) {
+        run(visit, [](const CellIndex&, CellIndex&, CellIndex&) { return false; });
+    }
+
+    // The same without cells where nothing is to be visited: hidden(cell, first, last) says whether
+    // that is so of all cells from `first` to `last`, which it sets, around a cell.
+    template <typename Visit, typename Hidden>
+    void run(const Visit& visit, const Hidden& hidden) {
         double from = 0;
+        CellIndex first, last_hidden;
         while (true) {
+            if (hidden(cell_, first, last_hidden)) {
+                if (!leave(first, last_hidden, from)) return;
+                continue;
+            }
             const int axis = nearest_axis();
             const bool last = !(crossing_[axis] < chord_.length_z);
             const double to = last ? chord_.length_z : crossing_[axis];
@@ -54,6 +66,43 @@ class CellWalk {
     }
 
   private:
+    // Goes on from `from` to where the chord leaves a box of cells; false where it ends before.
+    bool leave(const CellIndex& first, const CellIndex& last, double& from) {
+        int leaving = -1;
+        double to = chord_.length_z;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double d = chord_.direction[axis];
+            if (d == 0) continue;
+            const std::int64_t end =
+                d < 0 ? std::max(first[axis], final_[axis]) : std::min(last[axis], final_[axis]);
+            if (end == final_[axis]) continue;
+            const double crossing =
+                (static_cast<double>(end + (d > 0 ? 1 : 0)) - chord_.entry[axis]) / d;
+            if (crossing < to) {
+                to = crossing;
+                leaving = axis;
+            }
+        }
+        if (leaving < 0) return false;
+        from = std::max(from, to);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double d = chord_.direction[axis];
+            if (axis == leaving) {
+                cell_[axis] = d < 0 ? first[axis] - 1 : last[axis] + 1;
+            } else if (d != 0) {
+                // Roundings may take it a cell too far, but not out of the box.
+                const double place = chord_.entry[axis] + to * d;
+                const auto there =
+                    static_cast<std::int64_t>(d < 0 ? std::ceil(place) - 1 : std::floor(place));
+                cell_[axis] =
+                    d < 0 ? std::clamp(there, std::max(first[axis], final_[axis]), cell_[axis])
+                          : std::clamp(there, cell_[axis], std::min(last[axis], final_[axis]));
+            }
+            crossing_[axis] = next_crossing(axis);
+        }
+        return true;
+    }
+
     int nearest_axis() const {
         if (crossing_[0] <= crossing_[1]) return crossing_[0] <= crossing_[2] ? 0 : 2;
         return crossing_[1] <= crossing_[2] ? 1 : 2;

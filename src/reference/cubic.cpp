@@ -30,8 +30,10 @@ double solve_monotone(const Cubic& cubic, double value, double from, double to) 
     Cubic shifted = cubic;
     shifted.c[0] -= value;
     double below = from, above = to;  // where the shifted cubic is negative and positive
-    if (shifted(from) > shifted(to)) std::swap(below, above);
-    double t = 0.5 * (from + to);
+    const double at_from = shifted(from), at_to = shifted(to);
+    if (at_from > at_to) std::swap(below, above);
+    double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight
+    if (!(t > from && t < to)) t = 0.5 * (from + to);
     double step = std::abs(to - from), previous_step = step;
     constexpr int most_steps = 200;
     for (int i = 0; i < most_steps; ++i) {

@@ -18,10 +18,11 @@ constexpr double termination_share = 1e-3;
 
 EmissionPiece make_piece(const TransferInterval& interval, const Cubic& scalar, double length) {
     EmissionPiece piece;
-    piece.position.c[0] = (scalar.c[0] - interval.lo) / interval.width;
+    const double inverse = interval.inverse_width;
+    piece.position.c[0] = (scalar.c[0] - interval.lo) * inverse;
     piece.extinction.c[0] = interval.extinction(scalar.c[0]) * length;
     for (std::size_t i = 1; i < 4; ++i) {
-        piece.position.c[i] = scalar.c[i] / interval.width;
+        piece.position.c[i] = scalar.c[i] * inverse;
         piece.extinction.c[i] = interval.extinction_change * piece.position.c[i] * length;
     }
     return piece;
@@ -47,7 +48,9 @@ RayIntegrator::RayIntegrator(const TransferIntervals& transfer, double tolerance
                                                  : transfer.brightest())),
       depth_limit_(std::log(brightest_ / (termination_share * tolerance))),
       error_per_opacity_(tolerance / 4),
-      error_per_length_(tolerance / 4 / ray_length) {}
+      error_per_length_(tolerance / 4 / ray_length) {
+    batch_.error_of_opacity = error_per_opacity_;
+}
 
 void RayIntegrator::add(const Cubic& scalar, const GradientAlong* gradient, double lo, double hi,
                         double length) {
@@ -55,7 +58,7 @@ void RayIntegrator::add(const Cubic& scalar, const GradientAlong* gradient, doub
         return add_piece(transfer_[transfer_.above(scalar.c[0])], scalar, gradient, length);
     }
     const std::size_t interval = transfer_.above(lo);
-    if (interval >= transfer_.below(hi))
+    if (interval == transfer_.knot_count() || hi <= transfer_.knot(interval))
         return add_piece(transfer_[interval], scalar, gradient, length);
     add_split(scalar, gradient, length);
 }
@@ -103,17 +106,24 @@ void RayIntegrator::add_piece(const TransferInterval& interval, const Cubic& sca
     ++pieces_;
     const EmissionPiece piece = make_piece(interval, scalar, length);
     const double depth = std::max(0.0, piece.depth(1));
-    const double transmittance = std::exp(-depth_.value());
-    color_ += transmittance * opacity_from_depth(depth) * interval.at_lo.color;
-    const double reach = transmittance * interval.color_span;
-    if (reach > 0) {
-        const EmissionIntegral emission = integrate_emission(
-            piece, error_per_length_ * length / reach, error_per_opacity_ / interval.color_span);
-        color_ += transmittance * emission.value * interval.color_change;
-        error_ += reach * emission.error;
-    }
+    intervals_[batch_.count] = &interval;
+    batch_.add(piece, depth_.value(), depth, error_per_length_ * length, interval.color_span);
     if (gradient != nullptr) add_light(interval, piece, *gradient, length);
     depth_.add(depth);
+    if (batch_.count == EmissionBatch::capacity) finish_batch();
+}
+
+void RayIntegrator::finish_batch() {
+    integrate_emission(batch_);
+    for (std::size_t i = 0; i < batch_.count; ++i) {
+        const TransferInterval& interval = *intervals_[i];
+        const double transmittance = batch_.transmittance[i];
+        color_ += transmittance * batch_.opacity[i] * interval.at_lo.color;
+        if (!(transmittance * interval.color_span > 0)) continue;
+        color_ += transmittance * batch_.value[i] * interval.color_change;
+        error_ += transmittance * interval.color_span * batch_.error[i];
+    }
+    batch_.count = 0;
 }
 
 void RayIntegrator::add_light(const TransferInterval& interval, const EmissionPiece& emission,
@@ -126,7 +136,8 @@ void RayIntegrator::add_light(const TransferInterval& interval, const EmissionPi
     light_error_ += transmittance * light.error;
 }
 
-glm::dvec3 RayIntegrator::color() const {
+glm::dvec3 RayIntegrator::color() {
+    finish_batch();
     return glm::max(color_ + light_,
                     glm::dvec3(0));  // rounding may leave -1e-17 of a colour that fades to 0
 }
@@ -135,7 +146,8 @@ double RayIntegrator::alpha() const {
     return opacity_from_depth(depth_.value());
 }
 
-double RayIntegrator::error_estimate() const {
+double RayIntegrator::error_estimate() {
+    finish_batch();
     return error_ + light_error_ + hidden();
 }
 

@@ -8,6 +8,7 @@
 #include "base/compensated_sum.h"
 #include "optics/ray_lights.h"
 #include "reference/cubic.h"
+#include "reference/emission_batch.h"
 #include "reference/emission_integral.h"
 #include "reference/gradient_samples.h"
 #include "reference/transfer_intervals.h"
@@ -39,14 +40,15 @@ class RayIntegrator {
     // Whether all that follows is hidden, so that no more segments need to be added.
     bool opaque() const { return depth_.value() >= depth_limit_; }
 
-    glm::dvec3 color() const;  // associated
+    glm::dvec3 color();  // associated
     double alpha() const;
     double optical_depth() const { return depth_.value(); }
     // Error of the worst channel, from quadrature and early termination.
-    double error_estimate() const;
+    double error_estimate();
     std::int64_t pieces() const { return pieces_; }
 
-    // The share of light in color(), which may be negative, and in error_estimate().
+    // The share of light in color(), which may be negative, and in error_estimate(). What is asked
+    // for nothing else does not integrate emission.
     const glm::dvec3& light() const { return light_; }
     double light_error() const { return light_error_ + hidden(); }
 
@@ -61,6 +63,7 @@ class RayIntegrator {
                    const GradientAlong* gradient, double length);
     void add_light(const TransferInterval& interval, const EmissionPiece& emission,
                    const GradientAlong& gradient, double length);
+    void finish_batch();
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const TransferIntervals& transfer_;
@@ -75,6 +78,8 @@ class RayIntegrator {
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;
+    EmissionBatch batch_;  // of the last pieces, which are not in color_ and error_
+    const TransferInterval* intervals_[EmissionBatch::capacity];
 };
 
 }  // namespace lamina

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -20,7 +22,8 @@ TransferInterval between(const TransferKnot& a, const TransferKnot& b) {
     TransferInterval interval;
     interval.lo = a.value;
     interval.hi = b.value;
-    interval.width = b.value - a.value;
+    constexpr double largest_inverse = 1e300;  // of a step, which no value lies between
+    interval.inverse_width = std::min(1 / (b.value - a.value), largest_inverse);
     interval.at_lo = a.optics;
     interval.at_lo.extinction = std::min(a.optics.extinction, largest_extinction);
     interval.color_change = b.optics.color - a.optics.color;
@@ -33,7 +36,8 @@ TransferInterval between(const TransferKnot& a, const TransferKnot& b) {
 
 TransferInterval outside(const TransferKnot& knot) {
     TransferInterval interval = between(knot, knot);
-    interval.hi = interval.lo + (interval.width = 1);
+    interval.hi = interval.lo + 1;
+    interval.inverse_width = 1;
     return interval;
 }
 
@@ -49,6 +53,27 @@ TransferIntervals::TransferIntervals(const TransferFunction& transfer_function) 
                                                   : outside(knots[i]));
     }
     find_visible();
+    count_knots_below();
+}
+
+void TransferIntervals::count_knots_below() {
+    const double first = knots_.front(), range = knots_.back() - first;
+    const std::size_t bins = 8 * knots_.size();
+    bins_per_unit_ = static_cast<double>(bins) / range;
+    if (!std::isfinite(bins_per_unit_) || !(bins_per_unit_ > 0)) bins_per_unit_ = 0;
+    // Roundings may put a value into the bin beside its own.
+    for (std::size_t bin = 0; bins_per_unit_ > 0 && bin <= bins; ++bin) {
+        const double begin = first + (static_cast<double>(bin) - 1) / bins_per_unit_;
+        const auto at = std::ranges::lower_bound(knots_, begin);
+        knots_below_.push_back(static_cast<std::uint32_t>(at - knots_.begin()));
+    }
+}
+
+std::size_t TransferIntervals::knots_surely_below(double value) const {
+    const double bin = (value - knots_.front()) * bins_per_unit_;
+    if (!(bin >= 1)) return 0;
+    return knots_below_[std::min(static_cast<std::size_t>(std::min(bin, 1e9)),
+                                 knots_below_.size() - 1)];
 }
 
 void TransferIntervals::find_visible() {
@@ -65,14 +90,25 @@ void TransferIntervals::find_visible() {
     }
 }
 
+// Of those that are `beyond` the value. It is mostly one of the next few in the value's bin.
+template <typename Beyond>
+std::size_t TransferIntervals::first_knot(double value, const Beyond& beyond) const {
+    constexpr std::size_t next_few = 4;
+    std::size_t knot = knots_surely_below(value);
+    for (std::size_t i = 0; i < next_few; ++i, ++knot)
+        if (knot == knots_.size() || beyond(knots_[knot])) return knot;
+    return static_cast<std::size_t>(
+        std::partition_point(knots_.begin() + static_cast<std::ptrdiff_t>(knot), knots_.end(),
+                             std::not_fn(beyond)) -
+        knots_.begin());
+}
+
 std::size_t TransferIntervals::above(double value) const {
-    return static_cast<std::size_t>(std::upper_bound(knots_.begin(), knots_.end(), value) -
-                                    knots_.begin());
+    return first_knot(value, [&](double knot) { return knot > value; });
 }
 
 std::size_t TransferIntervals::below(double value) const {
-    return static_cast<std::size_t>(std::lower_bound(knots_.begin(), knots_.end(), value) -
-                                    knots_.begin());
+    return first_knot(value, [&](double knot) { return knot >= value; });
 }
 
 bool TransferIntervals::visible(double lo, double hi) const {

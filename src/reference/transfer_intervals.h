@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -10,12 +11,12 @@
 namespace lamina {
 
 // A transfer function between two neighbouring knots, where colour and extinction are linear in the
-// position x = (value - lo) / width, 0 <= x <= 1. Outside the outermost knots both are constant
-// (changes = 0).
+// position x = (value - lo) * inverse_width, 0 <= x <= 1. Outside the outermost knots both are
+// constant (changes = 0).
 struct TransferInterval {
     double lo = 0;
     double hi = 1;
-    double width = 1;
+    double inverse_width = 1;
     OpticalProperties at_lo;
     glm::dvec3 color_change{0};
     double extinction_change = 0;
@@ -25,7 +26,7 @@ struct TransferInterval {
     // Computed from the nearer knot, so that few digits are lost where a steep interval ends at
     // extinction 0.
     double extinction(double value) const {
-        const double from_lo = (value - lo) / width, from_hi = (hi - value) / width;
+        const double from_lo = (value - lo) * inverse_width, from_hi = (hi - value) * inverse_width;
         const double result = from_lo < from_hi ? at_lo.extinction + extinction_change * from_lo
                                                 : (at_lo.extinction + extinction_change) -
                                                       extinction_change * from_hi;
@@ -53,6 +54,10 @@ class TransferIntervals {
 
   private:
     void find_visible();
+    void count_knots_below();
+    std::size_t knots_surely_below(double value) const;
+    template <typename Beyond>
+    std::size_t first_knot(double value, const Beyond& beyond) const;
 
     struct Range {
         double lo, hi;
@@ -60,6 +65,9 @@ class TransferIntervals {
     std::vector<double> knots_;
     std::vector<TransferInterval> intervals_;
     std::vector<Range> visible_;  // sorted, disjoint
+    // The knots' range in equal bins: below all values of a bin lie this many knots at least.
+    std::vector<std::uint32_t> knots_below_;
+    double bins_per_unit_ = 0;
     double brightest_ = 0;
 };
 

@@ -15,6 +15,7 @@
 #include "reference/ray_integrator.h"
 #include "reference/transfer_intervals.h"
 #include "reference/trilinear.h"
+#include "reference/visible_blocks.h"
 
 namespace lamina {
 namespace {
@@ -23,17 +24,19 @@ namespace {
 template <typename Samples>
 struct Traced {
     Traced(const Volume& volume, const Samples& first_sample, const TransferIntervals& intervals,
-           const TraceOptions& how)
+           const VisibleBlocks& visible_blocks, const TraceOptions& how)
         : grid(volume.grid()),
           samples(grid, first_sample),
           gradients(grid, first_sample),
           transfer(intervals),
+          blocks(visible_blocks),
           options(how) {}
 
     const Grid& grid;
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
+    const VisibleBlocks& blocks;
     const TraceOptions& options;
 };
 
@@ -69,10 +72,14 @@ TracedRay trace_ray(const Traced<Samples>& traced, const View::Ray& ray) {
     if (traced.options.lighting) lights.emplace(*traced.options.lighting, -ray.direction);
     RayIntegrator integrator(traced.transfer, traced.options.tolerance, chord.world_length(),
                              lights ? &*lights : nullptr);
-    CellWalk(traced.grid, chord).run([&](const CellIndex& cell, double from, double to) {
+    const auto visit = [&](const CellIndex& cell, double from, double to) {
         add_cell(traced, chord, cell, from, to, integrator);
         return !integrator.opaque();
-    });
+    };
+    const auto hidden = [&](const CellIndex& cell, CellIndex& first, CellIndex& last) {
+        return traced.blocks.hidden(cell, first, last);
+    };
+    CellWalk(traced.grid, chord).run(visit, hidden);
     return {glm::dvec4(integrator.color(), integrator.alpha()), integrator.error_estimate(),
             integrator.pieces()};
 }
@@ -99,6 +106,14 @@ TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const Pic
     return totals;
 }
 
+// Blocks take a look at every sample, and rays one at most of the cells that they cross.
+bool worth_blocks(const Volume& volume, const View& view) {
+    const std::array<std::int64_t, 3>& size = volume.grid().size;
+    const std::int64_t pixels = std::int64_t{view.width} * view.height;
+    return volume.in_memory() &&
+           volume.grid().sample_count() / (size[0] + size[1] + size[2]) <= pixels;
+}
+
 }  // namespace
 
 TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_function,
@@ -106,10 +121,12 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
     check(options);
     TraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals transfer(transfer_function);
+    const VisibleBlocks blocks =
+        worth_blocks(volume, view) ? VisibleBlocks(volume, transfer) : VisibleBlocks();
     const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
     std::vector<TileTotals> totals(tiles.size());
     visit_samples(volume, [&](const auto& first_sample) {
-        const Traced traced(volume, first_sample, transfer, options);
+        const Traced traced(volume, first_sample, transfer, blocks, options);
         const auto trace = [&](const PictureTile& tile, std::size_t number) {
             totals[number] = trace_tile(traced, view, tile, result.image);
         };
@@ -131,7 +148,8 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     std::vector<TracedRay> rays(pixels.size());
     Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
     visit_samples(volume, [&](const auto& first_sample) {
-        const Traced traced(volume, first_sample, transfer, options);
+        const VisibleBlocks all;
+        const Traced traced(volume, first_sample, transfer, all, options);
         parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
             const auto i = static_cast<std::size_t>(number);
             rays[i] = trace_ray(traced, view.ray(pixels[i].x, pixels[i].y));

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/filled_memory.h"
 #include "base/parallel.h"
 #include "facts/drawn_range.h"
 #include "slicing/texture_bricks.h"
@@ -85,11 +86,14 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
     const std::int64_t bytes = brick.layout == TileLayout::bytes   ? count
                                : brick.layout == TileLayout::words ? 2 * count
                                                                    : 4 * count;
-    std::vector<std::uint32_t>& copy = copies_.emplace_back();
-    copy.resize(static_cast<std::size_t>((bytes + 3) / 4));
-    brick.samples = copy.data();
-    brick.last_word = static_cast<std::int32_t>(std::min<std::int64_t>(
-        4 * static_cast<std::int64_t>(copy.size()) - 4, std::numeric_limits<std::int32_t>::max()));
+    const std::int64_t words = (bytes + 3) / 4;
+    auto* const copy = static_cast<std::uint32_t*>(
+        copies_.emplace_back(filled_memory(4 * static_cast<std::size_t>(words))).get());
+    copy[words - 1] = 0;  // rows may end before it does
+    copied_bytes_ += 4 * words;
+    brick.samples = copy;
+    brick.last_word = static_cast<std::int32_t>(
+        std::min<std::int64_t>(4 * words - 4, std::numeric_limits<std::int32_t>::max()));
     volume_.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
         for_each_row(part, [&](std::int64_t y, std::int64_t z) {
@@ -97,16 +101,16 @@ void TileVolume::copy_brick(const TextureBrick& part, TileBrick& brick) {
             const Sample* const row = samples + own.first;
             const std::int64_t place = (z * part.size[1] + y) * part.size[0];
             if (brick.layout != TileLayout::floats) {
-                std::memcpy(reinterpret_cast<std::byte*>(copy.data()) +
+                std::memcpy(reinterpret_cast<std::byte*>(copy) +
                                 static_cast<std::size_t>(place) * sizeof(Sample),
                             row, static_cast<std::size_t>(part.size[0]) * sizeof(Sample));
                 return;
             }
             for (std::int64_t x = own.begin; x < own.end; ++x) {
-                copy[static_cast<std::size_t>(place + x)] =
+                copy[place + x] =
                     std::bit_cast<std::uint32_t>(normalised_sample(row[x - own.begin], range_));
             }
-            own.repeat_ends(copy.data() + place, part.size[0]);
+            own.repeat_ends(copy + place, part.size[0]);
         });
     });
 }
@@ -118,10 +122,9 @@ bool TileVolume::serves(const Volume& volume, const ValueRange& range,
 }
 
 std::int64_t TileVolume::byte_count() const {
-    std::int64_t bytes = 0;
+    std::int64_t bytes = copied_bytes_;
     for (const auto& map : gradients_)
         bytes += static_cast<std::int64_t>(sizeof(StoredGradient) * map.size());
-    for (const auto& copy : copies_) bytes += static_cast<std::int64_t>(4 * copy.size());
     if (cache_ != nullptr) bytes += static_cast<std::int64_t>(cache_->resident_bytes());
     return bytes;
 }

@@ -95,7 +95,8 @@ class TileVolume {
     std::vector<TextureBrick> parts_;
     bool float_texture_;
     bool lit_;
-    std::vector<std::vector<std::uint32_t>> copies_;
+    std::vector<std::shared_ptr<void>> copies_;
+    std::int64_t copied_bytes_ = 0;
     std::vector<std::vector<StoredGradient>> gradients_;  // where the plan is lit
     std::vector<TileBrick> bricks_;
     // The pages of a volume that is not in memory: the store's own bricks where their form is the

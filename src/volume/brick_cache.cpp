@@ -37,7 +37,7 @@ BrickCache::BrickCache(const std::array<std::int64_t, 3>& size, std::size_t bric
     used_ = std::vector<std::atomic<std::uint32_t>>(bricks);
     // Address space alone: bricks take memory when they are read.
     const std::uint64_t most = std::max(memory_limit() + own_memory, fewest_bytes());
-    memory_ = ReservedMemory(std::min(bricks * brick_bytes_, most));
+    memory_ = ReservedMemory(std::min(bricks * brick_bytes_, most), ReservedMemory::Filling::dense);
     set_capacity(0);
 }
 

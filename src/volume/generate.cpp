@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/filled_memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/unreachable.h"
@@ -131,8 +130,7 @@ Volume generate(const GeneratorRequest& request) {
     const auto generator = entry_of(request.name).make(grid.size);
     const std::size_t bytes =
         static_cast<std::size_t>(grid.sample_count()) * bytes_of(request.type);
-    const std::shared_ptr<void> samples(std::malloc(bytes), &std::free);
-    if (!samples) throw std::bad_alloc();
+    const std::shared_ptr<void> samples = filled_memory(bytes);
     Progress progress("generating " + request.name, grid.size[2]);
     fill_slices(*generator, grid, request.type, 0, grid.size[2], samples.get(), progress);
     return Volume(grid, request.type, samples);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/filled_memory.h"
 #include "base/interrupt.h"
 #include "volume_files/dicom_elements.h"
 #include "volume_files/dicom_series.h"
@@ -39,7 +40,7 @@ class SliceReader {
         samples_.type = scales_alike_ ? type_ : ValueType::float32;
         const std::size_t bytes = stored_bytes(series_.name, axes, bytes_of(samples_.type));
         if (line != nullptr) line->allow_bytes(bytes);
-        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : sample_memory(bytes);
+        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
         std::size_t done = 0;
         for (const DicomImage& slice : series_.slices) {
             check_interrupt();

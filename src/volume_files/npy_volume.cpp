@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file_bytes.h"
+#include "base/filled_memory.h"
 #include "base/parallel.h"
 #include "image/npy_header.h"
 #include "volume_files/plain_grid.h"
@@ -37,7 +38,7 @@ std::shared_ptr<void> turned(const void* stored, const std::array<std::int64_t, 
     const auto* const from = static_cast<const T*>(stored);
     const auto [nx, ny, nz] = size;
     std::shared_ptr<void> memory =
-        sample_memory(static_cast<std::size_t>(nx * ny * nz) * sizeof(T));
+        filled_memory(static_cast<std::size_t>(nx * ny * nz) * sizeof(T));
     auto* const to = static_cast<T*>(memory.get());
     parallel_for(ny, 1, [&, nx = nx, ny = ny, nz = nz](std::int64_t y) {
         for (std::int64_t z = 0; z < nz; ++z)

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/filled_memory.h"
 #include "base/warning.h"
 #include "volume_files/bzip2_reader.h"
 #include "volume_files/file_reader.h"
@@ -70,7 +71,7 @@ StoredSamples StoredReader::read() const {
     if (data_.encoding == DataEncoding::ascii) {
         samples.bytes = taken(text_samples());
     } else {
-        samples.bytes = sample_memory(taken_bytes(name_, data_.axes, bytes_of(data_.type)));
+        samples.bytes = filled_memory(taken_bytes(name_, data_.axes, bytes_of(data_.type)));
         const std::unique_ptr<ByteReader> reader = open_all();
         read_taken(*reader, data_.axes, bytes_of(data_.type), samples.bytes.get());
         warn_of_surplus(*reader);
@@ -173,7 +174,7 @@ std::unique_ptr<ByteReader> StoredReader::open_all() const {
 
 // All samples of the files, whatever is taken of them.
 std::shared_ptr<void> StoredReader::text_samples() const {
-    std::shared_ptr<void> all = sample_memory(bytes_);
+    std::shared_ptr<void> all = filled_memory(bytes_);
     auto* to = static_cast<char*>(all.get());
     for (const Path& path : data_.files) {
         const OpenedFile file = open(path);
@@ -188,7 +189,7 @@ std::shared_ptr<void> StoredReader::text_samples() const {
 std::shared_ptr<void> StoredReader::taken(std::shared_ptr<void> all) const {
     const std::size_t bytes = taken_bytes(name_, data_.axes, bytes_of(data_.type));
     if (bytes == bytes_) return all;
-    std::shared_ptr<void> some = sample_memory(bytes);
+    std::shared_ptr<void> some = filled_memory(bytes);
     MemoryReader reader({static_cast<const char*>(all.get()), bytes_}, name_);
     read_taken(reader, data_.axes, bytes_of(data_.type), some.get());
     return some;

@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <limits>
 #include <mutex>
-#include <new>
 #include <type_traits>
 #include <utility>
 
+#include "base/filled_memory.h"
 #include "base/parallel.h"
 #include "base/warning.h"
 
@@ -135,7 +135,7 @@ void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t 
 template <typename Make>
 std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Make& make) {
     const std::shared_ptr<void> memory =
-        sample_memory(static_cast<std::size_t>(count) * bytes_of(type));
+        filled_memory(static_cast<std::size_t>(count) * bytes_of(type));
     const auto fill = [&](auto* to) {
         for_parts(count, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t i = begin; i < end; ++i)
@@ -171,7 +171,7 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples) {
             return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
     }
     const std::shared_ptr<void> memory =
-        sample_memory(static_cast<std::size_t>(count) * sizeof(float));
+        filled_memory(static_cast<std::size_t>(count) * sizeof(float));
     warn_of(round_samples(from, count, static_cast<float*>(memory.get())), samples, count);
     return Volume(grid, SampleType::float32, memory);
 }
@@ -198,12 +198,6 @@ Volume scaled(const Grid& grid, const StoredSamples& samples) {
 }
 
 }  // namespace
-
-std::shared_ptr<void> sample_memory(std::size_t bytes) {
-    std::shared_ptr<void> memory(std::malloc(bytes), &std::free);
-    if (!memory) throw std::bad_alloc();
-    return memory;
-}
 
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes) {
     if (word_bytes == 1) return;

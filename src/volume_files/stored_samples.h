@@ -21,10 +21,6 @@ struct StoredSamples {
     double offset = 0;
 };
 
-// Memory for so many bytes; malloc() does not zero it: gigabytes are filled right afterwards.
-// Throws std::bad_alloc.
-std::shared_ptr<void> sample_memory(std::size_t bytes);
-
 // Turns round the bytes of each of `count` words of 1, 2, 4 or 8 bytes: on all cores, or in this
 // thread alone.
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file_bytes.h"
+#include "base/filled_memory.h"
 #include "base/interrupt.h"
 #include "base/warning.h"
 #include "volume_files/folder_files.h"
@@ -70,7 +71,7 @@ class TiffStack {
         const std::size_t word = bytes_of(page_.type);
         StoredSamples samples{name_, page_.type, nullptr};
         check_capacity(word);
-        samples.bytes = sample_memory(stored_bytes(name_, sizes, word));
+        samples.bytes = filled_memory(stored_bytes(name_, sizes, word));
         auto* to = static_cast<char*>(samples.bytes.get());
         const bool by_page = axes_.channels > 1;
         const std::int64_t first =

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file_bytes.h"
+#include "base/filled_memory.h"
 #include "base/warning.h"
 #include "mesh_files/vtu_file.h"
 #include "volume_files/grid_check.h"
@@ -180,7 +181,7 @@ class ImageFile {
         axes.insert(axes.begin(), channel);
         if (piece == pieces_[0]) say_taken(what, axes);
         const std::size_t word = bytes_of(values->type);
-        samples.bytes = sample_memory(taken_bytes(what, axes, word));
+        samples.bytes = filled_memory(taken_bytes(what, axes, word));
         MemoryReader reader(values->bytes.text(), what);
         read_taken(reader, axes, word, samples.bytes.get());
         return samples;
@@ -207,7 +208,7 @@ class ImageFile {
             const std::size_t word = bytes_of(part.type);
             if (!all.bytes) {
                 const StoredAxis axes[] = {size[0], size[1], size[2]};
-                all = {part.file, part.type, sample_memory(stored_bytes(part.file, axes, word))};
+                all = {part.file, part.type, filled_memory(stored_bytes(part.file, axes, word))};
             }
             if (part.type != all.type) {
                 fail("{}: found {} and {} in its pieces, expected one type", part.file,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/filled_memory.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
 #include "base/warning.h"
@@ -119,7 +120,7 @@ PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRe
 std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
     chunks.expect_all();
     const std::size_t bytes = chunks.selected_bytes();
-    const std::shared_ptr<void> memory = sample_memory(bytes);
+    const std::shared_ptr<void> memory = filled_memory(bytes);
     const auto& size = chunks.size();
     const SampleBox whole{{0, 0, 0}, {size[2], size[1], size[0]}};
     parallel_for(chunks.count(), 1, [&](std::int64_t chunk) {

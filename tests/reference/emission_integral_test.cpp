@@ -5,11 +5,23 @@
 
 #include "fixtures.h"
 #include "optics/segment_integral.h"
+#include "reference/emission_batch.h"
 
 namespace lamina {
 namespace {
 
 using reference_test::Random;
+
+// Extinction is `strength` times the position.
+EmissionPiece random_piece(Random& random, double strength) {
+    // Bernstein coefficients in [0, 1] keep the cubic there.
+    const double b0 = random.uniform(), b1 = random.uniform(), b2 = random.uniform(),
+                 b3 = random.uniform();
+    EmissionPiece piece;
+    piece.position.c = {b0, 3 * (b1 - b0), 3 * (b2 - 2 * b1 + b0), b3 - 3 * b2 + 3 * b1 - b0};
+    for (std::size_t n = 0; n < 4; ++n) piece.extinction.c[n] = strength * piece.position.c[n];
+    return piece;
+}
 
 // Position and extinction linear in t: the weight of the back end is the integral
 // (docs/numerics.md, section 5), in closed form. From 1e-8 to 1e7, so boundary layers as thin as
@@ -45,19 +57,45 @@ TEST(EmissionIntegral, CubicPositionUnderConstantExtinction) {
 TEST(EmissionIntegral, EstimateCoversTheErrorAndKeepsTheTolerance) {
     Random random(5);
     for (int i = 0; i < 3000; ++i) {
-        EmissionPiece piece;
         const double strength = std::pow(10, random.uniform(-3, 7));
-        // Bernstein coefficients in [0, 1] keep the cubic there.
-        const double b0 = random.uniform(), b1 = random.uniform(), b2 = random.uniform(),
-                     b3 = random.uniform();
-        piece.position.c = {b0, 3 * (b1 - b0), 3 * (b2 - 2 * b1 + b0), b3 - 3 * b2 + 3 * b1 - b0};
-        for (std::size_t n = 0; n < 4; ++n) piece.extinction.c[n] = strength * piece.position.c[n];
+        const EmissionPiece piece = random_piece(random, strength);
         const EmissionIntegral exact = integrate_emission(piece, 1e-13, 1e-13);
         for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-9}) {
             const EmissionIntegral found = integrate_emission(piece, tolerance / 2, tolerance / 2);
             EXPECT_LE(found.error, tolerance) << strength;
             EXPECT_LE(std::abs(found.value - exact.value), found.error + exact.error + 1e-14)
                 << strength << " tolerance " << tolerance;
+        }
+    }
+}
+
+// Vectors of pieces: what they call exact to within an estimate is so, and the estimate keeps the
+// tolerance, from pieces that are all but transparent to boundary layers, which are bisected.
+TEST(EmissionBatch, PiecesAreThoseIntegratedOneByOne) {
+    Random random(7);
+    for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
+        for (std::size_t count = 1; count <= EmissionBatch::capacity; ++count) {
+            EmissionBatch batch;
+            batch.error_of_opacity = tolerance;
+            for (std::size_t i = 0; i < count; ++i) {
+                const EmissionPiece piece =
+                    random_piece(random, std::pow(10, random.uniform(-9, 6)));
+                batch.add(piece, random.uniform(0, 9), piece.depth(1), tolerance, random.uniform());
+            }
+            integrate_emission(batch);
+            for (std::size_t i = 0; i < count; ++i) {
+                const double transmittance = std::exp(-batch.before[i]);
+                const double opacity = -std::expm1(-batch.depth[i]);
+                const EmissionIntegral exact = integrate_emission(batch.piece(i), 1e-13, 1e-13);
+                // Exp() and Expm1() of Highway are good to 4 units in the last place.
+                EXPECT_NEAR(batch.transmittance[i], transmittance, 1e-15 * transmittance);
+                EXPECT_NEAR(batch.opacity[i], opacity, 1e-15 * opacity);
+                EXPECT_LE(std::abs(batch.value[i] - exact.value),
+                          batch.error[i] + exact.error + 1e-14);
+                const double allowed = tolerance * (1 + transmittance * opacity) /
+                                       (transmittance * batch.color_span[i]);
+                EXPECT_LE(batch.error[i], allowed + 1e-15 * batch.depth[i]);
+            }
         }
     }
 }

@@ -200,5 +200,45 @@ TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(many.segments, one.segments);
 }
 
+// A picture leaves out blocks of cells that show nothing, and single pixels do not: the same
+// digits.
+TEST(Metamorphic, BlocksThatShowNothingChangeNothing) {
+    const TransferFunction function = TransferFunction::linear(
+        {{.5, {{.2, .4, .6}, 0}}, {.8, {{.9, .5, .1}, 20}}, {1, {{.1, 1, .3}, 10}}});
+    for (const Centering centering : {Centering::node, Centering::cell}) {
+        const Grid grid = make_grid({33, 27, 20}, centering, {1, .75, 1.25});
+        Random random(4);
+        std::vector<float> samples(static_cast<std::size_t>(grid.sample_count()));
+        for (int speck = 0; speck < 40; ++speck) {
+            samples[static_cast<std::size_t>(random.uniform(0, double(samples.size())))] =
+                speck < 8 ? NAN : float(random.uniform(.6, 1));
+        }
+        samples.front() = samples.back() = 1;
+        const Volume volume = make_volume<float>(grid, samples);
+        std::vector<Camera> views = cameras(grid);
+        for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}) {
+            views.push_back(camera_at(grid, Projection::orthographic, along, 1));
+            views.back().up = {along.y, along.z, along.x};
+        }
+        double most = 0;
+        for (const Camera& camera : views) {
+            const View view(camera, 60, 45);
+            std::vector<glm::ivec2> pixels;
+            for (int row = 0; row < view.height; ++row)
+                for (int column = 0; column < view.width; ++column) pixels.push_back({column, row});
+            const TraceResult picture = trace_volume(volume, function, view, {tolerance});
+            const TracedPixels alone = trace_pixels(volume, function, view, pixels, {tolerance});
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                const double* const pixel = picture.image.pixel(pixels[i].x, pixels[i].y);
+                for (int channel = 0; channel < 4; ++channel) {
+                    ASSERT_EQ(pixel[channel], alone.rgba[i][channel]);
+                    most = std::max(most, pixel[channel]);
+                }
+            }
+        }
+        EXPECT_GT(most, .1);
+    }
+}
+
 }  // namespace
 }  // namespace lamina

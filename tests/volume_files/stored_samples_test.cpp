@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/filled_memory.h"
 #include "base/warning.h"
 #include "support/samples_of.h"
 #include "volume_files/plain_grid.h"
@@ -28,7 +29,7 @@ class DrawnSamples : public ::testing::Test {
     Volume drawn(ValueType type, const std::vector<T>& values, double scale = 1,
                  double offset = 0) {
         warnings_.clear();
-        StoredSamples samples{"a.file", type, sample_memory(values.size() * sizeof(T)), scale,
+        StoredSamples samples{"a.file", type, filled_memory(values.size() * sizeof(T)), scale,
                               offset};
         std::memcpy(samples.bytes.get(), values.data(), values.size() * sizeof(T));
         return drawn_volume(plain_grid({static_cast<std::int64_t>(values.size()), 1, 1}), samples);
@@ -107,7 +108,7 @@ TEST_F(DrawnSamples, AreScaledInDoublePrecision) {
 }
 
 TEST_F(DrawnSamples, AreTheFilesOwnWhereTheirTypeIsDrawn) {
-    StoredSamples samples{"a.file", ValueType::float32, sample_memory(8)};
+    StoredSamples samples{"a.file", ValueType::float32, filled_memory(8)};
     std::memset(samples.bytes.get(), 0, 8);
     EXPECT_EQ(drawn_volume(plain_grid({2, 1, 1}), samples).data(), samples.bytes.get());
 }
