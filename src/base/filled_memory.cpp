@@ -18,8 +18,9 @@ std::shared_ptr<void> filled_memory(std::size_t bytes) {
 }
 
 void prefer_huge_pages(void* memory, std::size_t bytes) {
-    constexpr std::size_t huge = std::size_t{1} << 21;
-    if (bytes < 2 * huge) return;
+    // Less may lie in the heap of malloc(), where what is asked would outlive the memory.
+    constexpr std::size_t least = (std::size_t{1} << 25) + 1;
+    if (bytes < least) return;
     // Whole pages alone. Where there are no huge ones, the system refuses, and nothing is lost.
     const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto first = reinterpret_cast<std::uintptr_t>(memory);

@@ -6,11 +6,11 @@
 
 namespace lamina {
 
-// Memory that is about to be filled from end to end. Throws std::bad_alloc.
+// Memory of any content, which is about to be filled from end to end. Throws std::bad_alloc.
 std::shared_ptr<void> filled_memory(std::size_t bytes);
 
-// Asks for huge pages, where the system has some on demand: of pages of 4 KiB the system clears
-// and maps each by itself, which can take a second and more for a gigabyte.
+// Asks the system to back memory of 32 MiB and more by huge pages, where it has some on demand:
+// pages of 4 KiB are cleared and mapped one by one, which can take seconds for a gigabyte.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
 }  // namespace lamina

@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// Memory that is 0 and takes room only where it has been written to. Throws std::bad_alloc.
+// Memory that is 0 and takes room where it has been written to, by pages. Throws std::bad_alloc.
 class ReservedMemory {
   public:
     ReservedMemory() = default;

@@ -43,8 +43,8 @@ class CellWalk {
         run(visit, [](const CellIndex&, CellIndex&, CellIndex&) { return false; });
     }
 
-    // The same without cells where nothing is to be visited: hidden(cell, first, last) says whether
-    // that is so of all cells from `first` to `last`, which it sets, around a cell.
+    // The same, but for boxes of cells in which nothing is to be visited: hidden(cell, first, last)
+    // returns whether the cell lies in one, and sets the box's first and last cells.
     template <typename Visit, typename Hidden>
     void run(const Visit& visit, const Hidden& hidden) {
         double from = 0;
@@ -90,13 +90,16 @@ class CellWalk {
             if (axis == leaving) {
                 cell_[axis] = d < 0 ? first[axis] - 1 : last[axis] + 1;
             } else if (d != 0) {
-                // Roundings may take it a cell too far, but not out of the box.
+                const std::int64_t before = cell_[axis];
                 const double place = chord_.entry[axis] + to * d;
                 const auto there =
                     static_cast<std::int64_t>(d < 0 ? std::ceil(place) - 1 : std::floor(place));
                 cell_[axis] =
                     d < 0 ? std::clamp(there, std::max(first[axis], final_[axis]), cell_[axis])
                           : std::clamp(there, cell_[axis], std::min(last[axis], final_[axis]));
+                // Cells are told apart by their planes' crossings, not by rounded places.
+                while (cell_[axis] != before && crossing_into(axis) > to)
+                    cell_[axis] += d < 0 ? 1 : -1;
             }
             crossing_[axis] = next_crossing(axis);
         }
@@ -106,6 +109,13 @@ class CellWalk {
     int nearest_axis() const {
         if (crossing_[0] <= crossing_[1]) return crossing_[0] <= crossing_[2] ? 0 : 2;
         return crossing_[1] <= crossing_[2] ? 1 : 2;
+    }
+
+    // Where the chord crosses the plane through which it enters the cell.
+    double crossing_into(int axis) const {
+        const double d = chord_.direction[axis];
+        const auto plane = static_cast<double>(cell_[axis] + (d > 0 ? 0 : 1));
+        return (plane - chord_.entry[axis]) / d;
     }
 
     double next_crossing(int axis) const {

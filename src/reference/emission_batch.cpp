@@ -65,7 +65,7 @@ class PieceLanes {
                 hn::Div(extinction_.c[power], number(static_cast<double>(power + 1)));
     }
 
-    // Sums over a pair of nodes, as of integrate_emission().
+    // What a pair of nodes adds to w and x w.
     HWY_INLINE void evaluate(int pair, Doubles& w, Doubles& xw) const {
         const double distance = patterson::node[pair];
         w = weight_at(0.5 - distance);
@@ -95,7 +95,6 @@ HWY_INLINE Doubles difference(const RuleSum& fine, const RuleSum& coarse, Double
 // Returns the lanes that a rule has integrated.
 HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) {
     using namespace patterson;
-    constexpr double negligible = 1.0 / 1024, resolvable_depth = 8;  // as integrate_emission()
     const Lanes d;
     const PieceLanes pieces(batch, i);
     const Doubles depth = hn::Load(d, batch.depth + i);
@@ -106,7 +105,7 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) 
         hn::Div(hn::MulAdd(number(batch.error_of_opacity), hn::Mul(opacity, transmittance),
                            hn::Load(d, batch.error_of_length + i)),
                 hn::Mul(transmittance, span));
-    const Doubles enough = hn::Max(allowed, hn::Mul(number(1e-15), depth));
+    const Doubles enough = hn::Max(allowed, hn::Mul(number(emission_rounding), depth));
 
     Doubles w[8], xw[8];
     RuleSum three = no_sum(), seven = no_sum(), fifteen = no_sum();
@@ -116,7 +115,8 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) 
         seven.add(weight7[pair], w[pair], xw[pair]);
     }
     Doubles value = seven.xw, error = difference(seven, three, opacity);
-    auto done = hn::Le(error, enough);
+    // Lanes behind the last piece hold anything.
+    auto done = hn::Or(hn::Le(error, enough), hn::Not(hn::FirstN(d, batch.count - i)));
     if (!hn::AllTrue(d, done)) {
         for (int pair = 0; pair < 8; ++pair) {
             if (pair >= 4) pieces.evaluate(pair, w[pair], xw[pair]);
@@ -128,7 +128,7 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) 
     }
     done = hn::And(done, hn::Lt(depth, number(resolvable_depth)));
     // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
-    const auto faint = hn::Le(opacity, hn::Mul(number(negligible), allowed));
+    const auto faint = hn::Le(opacity, hn::Mul(number(negligible_opacity), allowed));
     value = hn::IfThenElse(faint, hn::Mul(pieces.middle(), opacity), value);
     error = hn::IfThenElse(faint, opacity, error);
     hn::Store(transmittance, d, batch.transmittance + i);

@@ -15,12 +15,12 @@ struct EmissionBatch {
     // EmissionPiece, coefficient by coefficient.
     alignas(64) double position[4][capacity];
     alignas(64) double extinction[4][capacity];
-    alignas(64) double depth[capacity];   // optical depth of the piece, >= 0
-    alignas(64) double before[capacity];  // and of what lies in front of it
-    // The errors that integrate_emission() allows, for light that nothing weakens, of a colour that
-    // changes by 1: by the piece's length and by its opacity.
-    alignas(64) double error_of_length[capacity];
+    alignas(64) double depth[capacity];       // optical depth of the piece, >= 0
+    alignas(64) double before[capacity];      // and of what lies in front of it
     alignas(64) double color_span[capacity];  // largest change of a colour
+    // The errors that are allowed to a channel of the ray: to each piece by its length, and to all
+    // of them by the opacity that is seen.
+    alignas(64) double error_of_length[capacity];
     double error_of_opacity;
 
     // The results: of each piece exp(-before), 1 - exp(-depth), and what integrate_emission()
@@ -33,14 +33,14 @@ struct EmissionBatch {
     std::size_t count = 0;
 
     void add(const EmissionPiece& piece, double depth_before, double depth_of_piece,
-             double error_by_length, double span) {
+             double allowed_by_length, double span) {
         for (std::size_t power = 0; power < 4; ++power) {
             position[power][count] = piece.position.c[power];
             extinction[power][count] = piece.extinction.c[power];
         }
         before[count] = depth_before;
         depth[count] = depth_of_piece;
-        error_of_length[count] = error_by_length;
+        error_of_length[count] = allowed_by_length;
         color_span[count] = span;
         ++count;
     }

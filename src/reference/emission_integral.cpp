@@ -71,14 +71,12 @@ class Integrator {
         const double allowed = error_per_t_ * (to - from) + error_per_opacity_ * opacity;
         const double middle = 0.5 * (from + to);
         // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
-        constexpr double negligible = 1.0 / 1024;
         const bool exhausted = --budget_ <= 0 || !(from < middle && middle < to);
-        if (opacity <= negligible * allowed || exhausted) {
+        if (opacity <= negligible_opacity * allowed || exhausted) {
             return accept(piece_.position(middle) * opacity, opacity);
         }
-        constexpr double resolvable_depth = 8;  // by 15 nodes; beyond it bisection is cheaper
         if (depth_to - depth_from < resolvable_depth) {
-            const double rounding = 1e-15 * in_front * depth_to;
+            const double rounding = emission_rounding * in_front * depth_to;
             if (try_rules(from, to, opacity, std::max(allowed, rounding))) return;
         }
         const double depth_middle = piece_.depth(middle);

@@ -47,8 +47,7 @@ class RayIntegrator {
     double error_estimate();
     std::int64_t pieces() const { return pieces_; }
 
-    // The share of light in color(), which may be negative, and in error_estimate(). What is asked
-    // for nothing else does not integrate emission.
+    // The share of light in color(), which may be negative, and in error_estimate().
     const glm::dvec3& light() const { return light_; }
     double light_error() const { return light_error_ + hidden(); }
 

@@ -22,7 +22,9 @@ TransferInterval between(const TransferKnot& a, const TransferKnot& b) {
     TransferInterval interval;
     interval.lo = a.value;
     interval.hi = b.value;
-    constexpr double largest_inverse = 1e300;  // of a step, which no value lies between
+    // No value lies between the knots of a step. Of other knots the nearest are told apart as if
+    // they were 1e-300 apart, so that nothing becomes infinite.
+    constexpr double largest_inverse = 1e300;
     interval.inverse_width = std::min(1 / (b.value - a.value), largest_inverse);
     interval.at_lo = a.optics;
     interval.at_lo.extinction = std::min(a.optics.extinction, largest_extinction);
@@ -90,7 +92,7 @@ void TransferIntervals::find_visible() {
     }
 }
 
-// Of those that are `beyond` the value. It is mostly one of the next few in the value's bin.
+// The first knot that is `beyond` the value: mostly one of the next few in the value's bin.
 template <typename Beyond>
 std::size_t TransferIntervals::first_knot(double value, const Beyond& beyond) const {
     constexpr std::size_t next_few = 4;

@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// Which blocks of edge^3 cells of a volume in memory have a cell that may show something. (The
-// tracer judges what is drawn by MinMaxBricks, so it looks at the samples itself.)
+// Which blocks of edge^3 cells of a volume in memory have a cell that may show something. The
+// tracer judges pictures that are drawn by MinMaxBricks, and so does not use these itself.
 class VisibleBlocks {
   public:
     static constexpr std::int64_t edge = 8;

@@ -17,7 +17,8 @@ struct CellMap {
     static constexpr int constant = 128, farthest = OccupiedBricks::farthest;
 
     std::array<std::int64_t, 3> count{};  // bricks along each axis
-    // One byte a brick, x fastest. Empty where all bricks are of kind 0.
+    // One byte a brick, x fastest. Empty where all bricks are of kind 0. They may be the distances
+    // of OccupiedBricks themselves, which nothing changes once they are measured.
     SparseBytes kinds;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells along the rays of a packet, front to back (Amanatides and Woo 1987), with steps over
-// bricks that show nothing. Every crossing of a plane is computed from the plane itself, in floats
-// that begin anew every few cells from double precision, so that errors do not accumulate.
+// bricks that show nothing. Every crossing of a plane is computed from the plane itself, so that
+// errors do not accumulate: in floats that begin anew every few cells from double precision, and of
+// what is lit in double precision throughout.
 #if defined(LAMINA_SLICING_TILE_CELL_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
 #undef LAMINA_SLICING_TILE_CELL_WALK_INL_H_
@@ -129,18 +130,13 @@ class CellWalk {
                     select(leaps.lanes, leap_plane(axis, bricks[axis], leaps.reach), planes[axis]);
             }
         }
-        Number crossings[3];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            crossings[axis] = lit_ ? to_floats(d, precise_crossing(axis, planes[axis]))
-                                   : (planes[axis] - place_[axis]) * inverse_[axis];
-        }
-        const Number to =
-            max(min(min(crossings[0], crossings[1]), min(crossings[2], run_end_)), at_);
+        FloatMask passes[3];
+        const Number to = lit_ ? precise_end(planes, passes) : end_of_step(planes, passes);
         const StoredLanes lanes = store(cells, leaps, to - at_, parts);
         for (std::size_t axis = 0; axis < 3; ++axis)
-            advance(axis, leaps, planes[axis], crossings[axis], to);
+            advance(axis, leaps, planes[axis], passes[axis], to);
         at_ = to;
-        if (lit_) begin_run_at(planes);
+        if (lit_) begin_next_run();
         return lanes;
     }
 
@@ -281,43 +277,79 @@ class CellWalk {
                                     place(start.high, depth.high, direction.high, from.high)});
     }
 
-    // How far a plane, counted from the run's first cell, is from where the run began.
-    HWY_INLINE TwoDoubles precise_crossing(std::size_t axis, Number plane) const {
-        const auto crossing = [](HalfDoubles to, HalfDoubles from, HalfDoubles inverse)
-                                  HWY_ATTR { return hn::Mul(hn::Sub(to, from), inverse); };
-        return each_half<FloatTag>(crossing, to_doubles(FloatTag(), plane.v), start_[axis],
-                                   precise_inverse_[axis]);
+    // How far the next step goes from where the run began, and which planes it reaches.
+    HWY_INLINE Number end_of_step(const Number (&planes)[3], FloatMask (&passes)[3]) const {
+        Number crossings[3];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            crossings[axis] = (planes[axis] - place_[axis]) * inverse_[axis];
+        const Number to =
+            max(min(min(crossings[0], crossings[1]), min(crossings[2], run_end_)), at_);
+        for (std::size_t axis = 0; axis < 3; ++axis) passes[axis] = crossings[axis] <= to;
+        return to;
     }
 
-    // Begins a run at the nearest of the planes, or where the walk ends.
-    HWY_INLINE void begin_run_at(const Number (&planes)[3]) {
-        const auto nearer = [](HalfDoubles end, HalfDoubles depth, HalfDoubles crossing) HWY_ATTR {
-            return hn::Min(end, hn::Add(depth, hn::Max(crossing, hn::Zero(DoubleTag()))));
-        };
-        TwoDoubles there = end_;
+    // The same in double precision, of a lit walk, which keeps it in way_.
+    HWY_INLINE Number precise_end(const Number (&planes)[3], FloatMask (&passes)[3]) {
+        const FloatTag d;
+        const DoubleTag dd;
+        const auto crossing = [](HalfDoubles to, HalfDoubles from, HalfDoubles inverse)
+                                  HWY_ATTR { return hn::Mul(hn::Sub(to, from), inverse); };
+        const auto minus = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Sub(a, b); };
+        const auto nearer = [](HalfDoubles a, HalfDoubles b) HWY_ATTR { return hn::Min(a, b); };
+        TwoDoubles crossings[3];
+        way_ = each_half<FloatTag>(minus, end_, depth_);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            there =
-                each_half<FloatTag>(nearer, there, depth_, precise_crossing(axis, planes[axis]));
+            crossings[axis] = each_half<FloatTag>(crossing, to_doubles(d, planes[axis].v),
+                                                  start_[axis], precise_inverse_[axis]);
+            way_ = each_half<FloatTag>(nearer, way_, crossings[axis]);
         }
-        depth_ = there;
+        const auto forward = [&](HalfDoubles way) HWY_ATTR { return hn::Max(way, hn::Zero(dd)); };
+        way_ = each_half<FloatTag>(forward, way_);
+        const auto reached = [&](HalfDoubles there, HalfDoubles way) HWY_ATTR {
+            return hn::IfThenElseZero(hn::Le(there, way), hn::Set(dd, 1.0));
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const TwoDoubles one = each_half<FloatTag>(reached, crossings[axis], way_);
+            passes[axis] = to_floats(d, one) > Number(0);
+        }
+        return to_floats(d, way_);
+    }
+
+    // Of a lit walk, after a step.
+    HWY_INLINE void begin_next_run() {
+        const auto behind = [](HalfDoubles depth, HalfDoubles end, HalfDoubles way) HWY_ATTR {
+            return hn::IfThenElse(hn::Ge(way, hn::Sub(end, depth)), hn::Max(depth, end),
+                                  hn::Add(depth, way));
+        };
+        depth_ = each_half<FloatTag>(behind, depth_, end_, way_);
         for (std::size_t axis = 0; axis < 3; ++axis) cell_[axis] = cell_at(axis);
         begin_run();
     }
 
+    // The cell, counted from the run's first, in which a ray is after a step.
+    HWY_INLINE Number cell_after(std::size_t axis, Number to) const {
+        if (!lit_) return hn::Floor((place_[axis] + to * slope_[axis]).v);
+        const auto cell = [](HalfDoubles start, HalfDoubles way, HalfDoubles direction) HWY_ATTR {
+            return hn::Floor(hn::Add(start, hn::Mul(way, direction)));
+        };
+        return to_floats(FloatTag(),
+                         each_half<FloatTag>(cell, start_[axis], way_, direction_[axis]));
+    }
+
     // Enters the next cell on one axis. After a leap that is where the ray is then; it lies in the
     // cube that was crossed, or behind the plane at which the ray leaves it.
-    HWY_INLINE void advance(std::size_t axis, const Leaps& leaps, Number plane, Number crossing,
+    HWY_INLINE void advance(std::size_t axis, const Leaps& leaps, Number plane, FloatMask passes,
                             Number to) {
         const FloatMask forward = forward_[axis];
         if (leaps.some) {
-            const Number there = hn::Floor((place_[axis] + to * slope_[axis]).v);
+            const Number there = cell_after(axis, to);
             const Number last = plane - zero_unless(forward, Number(1));  // of the cube
             const Number on = min(max(there, passed_[axis]), last);
             const Number back = max(min(there, passed_[axis]), last);
             passed_[axis] = select(leaps.lanes, select(forward, on, back), passed_[axis]);
         }
         const Number behind = plane - zero_unless(hn::Not(forward), Number(1));
-        passed_[axis] = select(crossing <= to, behind, passed_[axis]);
+        passed_[axis] = select(passes, behind, passed_[axis]);
     }
 
     const CellMap* map_ = nullptr;  // null where all rays go cell by cell
@@ -325,6 +357,7 @@ class CellWalk {
     const PacketRays* rays_ = nullptr;
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
     TwoDoubles depth_, end_;
+    TwoDoubles way_;  // of lit walks: how far the last step went
     TwoDoubles direction_[3];
     TwoDoubles precise_inverse_[3];
     Number slope_[3], inverse_[3];  // the directions in float

@@ -30,7 +30,7 @@ class RangeAnswers {
         if (ranges.type() == SampleType::uint8 && ranges.size() > many) answer_all();
     }
 
-    // Answers for bricks, for one thread.
+    // Answers for bricks. Each thread needs a reader of its own.
     class Reader {
       public:
         explicit Reader(const RangeAnswers& answers) : answers_(answers) {
@@ -78,7 +78,7 @@ class RangeAnswers {
 
     const BrickRanges& ranges_;
     Compute compute_;
-    std::vector<Answer> of_bytes_;  // lo + 256 hi; empty where there are too many ranges
+    std::vector<Answer> of_bytes_;  // by BrickRanges::bytes_of(); empty: not answered at once
 };
 
 }  // namespace lamina

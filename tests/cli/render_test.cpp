@@ -119,8 +119,13 @@ TEST_F(Render, StatsHaveTheKeysOfTheDesign) {
 
 TEST_F(Render, FramesDoNotChangeTheWrittenPicture) {
     ASSERT_EQ(render({"-o", folder / "a.exr"}).exit_code, 0);
-    ASSERT_EQ(render({"-o", folder / "b.exr", "--frames", "2"}).exit_code, 0);
-    EXPECT_EQ(read_bytes_of(folder / "a.exr"), read_bytes_of(folder / "b.exr"));
+    for (const std::vector<std::string>& turn :
+         {std::vector<std::string>{}, {"--turn-by", "-10"}}) {
+        std::vector<std::string> options{"-o", folder / "b.exr", "--frames", "2"};
+        options.insert(options.end(), turn.begin(), turn.end());
+        ASSERT_EQ(render(options).exit_code, 0);
+        EXPECT_EQ(read_bytes_of(folder / "a.exr"), read_bytes_of(folder / "b.exr"));
+    }
 }
 
 TEST_F(Render, ExplainSaysWhatIsLeftOut) {
@@ -146,6 +151,8 @@ TEST_F(Render, MistakesOfUsageAreExitTwo) {
         {"-o", folder / "a.exr", "--context", "directx"},
         {"-o", folder / "a.exr", "--no-omit=nothing"},
         {"-o", folder / "a.exr", "--frames", "0"},
+        {"-o", folder / "a.exr", "--turn-by", "10"},
+        {"-o", folder / "a.exr", "--frames", "2", "--turn-by", "181"},
         {"-o", folder / "a.exr", "--stats", folder / "." / "a.exr"},
         {"-o", folder / "a.exr", "--stats", folder / "scene.json"},
         {"-o", folder / "a.jpeg"},

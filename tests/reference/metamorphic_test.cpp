@@ -220,6 +220,9 @@ TEST(Metamorphic, BlocksThatShowNothingChangeNothing) {
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
             views.back().up = {along.y, along.z, along.x};
         }
+        // Rays within roundings of cells' edges.
+        for (const glm::dvec3& along : {glm::dvec3(1, 0, 1.25), {1, .75, 0}, {-1, .75, 1.25}})
+            views.push_back(camera_at(grid, Projection::orthographic, along, 1));
         double most = 0;
         for (const Camera& camera : views) {
             const View view(camera, 60, 45);

@@ -153,7 +153,7 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             const glm::dvec3 expected =
                 lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
                                     scene.camera.center - scene.camera.eye);
-            // Walks of what is lit are in double precision.
+            // Lit rays are walked in double precision, and others in floats.
             ASSERT_NEAR(b[3], a[3], float_error / 255);
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2 * float_error / 255);
         }

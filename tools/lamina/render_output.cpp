@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_output.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
@@ -20,6 +22,7 @@ class SinglePicture : public RenderOutput {
     SinglePicture(const OutputOptions& options, const OutputScene& scene)
         : name_(options.piped() ? "stdout" : options.output),
           frames_(options.frames),
+          degrees_(options.turn_by.value_or(degrees_per_frame)),
           scene_(scene),
           picture_(options.output, picture_format(options.output, options.format)) {}
 
@@ -38,13 +41,13 @@ class SinglePicture : public RenderOutput {
     }
 
   private:
-    // The camera turns a little further from frame to frame.
+    // The camera turns further from frame to frame.
     void time_frames(RenderJob& job, RenderStats& stats) const {
         stats.frames_ms.clear();  // the scene's own frame was the warm-up
         Progress progress("timing frames", frames_);
         for (int i = 1; i <= frames_; ++i) {
             check_interrupt();
-            const Camera camera = turned(scene_.scene.camera, degrees_per_frame * i);
+            const Camera camera = turned(scene_.scene.camera, degrees_ * i);
             Stage frame("frame");
             frame.count("frame", i);
             job.draw_frame(camera);
@@ -55,6 +58,7 @@ class SinglePicture : public RenderOutput {
 
     std::string name_;
     int frames_;
+    double degrees_;
     OutputScene scene_;
     PictureFile picture_;
 };
@@ -72,6 +76,7 @@ void OutputOptions::check() const {
         throw UsageError("--time: expected neither --turntable nor --frames beside it");
     if (force && views == 0 && !time)
         throw UsageError("--force: expected --turntable N or --time, too");
+    if (turn_by && frames == 0) throw UsageError("--turn-by: expected --frames N, too");
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
     if (views > 0) {
         Turntable::check(*this);
@@ -93,6 +98,13 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                     "Time this many frames, the camera turning a little")
         ->check(CLI::Range(1, most_frames))
         ->option_text("N");
+    verb.add_option("--turn-by", options.turn_by,
+                    fmt::format("With --frames: turn the camera by this from frame to frame, "
+                                "-180 to 180; {} by default. 10 shows what frames take whose views "
+                                "have little in common",
+                                degrees_per_frame))
+        ->check(CLI::Range(-180.0, 180.0))
+        ->option_text("DEGREES");
     verb.add_option("--turntable", options.views,
                     "Write this many views around the camera's centre, from -o out_%04d.png; views "
                     "that are there from an earlier run of the same scene are kept")

@@ -20,6 +20,7 @@ struct OutputOptions {
     std::string output;               // -o; empty: nothing, "-": stdout
     std::string format;               // --format
     int frames = 0;                   // --frames; 0: none
+    std::optional<double> turn_by;    // --turn-by
     int views = 0;                    // --turntable; 0: none
     std::optional<std::string> time;  // --time
     bool force = false;               // --force
