@@ -65,7 +65,7 @@ class PieceLanes {
                 hn::Div(extinction_.c[power], number(static_cast<double>(power + 1)));
     }
 
-    // What a pair of nodes adds to w and x w.
+    // Sets w and x w to their sums over a pair of nodes.
     HWY_INLINE void evaluate(int pair, Doubles& w, Doubles& xw) const {
         const double distance = patterson::node[pair];
         w = weight_at(0.5 - distance);

@@ -19,9 +19,9 @@ struct EmissionPiece {
 
 // A piece whose opacity is this share of the error allowed to it has any of its colours.
 inline constexpr double negligible_opacity = 1.0 / 1024;
-// What 15 nodes resolve; deeper pieces are bisected, which is cheaper.
+// 15 nodes resolve this optical depth. Deeper pieces are bisected, which is cheaper.
 inline constexpr double resolvable_depth = 8;
-// Of sums of a rule, relative to the optical depth.
+// The rounding of a rule's sums, relative to the optical depth.
 inline constexpr double emission_rounding = 1e-15;
 
 struct EmissionIntegral {

@@ -315,7 +315,7 @@ class CellWalk {
         return to_floats(d, way_);
     }
 
-    // Of a lit walk, after a step.
+    // A lit walk begins a run after every step.
     HWY_INLINE void begin_next_run() {
         const auto behind = [](HalfDoubles depth, HalfDoubles end, HalfDoubles way) HWY_ATTR {
             return hn::IfThenElse(hn::Ge(way, hn::Sub(end, depth)), hn::Max(depth, end),

@@ -45,7 +45,7 @@ class BrickRanges {
         __builtin_unreachable();  // there is a case for every value
     }
 
-    // Of samples of 8 bits: lo + 256 hi.
+    // The range as one number, lo + 256 hi; of samples of 8 bits alone.
     std::size_t bytes_of(std::size_t i) const {
         const auto* const range = reinterpret_cast<const std::uint8_t*>(memory_.data()) + 2 * i;
         return range[0] + (std::size_t{range[1]} << 8);

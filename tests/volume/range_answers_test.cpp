@@ -33,7 +33,7 @@ TEST(RangeAnswers, AreThoseOfEachRange) {
     expect_right_answers<float>(SampleType::float32, 5000);
 }
 
-// Of these all are answered at once.
+// Bricks are so many that all ranges are answered at once.
 TEST(RangeAnswers, OfManyBytesAreThoseOfEachRange) {
     expect_right_answers<std::uint8_t>(SampleType::uint8, (1 << 20) + 1);
 }
