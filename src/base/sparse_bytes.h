@@ -58,6 +58,15 @@ class SparseBytes {
         return reinterpret_cast<const std::uint8_t*>(memory_->data());
     }
 
+    // The first place from `first` on that has this value; `end`: none before it has.
+    std::size_t find(std::uint8_t value, std::size_t first, std::size_t end) const {
+        const auto code = static_cast<std::uint8_t>(value ^ background_);
+        if (first == end || coded()[first] == code) return first;
+        const void* const found = std::memchr(coded() + first, code, end - first);
+        if (found == nullptr) return end;
+        return static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - coded());
+    }
+
     std::size_t count(std::uint8_t value) const {
         const auto code = static_cast<std::uint8_t>(value ^ background_);
         std::size_t found = 0;

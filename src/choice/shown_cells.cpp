@@ -216,13 +216,14 @@ std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBrick
     std::vector<std::vector<glm::dvec3>> of_slices(static_cast<std::size_t>(bricks.count[2]));
     parallel_for(bricks.count[2], 1, [&](std::int64_t z) {
         RangeAnswers<std::uint8_t>::Reader is_shown(shown);
+        std::vector<std::uint8_t> of_row(static_cast<std::size_t>(bricks.count[0]));
         for (std::int64_t y = 0; y < bricks.count[1]; ++y) {
-            Span row;
-            const auto first =
-                static_cast<std::size_t>((z * bricks.count[1] + y) * bricks.count[0]);
-            for (std::int64_t x = 0; x < bricks.count[0]; ++x)
-                if (is_shown[first + static_cast<std::size_t>(x)] != 0) row.include({x, x + 1});
-            if (row.empty()) continue;
+            is_shown.fill(static_cast<std::size_t>(z * bricks.count[1] + y) * of_row.size(),
+                          of_row);
+            const auto first = std::ranges::find(of_row, std::uint8_t{1});
+            if (first == of_row.end()) continue;
+            const auto last = std::find(of_row.rbegin(), of_row.rend(), std::uint8_t{1}).base();
+            const Span row{first - of_row.begin(), last - of_row.begin()};
             for (int corner = 0; corner < 8; ++corner) {
                 of_slices[static_cast<std::size_t>(z)].push_back(
                     grid.to_world({place(0, (corner & 1) != 0 ? row.last : row.first),

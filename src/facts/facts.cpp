@@ -74,10 +74,12 @@ void measure_extinctions(const TransferFunction& transfer_function, const MinMax
         count_in_parts(static_cast<std::int64_t>(count), std::size_t{1} << (31 - rest_bits),
                        [&](std::int64_t first, std::int64_t end, std::vector<std::uint32_t>& into) {
                            RangeAnswers<std::uint32_t>::Reader key_of(keys);
-                           for (std::int64_t number = first; number < end; ++number) {
-                               const auto i = static_cast<std::size_t>(number);
-                               ++into[distance[i] > 0 ? 0 : key_of[i]];
-                           }
+                           const auto past = static_cast<std::size_t>(end);
+                           auto hidden = static_cast<std::uint32_t>(end - first);
+                           for (auto i = static_cast<std::size_t>(first);
+                                (i = distance.find(0, i, past)) < past; ++i, --hidden)
+                               ++into[key_of[i]];
+                           into[0] += hidden;
                        });
     const auto quantile = [&](double share) {
         auto rank = static_cast<std::int64_t>(std::ceil(share * static_cast<double>(count - 1)));
@@ -154,8 +156,7 @@ void find_occupied(const TransferFunction& transfer_function, const MinMaxBricks
                      const std::size_t first = static_cast<std::size_t>(part) * together;
                      RangeAnswers<std::uint8_t>::Reader distance(distances);
                      std::vector<std::uint8_t> of_part(std::min(together, count - first));
-                     for (std::size_t i = 0; i < of_part.size(); ++i)
-                         of_part[i] = distance[first + i];
+                     distance.fill(first, of_part);
                      occupied.distance.set(first, of_part);
                  });
     if (!facts.clip.empty()) {
@@ -193,12 +194,12 @@ SeenBricks seen_in_plane(const OccupiedBricks& occupied, std::int64_t z) {
     const std::uint8_t shown = occupied.distance.background();
     SeenBricks seen;
     for (std::int64_t y = 0; y < occupied.count[1]; ++y) {
-        const std::span row(occupied.distance.coded() + occupied.place(0, y, z),
-                            static_cast<std::size_t>(occupied.count[0]));
-        const std::int64_t count = std::ranges::count(row, shown);
-        if (count == 0) continue;
-        seen.count += count;
-        seen.add({std::ranges::find(row, shown) - row.begin(), y, z});
+        const std::size_t begin = occupied.place(0, y, z), end = occupied.place(0, y + 1, z);
+        const std::size_t first = occupied.distance.find(0, begin, end);
+        if (first == end) continue;
+        const std::span row(occupied.distance.coded() + begin, end - begin);
+        seen.count += std::ranges::count(row, shown);
+        seen.add({static_cast<std::int64_t>(first - begin), y, z});
         seen.add({std::find(row.rbegin(), row.rend(), shown).base() - row.begin() - 1, y, z});
     }
     return seen;

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <vector>
+
+#include "base/all_zero.h"
+#include "base/parallel.h"
 
 namespace lamina {
 namespace {
@@ -24,37 +29,54 @@ std::uint8_t plus(std::uint8_t distance, std::size_t steps) {
 }
 
 // Takes over what is near in rows that are known already, each brick and its two neighbours there.
-// Beyond a row's ends nothing is near, so that loops have no ends of their own and are vectors.
+// Beyond a row's ends nothing is near, so that loops have no ends of their own and are vectors;
+// bytes may alias members, so that loops use local variables alone. Rows along x are told by their
+// numbers, y fastest.
 class RowSweep {
   public:
-    RowSweep(SparseBytes& distance, std::int64_t count)
+    RowSweep(SparseBytes& distance, std::int64_t across, std::int64_t rows)
         : distance_(distance),
-          count_(static_cast<std::size_t>(count)),
+          count_(static_cast<std::size_t>(across)),
           near_(count_ + 2, OccupiedBricks::farthest),
           row_(count_ + 2 * longest_step, OccupiedBricks::farthest),
-          next_(row_) {}
-
-    void begin() { std::ranges::fill(near_, std::uint8_t{OccupiedBricks::farthest}); }
-
-    // Rows are told by the place of their first brick.
-    void include(std::size_t first) {
-        const std::uint8_t* const row = distance_.coded() + first;
-        const std::uint8_t background = distance_.background();
-        for (std::size_t x = 0; x < count_; ++x)
-            near_[x + 1] = std::min(near_[x + 1], static_cast<std::uint8_t>(row[x] ^ background));
+          next_(row_),
+          far_(static_cast<std::size_t>(rows)) {
+        const auto code =
+            static_cast<std::uint8_t>(OccupiedBricks::farthest ^ distance.background());
+        parallel_for(rows, 256, [&](std::int64_t row) {
+            far_[static_cast<std::size_t>(row)] =
+                all_equal(distance.coded() + first_of(row), count_, code);
+        });
     }
 
-    void finish(std::size_t first) {
+    void include(std::int64_t known) {
+        if (far_[static_cast<std::size_t>(known)] != 0) return;
+        const std::uint8_t* const row = distance_.coded() + first_of(known);
+        const std::uint8_t background = distance_.background();
+        std::uint8_t* const near = near_.data() + 1;
+        for (std::size_t x = 0, count = count_; x < count; ++x)
+            near[x] = std::min(near[x], static_cast<std::uint8_t>(row[x] ^ background));
+        any_near_ = true;
+    }
+
+    void finish(std::int64_t number) {
+        std::uint8_t& far = far_[static_cast<std::size_t>(number)];
+        if (far != 0 && !any_near_) return;
+        const std::size_t first = first_of(number);
         const std::uint8_t* const coded = distance_.coded() + first;
         const std::uint8_t background = distance_.background();
+        const std::uint8_t* const near = near_.data();
         std::uint8_t* row = row_.data() + longest_step;
-        for (std::size_t x = 0; x < count_; ++x) {
-            const std::uint8_t near = std::min(std::min(near_[x], near_[x + 1]), near_[x + 2]);
-            row[x] = std::min(static_cast<std::uint8_t>(coded[x] ^ background), plus(near, 1));
+        for (std::size_t x = 0, count = count_; x < count; ++x) {
+            const std::uint8_t nearest = std::min(std::min(near[x], near[x + 1]), near[x + 2]);
+            row[x] = std::min(static_cast<std::uint8_t>(coded[x] ^ background), plus(nearest, 1));
         }
         for (std::size_t step = 1; step <= longest_step && step < count_; step *= 2)
             row = spread(step);
         distance_.set(first, {row, count_});
+        far = all_equal(row, count_, OccupiedBricks::farthest);
+        std::ranges::fill(near_, std::uint8_t{OccupiedBricks::farthest});
+        any_near_ = false;
     }
 
   private:
@@ -63,15 +85,20 @@ class RowSweep {
     std::uint8_t* spread(std::size_t step) {
         const std::uint8_t* const from = row_.data() + longest_step;
         std::uint8_t* const to = next_.data() + longest_step;
-        for (std::size_t x = 0; x < count_; ++x)
+        for (std::size_t x = 0, count = count_; x < count; ++x)
             to[x] = std::min(from[x], plus(std::min(*(from + x - step), from[x + step]), step));
         std::swap(row_, next_);
         return to;
     }
 
+    std::size_t first_of(std::int64_t row) const { return static_cast<std::size_t>(row) * count_; }
+
     SparseBytes& distance_;
     std::size_t count_;
     std::vector<std::uint8_t> near_, row_, next_;
+    // Most rows of a sparse volume are far from anything that shows, and stay as they are.
+    std::vector<std::uint8_t> far_;
+    bool any_near_ = false;
 };
 
 }  // namespace
@@ -80,20 +107,16 @@ class RowSweep {
 // its steps in any order, all that lead on in the first sweep's direction first.
 void OccupiedBricks::measure_distances() {
     // No structured binding: clang below 16 has none in lambdas.
-    const std::int64_t nx = count[0], ny = count[1], nz = count[2];
-    RowSweep sweep(distance, nx);
-    const auto row = [&](std::int64_t y, std::int64_t z) {
-        return static_cast<std::size_t>((z * ny + y) * nx);
-    };
+    const std::int64_t ny = count[1], nz = count[2];
+    RowSweep sweep(distance, count[0], ny * nz);
     const auto take_over = [&](std::int64_t y, std::int64_t z, std::int64_t back) {
-        sweep.begin();
-        if (y + back >= 0 && y + back < ny) sweep.include(row(y + back, z));
+        if (y + back >= 0 && y + back < ny) sweep.include(z * ny + y + back);
         if (z + back >= 0 && z + back < nz) {
             const std::int64_t end = std::min(y + 2, ny);
             for (std::int64_t by = std::max<std::int64_t>(y - 1, 0); by < end; ++by)
-                sweep.include(row(by, z + back));
+                sweep.include((z + back) * ny + by);
         }
-        sweep.finish(row(y, z));
+        sweep.finish(z * ny + y);
     };
     for (std::int64_t z = 0; z < nz; ++z) {
         for (std::int64_t y = 0; y < ny; ++y) take_over(y, z, -1);
@@ -114,12 +137,23 @@ bool OccupiedBricks::any_in(const glm::dvec3& min, const glm::dvec3& max) const 
         first[axis] = brick_of(min[static_cast<int>(axis)], count[axis]);
         last[axis] = brick_of(max[static_cast<int>(axis)], count[axis]);
     }
+    return any_of(first, last);
+}
+
+bool OccupiedBricks::any_of(const std::array<std::int64_t, 3>& first,
+                            const std::array<std::int64_t, 3>& last) const {
+    std::array<std::int64_t, 3> middle{};
+    std::int64_t reach = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (first[axis] > last[axis]) return false;
+        middle[axis] = std::midpoint(first[axis], last[axis]);
+        reach = std::max(reach, last[axis] - middle[axis]);
+    }
+    if (distance_at(middle[0], middle[1], middle[2]) > reach) return false;
     for (std::int64_t z = first[2]; z <= last[2]; ++z) {
         for (std::int64_t y = first[1]; y <= last[1]; ++y) {
-            const std::uint8_t* const row = distance.coded() + (z * count[1] + y) * count[0];
-            for (std::int64_t x = first[0]; x <= last[0]; ++x) {
-                if (row[x] == distance.background()) return true;  // the code of 0
-            }
+            const std::size_t end = place(last[0], y, z) + 1;
+            if (distance.find(0, place(first[0], y, z), end) < end) return true;
         }
     }
     return false;

@@ -36,6 +36,9 @@ struct OccupiedBricks {
         return distance[place(x, y, z)];
     }
 
+    // Whether a brick that shows something is among those from `first` to `last`.
+    bool any_of(const std::array<std::int64_t, 3>& first,
+                const std::array<std::int64_t, 3>& last) const;
     // Whether a brick that shows something touches the box between two points of index space. The
     // outermost bricks also stand for what lies beyond the volume.
     bool any_in(const glm::dvec3& min, const glm::dvec3& max) const;

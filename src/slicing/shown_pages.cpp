@@ -54,19 +54,6 @@ std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first
     return bricks;
 }
 
-bool any_shown(const OccupiedBricks& occupied, const BrickSpan& across, const BrickSpan& along,
-               const BrickSpan& deep) {
-    const std::uint8_t shown = occupied.distance.background();  // the code of 0
-    for (std::int64_t z = deep.first; z < deep.end; ++z) {
-        for (std::int64_t y = along.first; y < along.end; ++y) {
-            const std::uint8_t* const row = occupied.distance.coded() + occupied.place(0, y, z);
-            if (std::find(row + across.first, row + across.end, shown) != row + across.end)
-                return true;
-        }
-    }
-    return false;
-}
-
 // How far a point lies outside each of a view's five planes: behind the eye, and beside the
 // picture's edges by a pixel and more. Below 0: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
@@ -92,11 +79,13 @@ std::vector<std::uint32_t> pages_shown(const TileVolume& volume, const OccupiedB
     }
     std::vector<std::uint8_t> shown(cache.brick_count());
     parallel_for(std::ssize(bricks[2]), 1, [&](std::int64_t z) {
+        const BrickSpan deep = bricks[2][static_cast<std::size_t>(z)];
         for (std::size_t y = 0; y < bricks[1].size(); ++y) {
             for (std::size_t x = 0; x < bricks[0].size(); ++x) {
+                const BrickSpan across = bricks[0][x], along = bricks[1][y];
                 shown[cache.number(static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), z)] =
-                    any_shown(occupied, bricks[0][x], bricks[1][y],
-                              bricks[2][static_cast<std::size_t>(z)]);
+                    occupied.any_of({across.first, along.first, deep.first},
+                                    {across.end - 1, along.end - 1, deep.end - 1});
             }
         }
     });

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/all_zero.h"
 #include "base/reserved_memory.h"
 #include "lamina/volume.h"
 
@@ -23,7 +24,7 @@ class BrickRanges {
   public:
     BrickRanges() = default;
     BrickRanges(std::size_t count, SampleType type)
-        : count_(count), type_(type), memory_(count * 2 * lamina::bytes_of(type)) {}
+        : count_(count), type_(type), memory_(count * 2 * bytes_of(type)) {}
 
     std::size_t size() const { return count_; }
     SampleType type() const { return type_; }
@@ -45,8 +46,14 @@ class BrickRanges {
         __builtin_unreachable();  // there is a case for every value
     }
 
+    // Whether `count` ranges, 1 or more, are [0, 0].
+    bool all_zero(std::size_t first, std::size_t count) const {
+        const std::size_t each = 2 * bytes_of(type_);
+        return lamina::all_zero(memory_.data() + first * each, count * each);
+    }
+
     // The range as one number, lo + 256 hi; of samples of 8 bits alone.
-    std::size_t bytes_of(std::size_t i) const {
+    std::size_t byte_pair(std::size_t i) const {
         const auto* const range = reinterpret_cast<const std::uint8_t*>(memory_.data()) + 2 * i;
         return range[0] + (std::size_t{range[1]} << 8);
     }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -38,7 +40,7 @@ class RangeAnswers {
         }
 
         Answer operator[](std::size_t brick) {
-            if (remembered_.empty()) return answers_.of_bytes_[answers_.ranges_.bytes_of(brick)];
+            if (remembered_.empty()) return answers_.of_bytes_[answers_.ranges_.byte_pair(brick)];
             const BrickRange range = answers_.ranges_[brick];
             const auto bits = [](float value) {
                 return std::uint64_t{std::bit_cast<std::uint32_t>(value)};
@@ -51,8 +53,24 @@ class RangeAnswers {
             return entry.answer;
         }
 
+        // The answers for consecutive bricks. Large holes are told by their bytes, and answered
+        // at once.
+        void fill(std::size_t first, std::span<Answer> answers) {
+            while (!answers.empty()) {
+                const std::size_t count = std::min(answers.size(), together);
+                if (answers_.ranges_.all_zero(first, count)) {
+                    std::fill_n(answers.begin(), count, (*this)[first]);
+                } else {
+                    for (std::size_t i = 0; i < count; ++i) answers[i] = (*this)[first + i];
+                }
+                first += count;
+                answers = answers.subspan(count);
+            }
+        }
+
       private:
         static constexpr int address_bits = 12;
+        static constexpr std::size_t together = 2048;
 
         struct Remembered {
             BrickRange range{std::numeric_limits<float>::quiet_NaN(), 0};  // equal to no other
@@ -78,7 +96,7 @@ class RangeAnswers {
 
     const BrickRanges& ranges_;
     Compute compute_;
-    std::vector<Answer> of_bytes_;  // by BrickRanges::bytes_of(); empty: not answered at once
+    std::vector<Answer> of_bytes_;  // by BrickRanges::byte_pair(); empty: not answered at once
 };
 
 }  // namespace lamina
