@@ -50,4 +50,8 @@ void RandomAccessFile::expect_in_order() const {
     posix_fadvise(file_, 0, 0, POSIX_FADV_SEQUENTIAL);
 }
 
+void RandomAccessFile::expect_single_reads() const {
+    posix_fadvise(file_, 0, 0, POSIX_FADV_RANDOM);
+}
+
 }  // namespace lamina

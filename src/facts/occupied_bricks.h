@@ -36,7 +36,8 @@ struct OccupiedBricks {
         return distance[place(x, y, z)];
     }
 
-    // Whether a brick that shows something is among those from `first` to `last`.
+    // Whether a brick that shows something is among those from `first` to `last`. The distances
+    // must have been measured, as for all below.
     bool any_of(const std::array<std::int64_t, 3>& first,
                 const std::array<std::int64_t, 3>& last) const;
     // Whether a brick that shows something touches the box between two points of index space. The

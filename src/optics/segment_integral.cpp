@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 
+#include "optics/gauss_rules.h"
 #include "optics/linear_pieces.h"
 #include "optics/opacity.h"
 
@@ -19,52 +19,14 @@ namespace {
 // Optical depths of a piece are limited to this, so that sums of them stay finite.
 constexpr double largest_depth = 1e300;
 
-struct QuadraturePoint {
-    double x, weight;  // on [0, 1]
-};
-// Gauss-Legendre rules, computed with 40 digits.
-constexpr QuadraturePoint gauss4[] = {
-    {0.06943184420297371239, 0.1739274225687269287},
-    {0.3300094782075718676, 0.3260725774312730713},
-    {0.6699905217924281324, 0.3260725774312730713},
-    {0.9305681557970262876, 0.1739274225687269287},
-};
-constexpr QuadraturePoint gauss8[] = {
-    {0.01985507175123188416, 0.05061426814518812958},
-    {0.1016667612931866302, 0.1111905172266872353},
-    {0.2372337950418355071, 0.1568533229389436437},
-    {0.4082826787521750975, 0.1813418916891809915},
-    {0.5917173212478249025, 0.1813418916891809915},
-    {0.7627662049581644929, 0.1568533229389436437},
-    {0.8983332387068133698, 0.1111905172266872353},
-    {0.9801449282487681158, 0.05061426814518812958},
-};
-constexpr QuadraturePoint gauss16[] = {
-    {0.005299532504175033702, 0.01357622970587704743},
-    {0.02771248846338371196, 0.03112676196932394643},
-    {0.06718439880608412806, 0.0475792558412463924},
-    {0.1222977958224984831, 0.06231448562776693603},
-    {0.1910618777986781258, 0.07479799440828836604},
-    {0.2709916111713863068, 0.08457825969750126909},
-    {0.3591982246103705434, 0.09130170752246179443},
-    {0.4524937450811812799, 0.09472530522753424814},
-    {0.5475062549188187201, 0.09472530522753424814},
-    {0.6408017753896294566, 0.09130170752246179443},
-    {0.7290083888286136932, 0.08457825969750126909},
-    {0.8089381222013218742, 0.07479799440828836604},
-    {0.8777022041775015169, 0.06231448562776693603},
-    {0.9328156011939158719, 0.0475792558412463924},
-    {0.972287511536616288, 0.03112676196932394643},
-    {0.9947004674958249663, 0.01357622970587704743},
-};
-
 // docs/numerics.md, section 5, with u(x) = px + kx^2, the depth from the front to x: front = 1 - G
 // = int 1 - exp(-u) and back = G - exp(-D) = int exp(-u) (1 - exp(-(D - u))). u and D - u are
 // written without a subtraction that could cancel, so every term of both sums is >= 0 and accurate,
 // however small p and q are.
-PieceWeights quadrature_weights(std::span<const QuadraturePoint> rule, double p, double q) {
+PieceWeights quadrature_weights(const GaussRule& rule, double p, double q) {
     PieceWeights weights;
-    for (const auto& [x, weight] : rule) {
+    for (std::size_t i = 0; i < rule.points; ++i) {
+        const double x = rule.x[i], weight = rule.weight[i];
         const double before = x * (p * (1 - x / 2) + q * x / 2);
         const double behind = (1 - x) * (p * (1 - x) / 2 + q * (1 + x) / 2);
         const double absorbed = opacity_from_depth(before);
@@ -119,11 +81,7 @@ class DepthSum {
 
 PieceWeights piece_weights(double p, double q) {
     const double depth = p / 2 + q / 2;
-    // n points are off by about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term), |k| <= D:
-    // relative to D, below 1e-15 at each of these limits.
-    if (depth < 1e-3) return quadrature_weights(gauss4, p, q);
-    if (depth < 0.5) return quadrature_weights(gauss8, p, q);
-    if (depth < 4) return quadrature_weights(gauss16, p, q);
+    if (depth < largest_gauss_depth) return quadrature_weights(gauss_rule(depth), p, q);
     const double g = mean_transmittance(p, q);
     return {1 - g, g - std::exp(-depth)};
 }
@@ -134,32 +92,31 @@ double front_moment(double p, double q) {
     constexpr double deep = 20;
     const double depth = p / 2 + q / 2;
     const double seen = depth > deep ? place_of_depth(deep, p, q) : 1;
-    using Rule = std::span<const QuadraturePoint>;
-    const Rule rule = depth < 1e-3 ? Rule(gauss4) : depth < 0.5 ? Rule(gauss8) : Rule(gauss16);
+    const GaussRule& rule = gauss_rule(depth);
     double sum = 0;
-    for (const auto& [node, weight] : rule) {
-        const double x = seen * node;
+    for (std::size_t i = 0; i < rule.points; ++i) {
+        const double x = seen * rule.x[i];
         const double before = x * (p * (1 - x / 2) + q * x / 2);
-        sum += weight * 2 * (1 - x) * opacity_from_depth(before);
+        sum += rule.weight[i] * 2 * (1 - x) * opacity_from_depth(before);
     }
     return seen * sum + (1 - seen) * (1 - seen);
 }
 
 namespace {
 
-glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
+glm::dvec3 piece_color(const LinearPiece& piece, double p, double q, PieceWeightsOf weights_of) {
     // Most pieces of palettes have one colour, whose weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
-    const PieceWeights weights = piece_weights(p, q);
+    const PieceWeights weights = weights_of(p, q);
     return weights.front * piece.at_from.color + weights.back * piece.at_to.color;
 }
 
 }  // namespace
 
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
-                                  double back, double length) {
+                                  double back, double length, PieceWeightsOf weights_of) {
     SegmentIntegral result;
     if (!(length > 0)) return result;
     DepthSum depth;
@@ -172,7 +129,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
         const double q = std::min(part * piece.at_to.extinction, largest_depth);
         if (p == 0 && q == 0) return;
         const double transmittance = depth.transmittance();
-        if (transmittance > 0) result.color += transmittance * piece_color(piece, p, q);
+        if (transmittance > 0) result.color += transmittance * piece_color(piece, p, q, weights_of);
         depth.add(p / 2 + q / 2);
     });
     result.optical_depth = depth.value();

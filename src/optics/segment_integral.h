@@ -16,12 +16,6 @@ struct SegmentIntegral {
     glm::dvec3 color{0};
 };
 
-// Integrates a segment on which the scalar is linear from `front` (nearer to the eye) to `back`,
-// over `length` >= 0 world units. The relative error is about 1e-13 in every component, for optical
-// depths from 1e-300 to 1e300.
-SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
-                                  double back, double length);
-
 // The weights of the colours at both ends of one linear piece with extinction * length = p at its
 // front and q at its back (>= 0, finite). The associated colour is front * c_front + back * c_back.
 // Both weights are >= 0, and front + back = 1 - exp(-(p + q) / 2).
@@ -30,6 +24,14 @@ struct PieceWeights {
     double back = 0;
 };
 PieceWeights piece_weights(double p, double q);
+using PieceWeightsOf = PieceWeights (*)(double p, double q);
+
+// Integrates a segment on which the scalar is linear from `front` (nearer to the eye) to `back`,
+// over `length` >= 0 world units. The relative error is about 1e-13 in every component, for optical
+// depths from 1e-300 to 1e300. `weights_of`: another way to compute piece_weights().
+SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
+                                  double back, double length,
+                                  PieceWeightsOf weights_of = piece_weights);
 
 // Of such a piece the integral of (1 - x)^2 over what is seen of it, x from 0 at its front to 1 at
 // its back: to 1e-8.

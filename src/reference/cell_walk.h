@@ -28,6 +28,9 @@ class CellWalk {
             const auto first = static_cast<std::int64_t>(std::floor(lowest[axis]));
             const auto last = static_cast<std::int64_t>(std::ceil(highest[axis])) - 1;
             const double p = chord.entry[axis], d = chord.direction[axis];
+            // Finite, so that it gives 0 on the plane itself.
+            constexpr double largest = std::numeric_limits<double>::max();
+            inverse_[axis] = std::clamp(1 / d, -largest, largest);
             // On a plane between two cells the ray belongs to the cell that it enters.
             const double cell = d < 0 ? std::ceil(p) - 1 : std::floor(p);
             cell_[axis] = std::clamp(static_cast<std::int64_t>(cell), first, last);
@@ -76,8 +79,7 @@ class CellWalk {
             const std::int64_t end =
                 d < 0 ? std::max(first[axis], final_[axis]) : std::min(last[axis], final_[axis]);
             if (end == final_[axis]) continue;
-            const double crossing =
-                (static_cast<double>(end + (d > 0 ? 1 : 0)) - chord_.entry[axis]) / d;
+            const double crossing = crossing_of(end + (d > 0 ? 1 : 0), axis);
             if (crossing < to) {
                 to = crossing;
                 leaving = axis;
@@ -111,24 +113,26 @@ class CellWalk {
         return crossing_[1] <= crossing_[2] ? 1 : 2;
     }
 
+    double crossing_of(std::int64_t plane, int axis) const {
+        return (static_cast<double>(plane) - chord_.entry[axis]) * inverse_[axis];
+    }
+
     // Where the chord crosses the plane through which it enters the cell.
     double crossing_into(int axis) const {
-        const double d = chord_.direction[axis];
-        const auto plane = static_cast<double>(cell_[axis] + (d > 0 ? 0 : 1));
-        return (plane - chord_.entry[axis]) / d;
+        return crossing_of(cell_[axis] + (chord_.direction[axis] > 0 ? 0 : 1), axis);
     }
 
     double next_crossing(int axis) const {
         const double d = chord_.direction[axis];
         if (d == 0 || cell_[axis] == final_[axis]) return std::numeric_limits<double>::infinity();
-        const auto plane = static_cast<double>(cell_[axis] + (d > 0 ? 1 : 0));
-        return (plane - chord_.entry[axis]) / d;
+        return crossing_of(cell_[axis] + (d > 0 ? 1 : 0), axis);
     }
 
     const Chord& chord_;
     CellIndex cell_;
     CellIndex final_;  // the last cell in the ray's direction
     std::array<double, 3> crossing_;
+    std::array<double, 3> inverse_;  // of the direction
 };
 
 }  // namespace lamina

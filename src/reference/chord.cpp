@@ -20,30 +20,12 @@ struct Coordinate {
     DoubleDouble z_at(double plane) const { return (DoubleDouble{plane, 0} - position) / slope; }
 };
 
-DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
-    DoubleDouble sum;
-    for (int i = 0; i < 3; ++i) sum = sum + a[i] * DoubleDouble{b[i], 0};
-    return sum;
-}
-
-// Projects on one (orthogonal) grid axis. The axis is first scaled by a power of two, so that its
-// square does not underflow.
-Coordinate project(const View::Ray& ray, const glm::dvec3& origin, const glm::dvec3& step) {
-    const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    --exponent;  // to [1, 2): an offset of one subnormal number from a face must survive
-    glm::dvec3 axis;
-    DoubleDouble offset[3], direction[3], axis_parts[3];
-    for (int i = 0; i < 3; ++i) {
-        axis[i] = std::scalbn(step[i], -exponent);
-        axis_parts[i] = {axis[i], 0};
-        offset[i] = exact_sum(ray.origin[i], -origin[i]);
-        direction[i] = {ray.direction[i], 0};
-    }
-    const DoubleDouble square = dot(axis_parts, axis);
-    const DoubleDouble unscale{std::scalbn(1.0, -exponent), 0};
-    return {dot(offset, axis) / square * unscale, dot(direction, axis) / square * unscale};
+// Projects on one (orthogonal) grid axis.
+Coordinate project(const DoubleDouble (&offset)[3], const DoubleDouble (&direction)[3],
+                   const GridAxes::Axis& axis) {
+    const DoubleDouble unscale{axis.unscale, 0};
+    return {dot(offset, axis.scaled) / axis.square * unscale,
+            dot(direction, axis.scaled) / axis.square * unscale};
 }
 
 // Returns the part of z >= 0 where every coordinate is inside its closed range. Where there is
@@ -73,10 +55,19 @@ RaySpan clip_to_faces(const Coordinate (&ray)[3], const glm::dvec3& lowest,
 }  // namespace
 
 Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip) {
+    return clip_to_box(GridAxes(grid), ray, clip);
+}
+
+Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip) {
+    DoubleDouble offset[3], direction[3];
+    for (int i = 0; i < 3; ++i) {
+        offset[i] = exact_sum(ray.origin[i], -grid.origin[i]);
+        direction[i] = {ray.direction[i], 0};
+    }
     Coordinate coordinates[3];
     double steepest = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        coordinates[axis] = project(ray, grid.origin, grid.step[axis]);
+        coordinates[axis] = project(offset, direction, grid.axes[static_cast<std::size_t>(axis)]);
         if (!coordinates[axis].position.finite() || !coordinates[axis].slope.finite()) return {};
         steepest = std::max(steepest, std::abs(coordinates[axis].slope.hi));
     }
@@ -85,7 +76,7 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSp
     for (Coordinate& coordinate : coordinates) {
         if (std::abs(coordinate.slope.hi) < 1e-40 * steepest) coordinate.slope = {};
     }
-    const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+    const glm::dvec3 &lowest = grid.lowest, &highest = grid.highest;
     int entry_axis = -1;
     RaySpan inside = clip_to_faces(coordinates, lowest, highest, entry_axis);
     if (!(inside.from < inside.to)) return {};

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include <span>
 
 #include "lamina/grid.h"
+#include "reference/grid_axes.h"
 #include "scene/camera.h"
 #include "scene/half_space.h"
 
@@ -22,11 +24,16 @@ struct Chord {
     double world_per_z = 0;  // world length per unit of z
 
     double world_length() const { return length_z * world_per_z; }
+    // A place in a cell, in coordinates of the cell (0..1).
+    glm::dvec3 place_in_cell(const glm::dvec3& corner, double at) const {
+        return glm::clamp(entry + at * direction - corner, glm::dvec3(0), glm::dvec3(1));
+    }
 };
 
 // Clips a ray to the box, and to the half-spaces of a clip. The numbers of ray and grid are taken
 // as exact. length_z has a relative error of 1e-15, also for very short chords at an edge of the
 // box that is seen from far away. The box is closed: a ray in a face is inside.
+Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 
 // World length of the ray of pixel (column, row) (fractions allowed) inside the box.

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace lamina {
 
 MonotoneParts monotone_parts(const Cubic& cubic) {
-    // Derivative a t^2 + 2 b t + c; the quotient form has no cancellation (Press et al., Numerical
-    // Recipes, 5.6).
-    const double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
+    // Derivative a t^2 + 2 b t + c, scaled so that no square of a coefficient underflows; the
+    // quotient form has no cancellation (Press et al., Numerical Recipes, 5.6).
+    double a = 3 * cubic.c[3], b = cubic.c[2], c = cubic.c[1];
+    const double largest = std::max({std::abs(a), std::abs(b), std::abs(c)});
+    a /= largest;
+    b /= largest;
+    c /= largest;
     const double discriminant = b * b - a * c;
     MonotoneParts parts;
     if (!(discriminant > 0)) return parts;
@@ -25,7 +28,8 @@ MonotoneParts monotone_parts(const Cubic& cubic) {
 }
 
 // Uses Newton's method inside a bracket. The bracket is bisected where Newton's step would leave it
-// or shrinks it too slowly.
+// or shrinks it too slowly. A step is the last one where what it leaves, which is at most its
+// square times half of the second derivative by the slope, is less than a rounding of t.
 double solve_monotone(const Cubic& cubic, double value, double from, double to) {
     Cubic shifted = cubic;
     shifted.c[0] -= value;
@@ -35,19 +39,23 @@ double solve_monotone(const Cubic& cubic, double value, double from, double to) 
     double t = from + (to - from) * (at_from / (at_from - at_to));  // as if it were straight
     if (!(t > from && t < to)) t = 0.5 * (from + to);
     double step = std::abs(to - from), previous_step = step;
-    constexpr int most_steps = 200;
-    for (int i = 0; i < most_steps; ++i) {
+    const double bend = std::abs(cubic.c[2]) + 3 * std::abs(cubic.c[3]);
+    for (int i = 0; i < most_newton_steps; ++i) {
         const double f = shifted(t), slope = shifted.slope(t);
         if (f == 0) return t;
         (f < 0 ? below : above) = t;
         const double newton = t - f / slope;
         const bool inside = newton > std::min(below, above) && newton < std::max(below, above);
         const bool fast = std::abs(2 * f) <= std::abs(previous_step * slope);
-        const double next = inside && fast ? newton : 0.5 * (below + above);
+        const bool by_newton = inside && fast;
+        const double next = by_newton ? newton : 0.5 * (below + above);
         previous_step = step;
         step = std::abs(next - t);
         t = next;
-        if (step <= 0.5 * std::numeric_limits<double>::epsilon() * std::abs(t)) break;
+        const double rounding = root_precision * std::abs(t);
+        const double bent = bend / std::abs(slope) * step;
+        const bool straight = bent * step <= rounding && 8 * bent <= 1;
+        if (step <= rounding || (by_newton && straight)) break;
     }
     return t;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 namespace lamina {
 
@@ -22,6 +23,10 @@ struct MonotoneParts {
     int count = 1;
 };
 MonotoneParts monotone_parts(const Cubic& cubic);
+
+// Newton's method for solve_monotone(): steps at most, and the share of t to which it is found.
+inline constexpr int most_newton_steps = 200;
+inline constexpr double root_precision = 0.5 * std::numeric_limits<double>::epsilon();
 
 // The t in [from, to] where the cubic equals `value`. The cubic must be monotone there, and `value`
 // must lie between its values at the ends. The result has full precision for all slopes.

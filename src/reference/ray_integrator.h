@@ -2,39 +2,41 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "base/compensated_sum.h"
 #include "optics/ray_lights.h"
-#include "reference/cubic.h"
-#include "reference/emission_batch.h"
-#include "reference/emission_integral.h"
 #include "reference/gradient_samples.h"
+#include "reference/piece_batch.h"
+#include "reference/segment_batch.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {
 
-// Emission and absorption along one ray, accumulated front to back in double precision
+// Emission and absorption along rays, accumulated front to back in double precision
 // (docs/numerics.md, section 1). Optical depth is exact up to rounding. Colour is integrated to a
 // tolerance, with an estimate of its error.
 class RayIntegrator {
   public:
-    // `tolerance`: largest error of every channel of the whole ray, as a share of full scale.
-    // `ray_length` > 0: world length of all segments; infinite where it is not known. `lights`: for
-    // add_lit(), must outlive this.
-    RayIntegrator(const TransferIntervals& transfer, double tolerance, double ray_length,
-                  const RayLights* lights = nullptr);
+    // The gradient along a segment of a batch, from its front to its back in world space.
+    using GradientOf = std::function<GradientAlong(std::size_t segment)>;
 
-    // Adds the next segment, of `length` > 0 world units. `scalar` is the scalar from its front to
-    // its back, which stays inside [lo, hi] up to rounding.
-    void add(const Cubic& scalar, double lo, double hi, double length) {
-        add(scalar, nullptr, lo, hi, length);
-    }
-    // The same of a segment that is lit, with its gradient from front to back in world space.
-    void add_lit(const Cubic& scalar, const GradientAlong& gradient, double lo, double hi,
-                 double length) {
-        add(scalar, &gradient, lo, hi, length);
+    // `tolerance`: largest error of every channel of a whole ray, as a share of full scale.
+    RayIntegrator(const TransferIntervals& transfer, double tolerance);
+
+    // Begins the next ray. `ray_length` > 0: world length of all segments; infinite where it is not
+    // known. `lights`: for segments that are lit, must outlive the ray.
+    void begin(double ray_length, const RayLights* lights = nullptr);
+
+    // Adds the next segments; those that are hidden may be among them.
+    void add(const SegmentBatch& segments) { add(segments, nullptr); }
+    // The same of segments that are lit. `gradient_of` is called for those that are seen.
+    void add_lit(const SegmentBatch& segments, const GradientOf& gradient_of) {
+        add(segments, &gradient_of);
     }
 
     // Whether all that follows is hidden, so that no more segments need to be added.
@@ -52,33 +54,27 @@ class RayIntegrator {
     double light_error() const { return light_error_ + hidden(); }
 
   private:
-    // Here `gradient` is null for what is not lit.
-    void add(const Cubic& scalar, const GradientAlong* gradient, double lo, double hi,
-             double length);
-    void add_split(const Cubic& scalar, const GradientAlong* gradient, double length);
-    void add_part(std::size_t interval, const Cubic& scalar, const GradientAlong* gradient,
-                  double from, double to, double start, double end, double length);
-    void add_piece(const TransferInterval& interval, const Cubic& scalar,
-                   const GradientAlong* gradient, double length);
-    void add_light(const TransferInterval& interval, const EmissionPiece& emission,
-                   const GradientAlong& gradient, double length);
+    void add(const SegmentBatch& segments, const GradientOf* gradient_of);
+    void order_pieces(std::size_t first);
+    void add_light(std::size_t piece, const GradientAlong& gradient);
     void finish_batch();
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
 
     const TransferIntervals& transfer_;
-    const RayLights* lights_;
-    double brightest_;  // at least 1, for alpha
-    double depth_limit_;
+    double tolerance_;
     double error_per_opacity_;
-    double error_per_length_;
+    const RayLights* lights_ = nullptr;
+    double brightest_ = 1;  // at least 1, for alpha
+    double depth_limit_ = 0;
+    double error_per_length_ = 0;
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
     glm::dvec3 color_{0};
     double error_ = 0;
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;
-    EmissionBatch batch_;  // of the last pieces, which are not in color_ and error_
-    const TransferInterval* intervals_[EmissionBatch::capacity];
+    PieceBatch batch_;                // the last pieces, which are not in color_ and error_
+    std::vector<std::size_t> order_;  // of the pieces that were added last, front to back
 };
 
 }  // namespace lamina

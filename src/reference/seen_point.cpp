@@ -65,9 +65,7 @@ std::optional<SeenPoint> point_in(const std::vector<RayStep<Piece>>& steps, cons
 Cubic scalar_in(const CellCorners& corners, const CellIndex& cell, const Chord& chord, double from,
                 double to) {
     const glm::dvec3 corner(cell[0], cell[1], cell[2]);
-    const glm::dvec3 start =
-        glm::clamp(chord.entry + from * chord.direction - corner, glm::dvec3(0), glm::dvec3(1));
-    return corners.along(start, (to - from) * chord.direction);
+    return corners.along(chord.place_in_cell(corner, from), (to - from) * chord.direction);
 }
 
 template <typename Samples>
@@ -82,10 +80,13 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         const CellCorners corners = samples.corners(cell);
         const auto [lo, hi] = corners.range();
         if (!transfer.visible(lo, hi) || !CellSamples<Samples>::finite(corners)) return;
-        integrator.add(scalar_in(corners, cell, chord, from, to), lo, hi,
-                       (to - from) * chord.world_per_z);
+        SegmentBatch alone;
+        alone.add(scalar_in(corners, cell, chord, from, to), lo, hi,
+                  (to - from) * chord.world_per_z);
+        integrator.add(alone);
     };
-    RayIntegrator whole(transfer, scene.trace_tolerance, chord.world_length());
+    RayIntegrator whole(transfer, scene.trace_tolerance), part(transfer, scene.trace_tolerance);
+    whole.begin(chord.world_length());
     std::vector<RayStep<CellIndex>> steps;
     CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
         const double before = whole.optical_depth();
@@ -94,7 +95,7 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         return !whole.opaque();
     });
     const auto depth_of = [&](const CellIndex& cell, double from, double to) {
-        RayIntegrator part(transfer, scene.trace_tolerance, chord.world_length());
+        part.begin(chord.world_length());
         integrate(cell, from, to, part);
         return part.optical_depth();
     };

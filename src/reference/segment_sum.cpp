@@ -8,7 +8,7 @@
 
 #include "optics/opacity.h"
 #include "optics/segment_integral.h"
-#include "reference/ray_integrator.h"
+#include "reference/segment_weights.h"
 
 namespace lamina {
 namespace {
@@ -27,7 +27,7 @@ SegmentSum::SegmentSum(const TransferFunction& transfer_function,
       intervals_(intervals),
       place_error_(place_error),
       lights_(lights),
-      tolerance_(tolerance),
+      light_(intervals, tolerance),
       brightest_(std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals.brightest())
                                                  : intervals.brightest())),
       depth_limit_(std::log(brightest_ / least_transmittance)) {}
@@ -36,7 +36,8 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     const auto [lo, hi] = std::minmax(front, back);
     if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
-    const SegmentIntegral segment = integrate_segment(transfer_function_, front, back, length);
+    const SegmentIntegral segment =
+        integrate_segment(transfer_function_, front, back, length, segment_weights);
     const double transmittance = std::exp(-depth_.value());
     color_ += transmittance * segment.color;
     // Where an end is off, this much depth moves from one side of it to the other.
@@ -59,12 +60,14 @@ void SegmentSum::add_lit(double front, double back, const GradientAlong& gradien
 void SegmentSum::add_light(double front, double back, const GradientAlong& gradient,
                            double length) {
     constexpr double unknown_length = std::numeric_limits<double>::infinity();
-    RayIntegrator segment(intervals_, tolerance_, unknown_length, lights_);
+    light_.begin(unknown_length, lights_);
     const auto [lo, hi] = std::minmax(front, back);
-    segment.add_lit({{front, back - front}}, gradient, lo, hi, length);
+    SegmentBatch alone;
+    alone.add({{front, back - front}}, lo, hi, length);
+    light_.add_lit(alone, [&](std::size_t) { return gradient; });
     const double transmittance = std::exp(-depth_.value());
-    color_ += transmittance * segment.light();
-    error_ += transmittance * segment.light_error();
+    color_ += transmittance * light_.light();
+    error_ += transmittance * light_.light_error();
 }
 
 // Returns what would change if the scalar of a segment that is all but constant were elsewhere in

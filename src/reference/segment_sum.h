@@ -8,6 +8,7 @@
 #include "lamina/transfer_function.h"
 #include "optics/ray_lights.h"
 #include "reference/gradient_samples.h"
+#include "reference/ray_integrator.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {
@@ -45,7 +46,7 @@ class SegmentSum {
     const TransferIntervals& intervals_;
     double place_error_;
     const RayLights* lights_;
-    double tolerance_;
+    RayIntegrator light_;  // of one segment at a time
     double brightest_;
     double depth_limit_;
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits

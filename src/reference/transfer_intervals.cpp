@@ -2,9 +2,9 @@
 #include "reference/transfer_intervals.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -55,27 +55,24 @@ TransferIntervals::TransferIntervals(const TransferFunction& transfer_function) 
                                                   : outside(knots[i]));
     }
     find_visible();
-    count_knots_below();
+    make_columns();
 }
 
-void TransferIntervals::count_knots_below() {
-    const double first = knots_.front(), range = knots_.back() - first;
-    const std::size_t bins = 8 * knots_.size();
-    bins_per_unit_ = static_cast<double>(bins) / range;
-    if (!std::isfinite(bins_per_unit_) || !(bins_per_unit_ > 0)) bins_per_unit_ = 0;
-    // Roundings may put a value into the bin beside its own.
-    for (std::size_t bin = 0; bins_per_unit_ > 0 && bin <= bins; ++bin) {
-        const double begin = first + (static_cast<double>(bin) - 1) / bins_per_unit_;
-        const auto at = std::ranges::lower_bound(knots_, begin);
-        knots_below_.push_back(static_cast<std::uint32_t>(at - knots_.begin()));
+void TransferIntervals::make_columns() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    columns_.knot_count = knots_.size();
+    columns_.bounds.assign(std::bit_ceil(knots_.size() + 1) + 1, infinity);
+    columns_.bounds[0] = -infinity;
+    std::ranges::copy(knots_, columns_.bounds.begin() + 1);
+    for (const TransferInterval& interval : intervals_) {
+        columns_.lo.push_back(interval.lo);
+        columns_.hi.push_back(interval.hi);
+        columns_.inverse_width.push_back(interval.inverse_width);
+        columns_.extinction.push_back(interval.at_lo.extinction);
+        columns_.extinction_change.push_back(interval.extinction_change);
+        columns_.color_span.push_back(interval.color_span);
+        columns_.transparent.push_back(interval.transparent ? 1 : 0);
     }
-}
-
-std::size_t TransferIntervals::knots_surely_below(double value) const {
-    const double bin = (value - knots_.front()) * bins_per_unit_;
-    if (!(bin >= 1)) return 0;
-    return knots_below_[std::min(static_cast<std::size_t>(std::min(bin, 1e9)),
-                                 knots_below_.size() - 1)];
 }
 
 void TransferIntervals::find_visible() {
@@ -90,33 +87,6 @@ void TransferIntervals::find_visible() {
             visible_.push_back({lo, hi});
         }
     }
-}
-
-// The first knot that is `beyond` the value: mostly one of the next few in the value's bin.
-template <typename Beyond>
-std::size_t TransferIntervals::first_knot(double value, const Beyond& beyond) const {
-    constexpr std::size_t next_few = 4;
-    std::size_t knot = knots_surely_below(value);
-    for (std::size_t i = 0; i < next_few; ++i, ++knot)
-        if (knot == knots_.size() || beyond(knots_[knot])) return knot;
-    return static_cast<std::size_t>(
-        std::partition_point(knots_.begin() + static_cast<std::ptrdiff_t>(knot), knots_.end(),
-                             std::not_fn(beyond)) -
-        knots_.begin());
-}
-
-std::size_t TransferIntervals::above(double value) const {
-    return first_knot(value, [&](double knot) { return knot > value; });
-}
-
-std::size_t TransferIntervals::below(double value) const {
-    return first_knot(value, [&](double knot) { return knot >= value; });
-}
-
-bool TransferIntervals::visible(double lo, double hi) const {
-    const auto range = std::lower_bound(visible_.begin(), visible_.end(), lo,
-                                        [](const Range& r, double value) { return r.hi < value; });
-    return range != visible_.end() && range->lo <= hi;
 }
 
 }  // namespace lamina

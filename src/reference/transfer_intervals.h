@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "lamina/transfer_function.h"
+#include "reference/interval_columns.h"
 
 namespace lamina {
 
@@ -22,16 +23,6 @@ struct TransferInterval {
     double extinction_change = 0;
     double color_span = 0;  // largest |color_change|
     bool transparent = true;
-
-    // Computed from the nearer knot, so that few digits are lost where a steep interval ends at
-    // extinction 0.
-    double extinction(double value) const {
-        const double from_lo = (value - lo) * inverse_width, from_hi = (hi - value) * inverse_width;
-        const double result = from_lo < from_hi ? at_lo.extinction + extinction_change * from_lo
-                                                : (at_lo.extinction + extinction_change) -
-                                                      extinction_change * from_hi;
-        return result > 0 ? result : 0;
-    }
 };
 
 // A transfer function as a list of intervals. The interval of a value is decided once for each
@@ -40,24 +31,24 @@ class TransferIntervals {
   public:
     explicit TransferIntervals(const TransferFunction& transfer_function);
 
-    // Interval i lies between knots i-1 and i. above() is the interval for values at and above
-    // `value`, below() the one for values at and below it.
-    std::size_t above(double value) const;
-    std::size_t below(double value) const;
+    // Interval i lies between knots i-1 and i.
     const TransferInterval& operator[](std::size_t interval) const { return intervals_[interval]; }
-    std::size_t knot_count() const { return knots_.size(); }
-    double knot(std::size_t index) const { return knots_[index]; }
+    const IntervalColumns& columns() const { return columns_; }
 
     // Whether any interval that touches [lo, hi] has extinction.
-    bool visible(double lo, double hi) const;
+    bool visible(double lo, double hi) const {
+        // Most functions have one, and this is asked for every cell.
+        if (visible_.size() == 1) return visible_[0].lo <= hi && lo <= visible_[0].hi;
+        const auto range =
+            std::lower_bound(visible_.begin(), visible_.end(), lo,
+                             [](const Range& r, double value) { return r.hi < value; });
+        return range != visible_.end() && range->lo <= hi;
+    }
     double brightest() const { return brightest_; }  // largest colour component of all
 
   private:
     void find_visible();
-    void count_knots_below();
-    std::size_t knots_surely_below(double value) const;
-    template <typename Beyond>
-    std::size_t first_knot(double value, const Beyond& beyond) const;
+    void make_columns();
 
     struct Range {
         double lo, hi;
@@ -65,9 +56,7 @@ class TransferIntervals {
     std::vector<double> knots_;
     std::vector<TransferInterval> intervals_;
     std::vector<Range> visible_;  // sorted, disjoint
-    // The knots' range in equal bins: below all values of a bin lie this many knots at least.
-    std::vector<std::uint32_t> knots_below_;
-    double bins_per_unit_ = 0;
+    IntervalColumns columns_;
     double brightest_ = 0;
 };
 

@@ -7,15 +7,17 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "reference/cell_batch.h"
 #include "reference/cell_walk.h"
 #include "reference/chord.h"
 #include "reference/gradient_samples.h"
 #include "reference/ray_integrator.h"
 #include "reference/transfer_intervals.h"
 #include "reference/trilinear.h"
-#include "reference/visible_blocks.h"
+#include "reference/visible_cells.h"
 
 namespace lamina {
 namespace {
@@ -24,39 +26,76 @@ namespace {
 template <typename Samples>
 struct Traced {
     Traced(const Volume& volume, const Samples& first_sample, const TransferIntervals& intervals,
-           const VisibleBlocks& visible_blocks, const TraceOptions& how)
+           const VisibleCells& visible_cells, const TraceOptions& how)
         : grid(volume.grid()),
+          axes(grid),
           samples(grid, first_sample),
           gradients(grid, first_sample),
           transfer(intervals),
-          blocks(visible_blocks),
+          cells(visible_cells),
           options(how) {}
 
     const Grid& grid;
+    GridAxes axes;
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
-    const VisibleBlocks& blocks;
+    const VisibleCells& cells;
     const TraceOptions& options;
 };
 
-// Adds the part of the chord inside one cell, from parameter `from` to `to`.
+// The cells along one chord on their way to its integrator, some at a time: the first are few, in
+// case that they hide the others.
 template <typename Samples>
-void add_cell(const Traced<Samples>& traced, const Chord& chord, const CellIndex& cell, double from,
-              double to, RayIntegrator& integrator) {
-    const CellCorners corners = traced.samples.corners(cell);
-    const auto [lo, hi] = corners.range();
-    if (!traced.transfer.visible(lo, hi) || !CellSamples<Samples>::finite(corners)) return;
-    const glm::dvec3 corner(cell[0], cell[1], cell[2]);
-    const glm::dvec3 start =
-        glm::clamp(chord.entry + from * chord.direction - corner, glm::dvec3(0), glm::dvec3(1));
-    const glm::dvec3 step = (to - from) * chord.direction;
-    const Cubic scalar = corners.along(start, step);
-    const double length = (to - from) * chord.world_per_z;
-    if (!traced.options.lighting) return integrator.add(scalar, lo, hi, length);
-    const GradientAlong gradient = traced.gradients.along(cell, start, step);
-    integrator.add_lit(scalar, gradient, lo, hi, length);
-}
+class ChordCells {
+  public:
+    ChordCells(const Traced<Samples>& traced, const Chord& chord, RayIntegrator& integrator)
+        : traced_(traced), chord_(chord), integrator_(integrator) {}
+
+    // Adds the part of the chord inside one cell, from parameter `from` to `to`. Returns whether
+    // what follows is seen, as far as is known.
+    bool add(const CellIndex& cell, double from, double to) {
+        if (!traced_.cells.may_show(cell)) return true;
+        const CellCorners corners = traced_.samples.corners(cell);
+        const CellCorners::Range range = corners.range();
+        if (!traced_.transfer.visible(range.lo, range.hi) || !CellSamples<Samples>::finite(corners))
+            return true;
+        cells_.add(corners, range, cell, from, to);
+        if (cells_.count < together_) return true;
+        flush();
+        together_ = std::min(2 * together_, CellBatch::capacity);
+        return !integrator_.opaque();
+    }
+
+    void flush() {
+        make_segments(cells_, chord_, segments_);
+        if (traced_.options.lighting)
+            integrator_.add_lit(segments_, [&](std::size_t cell) { return gradient(cell); });
+        else
+            integrator_.add(segments_);
+        cells_.count = 0;
+    }
+
+  private:
+    GradientAlong gradient(std::size_t number) const {
+        glm::dvec3 corner;
+        CellIndex cell;
+        for (int axis = 0; axis < 3; ++axis) {
+            corner[axis] = cells_.place[axis][number];
+            cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(corner[axis]);
+        }
+        const double from = cells_.from[number], to = cells_.to[number];
+        return traced_.gradients.along(cell, chord_.place_in_cell(corner, from),
+                                       (to - from) * chord_.direction);
+    }
+
+    const Traced<Samples>& traced_;
+    const Chord& chord_;
+    RayIntegrator& integrator_;
+    std::size_t together_ = 8;
+    CellBatch cells_;
+    SegmentBatch segments_;
+};
 
 struct TracedRay {
     glm::dvec4 rgba{0};
@@ -65,21 +104,22 @@ struct TracedRay {
 };
 
 template <typename Samples>
-TracedRay trace_ray(const Traced<Samples>& traced, const View::Ray& ray) {
-    const Chord chord = clip_to_box(traced.grid, ray, traced.options.clip);
+TracedRay trace_ray(const Traced<Samples>& traced, const View::Ray& ray,
+                    RayIntegrator& integrator) {
+    const Chord chord = clip_to_box(traced.axes, ray, traced.options.clip);
     if (!(chord.length_z > 0)) return {};
     std::optional<RayLights> lights;
     if (traced.options.lighting) lights.emplace(*traced.options.lighting, -ray.direction);
-    RayIntegrator integrator(traced.transfer, traced.options.tolerance, chord.world_length(),
-                             lights ? &*lights : nullptr);
+    integrator.begin(chord.world_length(), lights ? &*lights : nullptr);
+    ChordCells<Samples> cells(traced, chord, integrator);
     const auto visit = [&](const CellIndex& cell, double from, double to) {
-        add_cell(traced, chord, cell, from, to, integrator);
-        return !integrator.opaque();
+        return cells.add(cell, from, to);
     };
     const auto hidden = [&](const CellIndex& cell, CellIndex& first, CellIndex& last) {
-        return traced.blocks.hidden(cell, first, last);
+        return traced.cells.hidden(cell, first, last);
     };
     CellWalk(traced.grid, chord).run(visit, hidden);
+    cells.flush();
     return {glm::dvec4(integrator.color(), integrator.alpha()), integrator.error_estimate(),
             integrator.pieces()};
 }
@@ -93,10 +133,11 @@ template <typename Samples>
 TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const PictureTile& tile,
                       PreciseImage& image) {
     TileTotals totals;
+    RayIntegrator integrator(traced.transfer, traced.options.tolerance);
     for (int row = tile.row; row < tile.row + tile.height; ++row) {
         check_interrupt();
         for (int column = tile.column; column < tile.column + tile.width; ++column) {
-            const TracedRay ray = trace_ray(traced, view.ray(column, row));
+            const TracedRay ray = trace_ray(traced, view.ray(column, row), integrator);
             double* const pixel = image.pixel(column, row);
             for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
             totals.error_estimate = std::max(totals.error_estimate, ray.error_estimate);
@@ -106,12 +147,13 @@ TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const Pic
     return totals;
 }
 
-// To find the blocks takes a look at every sample. That pays where rays meet as many cells: one
+// To find them takes a look at every sample. That pays where rays meet as many cells: one
 // through a cube meets about as many as an edge of it has, and rays through thin volumes fewer.
-bool worth_blocks(const Volume& volume, const View& view) {
+bool worth_visible_cells(const Volume& volume, const View& view) {
     const std::int64_t pixels = std::int64_t{view.width} * view.height;
     const std::int64_t cells_a_ray = std::ranges::min(volume.grid().size);
-    return volume.in_memory() && volume.grid().sample_count() / cells_a_ray <= pixels;
+    return volume.in_memory() && volume.grid().sample_count() / cells_a_ray <= pixels &&
+           VisibleCells::bytes_for(volume.grid()) <= memory_left();
 }
 
 }  // namespace
@@ -121,12 +163,12 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
     check(options);
     TraceResult result{PreciseImage(view.width, view.height)};
     const TransferIntervals transfer(transfer_function);
-    const VisibleBlocks blocks =
-        worth_blocks(volume, view) ? VisibleBlocks(volume, transfer) : VisibleBlocks();
+    const VisibleCells cells =
+        worth_visible_cells(volume, view) ? VisibleCells(volume, transfer) : VisibleCells();
     const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
     std::vector<TileTotals> totals(tiles.size());
     visit_samples(volume, [&](const auto& first_sample) {
-        const Traced traced(volume, first_sample, transfer, blocks, options);
+        const Traced traced(volume, first_sample, transfer, cells, options);
         const auto trace = [&](const PictureTile& tile, std::size_t number) {
             totals[number] = trace_tile(traced, view, tile, result.image);
         };
@@ -148,12 +190,18 @@ TracedPixels trace_pixels(const Volume& volume, const TransferFunction& transfer
     std::vector<TracedRay> rays(pixels.size());
     Progress progress("tracing trial rays", static_cast<std::int64_t>(pixels.size()));
     visit_samples(volume, [&](const auto& first_sample) {
-        const VisibleBlocks all;
+        const VisibleCells all;
         const Traced traced(volume, first_sample, transfer, all, options);
-        parallel_for(static_cast<std::int64_t>(pixels.size()), 64, [&](std::int64_t number) {
-            const auto i = static_cast<std::size_t>(number);
-            rays[i] = trace_ray(traced, view.ray(pixels[i].x, pixels[i].y));
-            progress.advance();
+        constexpr std::size_t together = 64;
+        const std::size_t parts = (pixels.size() + together - 1) / together;
+        parallel_for(static_cast<std::int64_t>(parts), 1, [&](std::int64_t part) {
+            const std::size_t first = static_cast<std::size_t>(part) * together;
+            const std::size_t end = std::min(first + together, pixels.size());
+            RayIntegrator integrator(transfer, options.tolerance);
+            for (std::size_t i = first; i < end; ++i) {
+                rays[i] = trace_ray(traced, view.ray(pixels[i].x, pixels[i].y), integrator);
+                progress.advance();
+            }
         });
     });
     TracedPixels traced;

@@ -25,7 +25,12 @@ namespace {
 constexpr std::uint64_t most_between_bytes = 4096, most_between_rows = 8;
 constexpr std::size_t most_extents = 1 << 20;
 // A disk reads on over so many bytes rather than to begin anew.
-constexpr std::uint64_t most_skipped = 1 << 20, piece_bytes = 1 << 26;
+constexpr std::uint64_t most_skipped = 1 << 20;
+// Short reads leave a disk waiting between them. So many follow each other in the file's order.
+constexpr std::uint64_t read_at_once = 1 << 21;
+constexpr std::size_t pieces_together = 32;
+// Shorter holes are read with the data around them.
+constexpr std::uint64_t shortest_hole = 1 << 15;
 
 }  // namespace
 
@@ -80,6 +85,11 @@ void FileSource::find_extents() {
         extents_.size() == 1 && extents_[0].begin == 0 && extents_[0].end >= files_[0].bytes;
     const bool known = extents_.size() < most_extents;
     if (!known || whole) extents_ = {{0, files_[0].bytes}};
+    std::uint64_t data = 0;
+    for (const Extent& extent : extents_) data += extent.end - extent.begin;
+    mostly_holes_ = data < files_[0].bytes / 2;
+    // A system that reads on by itself would fill its cache with holes.
+    if (mostly_holes_) only_file_->expect_single_reads();
 }
 
 bool FileSource::known_as_zero(const SampleBox& box) const {
@@ -167,45 +177,64 @@ void FileSource::read(const SampleBox& box, void* to) const {
     if (swap_) swap_bytes_alone(to, box.count(), bytes_);
 }
 
+// Extents in ascending order of their beginnings, as one where at most so many bytes lie between.
+std::vector<FileSource::Extent> FileSource::joined(std::span<const Extent> extents,
+                                                   std::uint64_t between) {
+    std::vector<Extent> all;
+    for (const Extent& extent : extents) {
+        if (all.empty() || extent.begin > all.back().end + between)
+            all.push_back(extent);
+        else
+            all.back().end = std::max(all.back().end, extent.end);
+    }
+    return all;
+}
+
+// The data in a part of the file, without its holes.
+std::vector<FileSource::Extent> FileSource::data_in(const Extent& part) const {
+    std::vector<Extent> found;
+    for (auto next = std::ranges::upper_bound(extents_, part.begin, {}, &Extent::end);
+         next != extents_.end() && next->begin < part.end; ++next)
+        found.push_back({std::max(next->begin, part.begin), std::min(next->end, part.end)});
+    return joined(found, shortest_hole);
+}
+
 void FileSource::will_read(std::span<const SampleBox> boxes) const {
     if (!only_file_) return;
     // More would be gone from the cache before it is read.
     const std::uint64_t most_bytes = machine_memory() / 2;
+    const auto offset = static_cast<std::uint64_t>(offsets_[0]);
     std::vector<Extent> extents;
     for (const SampleBox& box : boxes) {
         if (extents.size() > most_extents) return;
-        const std::int64_t rows = rows_together(box);
+        const std::int64_t rows = step_[1] <= most_skipped ? box.size[1] : 1;
         const std::int64_t last_x = box.first[0] + box.size[0] - 1;
         for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
             for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; y += rows)
-                extents.push_back(
-                    {place_of(box.first[0], y, z), place_of(last_x, y + rows - 1, z) + bytes_});
+                extents.push_back({offset + place_of(box.first[0], y, z),
+                                   offset + place_of(last_x, y + rows - 1, z) + bytes_});
         }
     }
     std::ranges::sort(extents, {}, &Extent::begin);
-    std::vector<Extent> pieces;  // far from each other, or as long as is read at a time
+    std::vector<Extent> pieces;
     std::uint64_t bytes = 0;
-    for (const Extent& extent : extents) {
-        const std::uint64_t done = pieces.empty() ? 0 : pieces.back().end;
-        if (extent.end <= done) continue;
-        if (pieces.empty() || extent.begin > done + most_skipped ||
-            extent.end > pieces.back().begin + piece_bytes)
-            pieces.push_back({std::max(extent.begin, done), extent.end});
-        else
-            pieces.back().end = extent.end;
-        bytes += extent.end - std::max(extent.begin, done);
+    for (const Extent& extent : joined(extents, most_skipped)) {
+        for (const Extent& data : data_in(extent)) {
+            bytes += data.end - data.begin;
+            for (std::uint64_t at = data.begin; at < data.end; at += read_at_once)
+                pieces.push_back({at, std::min(at + read_at_once, data.end)});
+        }
     }
     if (bytes > most_bytes) return;
-    Progress progress("reading ahead", static_cast<std::int64_t>(pieces.size()));
-    parallel_for(std::ssize(pieces), 1, [&](std::int64_t number) {
-        const Extent& piece = pieces[static_cast<std::size_t>(number)];
+    const std::size_t parts = (pieces.size() + pieces_together - 1) / pieces_together;
+    Progress progress("reading ahead", static_cast<std::int64_t>(parts));
+    parallel_for(static_cast<std::int64_t>(parts), 1, [&](std::int64_t part) {
         const RandomAccessFile file(files_[0].path);  // each has a place in it of its own
-        file.expect_in_order();
-        char some[1 << 17];
-        for (std::uint64_t at = piece.begin; at < piece.end; at += sizeof some) {
-            file.read_some(static_cast<std::uint64_t>(offsets_[0]) + at, some,
-                           std::min<std::uint64_t>(sizeof some, piece.end - at));
-        }
+        mostly_holes_ ? file.expect_single_reads() : file.expect_in_order();
+        const auto some = std::make_unique_for_overwrite<char[]>(read_at_once);
+        const std::size_t first = static_cast<std::size_t>(part) * pieces_together;
+        for (std::size_t i = first; i < std::min(first + pieces_together, pieces.size()); ++i)
+            file.read_some(pieces[i].begin, some.get(), pieces[i].end - pieces[i].begin);
         progress.advance();
     });
 }

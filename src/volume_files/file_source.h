@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/random_access_file.h"
@@ -43,6 +44,8 @@ class FileSource : public SampleSource {
         return first_ + static_cast<std::uint64_t>(x) * step_[0] +
                static_cast<std::uint64_t>(y) * step_[1] + static_cast<std::uint64_t>(z) * step_[2];
     }
+    static std::vector<Extent> joined(std::span<const Extent> extents, std::uint64_t between);
+    std::vector<Extent> data_in(const Extent& part) const;
     std::int64_t rows_together(const SampleBox& box) const;
     void read_bytes(std::uint64_t place, char* to, std::size_t count) const;
     void read_rows(const SampleBox& box, std::int64_t y, std::int64_t z, std::int64_t rows,
@@ -58,7 +61,8 @@ class FileSource : public SampleSource {
     std::uint64_t first_ = 0;
     std::array<std::uint64_t, 3> step_{};  // bytes between neighbours
     bool swap_;
-    std::vector<Extent> extents_;  // of one sparse file; empty where it has no holes
+    std::vector<Extent> extents_;  // the data of one file
+    bool mostly_holes_ = false;
 };
 
 }  // namespace lamina

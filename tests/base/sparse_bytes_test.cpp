@@ -32,5 +32,21 @@ TEST(SparseBytes, HoldWhatWasSetLast) {
     EXPECT_EQ(bytes.count(background), std::ranges::count(expected, background));
 }
 
+TEST(SparseBytes, FindsTheFirstPlaceOfAValue) {
+    constexpr std::size_t size = 10000;
+    for (const std::uint8_t background : {std::uint8_t{0}, std::uint8_t{63}}) {
+        SparseBytes bytes(size, background);
+        for (const std::size_t place : {17, 5000, 9999}) bytes.set(place, 7);
+        EXPECT_EQ(bytes.find(7, 0, size), 17u);
+        EXPECT_EQ(bytes.find(7, 17, size), 17u);
+        EXPECT_EQ(bytes.find(7, 18, size), 5000u);
+        EXPECT_EQ(bytes.find(7, 5001, 9999), 9999u);  // none before the end
+        EXPECT_EQ(bytes.find(7, 5001, size), 9999u);
+        EXPECT_EQ(bytes.find(background, 17, size), 18u);
+        EXPECT_EQ(bytes.find(7, 30, 30), 30u);
+        EXPECT_EQ(bytes.find(7, size, size), size);
+    }
+}
+
 }  // namespace
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace lamina {
 namespace {
@@ -25,8 +26,8 @@ OccupiedBricks with_shown(const Place& count, const std::vector<Place>& shown) {
     bricks.distance = SparseBytes(static_cast<std::size_t>(count[0] * count[1] * count[2]),
                                   OccupiedBricks::farthest);
     for (const Place& at : shown) {
-        bricks.distance.set(
-            static_cast<std::size_t>((at[2] * count[1] + at[1]) * count[0] + at[0]), 0);
+        bricks.distance.set(static_cast<std::size_t>((at[2] * count[1] + at[1]) * count[0] + at[0]),
+                            0);
     }
     bricks.measure_distances();
     return bricks;
@@ -50,7 +51,8 @@ std::int64_t distance_between(const Place& a, const Place& b) {
 // By a loop over all that are shown.
 TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
     std::mt19937 random(1);
-    for (const Place& count : {Place{13, 7, 9}, {1, 20, 3}, {5, 1, 1}, {1, 1, 1}, {600, 2, 1}}) {
+    for (const Place& count :
+         {Place{13, 7, 9}, {1, 20, 3}, {5, 1, 1}, {1, 1, 1}, {600, 2, 1}, {3, 150, 140}}) {
         for (const int number : {1, 2, 5, 40}) {
             const std::vector<Place> shown = some_of(count, number, random);
             const OccupiedBricks bricks = with_shown(count, shown);
@@ -60,6 +62,28 @@ TEST(OccupiedBricks, DistancesAreThoseToTheNearest) {
                     nearest = std::min(nearest, distance_between(at, other));
                 EXPECT_EQ(bricks.distance_at(at[0], at[1], at[2]), nearest);
             });
+        }
+    }
+}
+
+// Boxes of any size, also of more bricks than distances reach.
+TEST(OccupiedBricks, AnyOfABoxIsFound) {
+    std::mt19937 random(4);
+    const Place count{200, 9, 90};
+    for (int trial = 0; trial < 40; ++trial) {
+        const std::vector<Place> shown = some_of(count, 1 + trial % 4, random);
+        const OccupiedBricks bricks = with_shown(count, shown);
+        for (int box = 0; box < 100; ++box) {
+            Place first = some_of(count, 1, random)[0], last = some_of(count, 1, random)[0];
+            for (std::size_t axis = 0; axis < 3 && box % 4 != 0; ++axis)
+                if (first[axis] > last[axis]) std::swap(first[axis], last[axis]);
+            const bool expected = std::ranges::any_of(shown, [&](const Place& at) {
+                bool inside = true;
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    inside = inside && first[axis] <= at[axis] && at[axis] <= last[axis];
+                return inside;
+            });
+            EXPECT_EQ(bricks.any_of(first, last), expected);
         }
     }
 }

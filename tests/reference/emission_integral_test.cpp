@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "fixtures.h"
 #include "optics/segment_integral.h"
-#include "reference/emission_batch.h"
+#include "reference/piece_batch.h"
 
 namespace lamina {
 namespace {
@@ -69,20 +71,42 @@ TEST(EmissionIntegral, EstimateCoversTheErrorAndKeepsTheTolerance) {
     }
 }
 
+void add(const EmissionPiece& piece, double before, double allowed_by_length, double color_span,
+         PieceBatch& batch) {
+    batch.make_room(batch.count + 1);
+    for (std::size_t power = 0; power < 4; ++power) {
+        batch.position[power][batch.count] = piece.position.c[power];
+        batch.extinction[power][batch.count] = piece.extinction.c[power];
+    }
+    batch.depth[batch.count] = piece.depth(1);
+    batch.before[batch.count] = before;
+    batch.error_of_length[batch.count] = allowed_by_length;
+    batch.color_span[batch.count] = color_span;
+    ++batch.count;
+}
+
 // Vectors of pieces: what they call exact to within an estimate is so, and the estimate keeps the
 // tolerance, from pieces that are all but transparent to boundary layers, which are bisected.
-TEST(EmissionBatch, PiecesAreThoseIntegratedOneByOne) {
+TEST(PieceBatch, PiecesAreThoseIntegratedOneByOne) {
     Random random(7);
     for (const double tolerance : {1e-3, 1e-6, 1e-12}) {
-        for (std::size_t count = 1; count <= EmissionBatch::capacity; ++count) {
-            EmissionBatch batch;
+        for (std::size_t count = 1; count <= 33; ++count) {
+            PieceBatch batch;
             batch.error_of_opacity = tolerance;
             for (std::size_t i = 0; i < count; ++i) {
                 const EmissionPiece piece =
                     random_piece(random, std::pow(10, random.uniform(-9, 6)));
-                batch.add(piece, random.uniform(0, 9), piece.depth(1), tolerance, random.uniform());
+                add(piece, random.uniform(0, 9), tolerance, random.uniform(), batch);
             }
+            // Deep pieces behind the last one are left alone.
+            const std::size_t given = batch.count;
+            for (int i = 0; i < 7; ++i) add(random_piece(random, 1e6), 0, 0, 1, batch);
+            batch.count = given;
+            const std::vector<double> before_all = batch.value;
             integrate_emission(batch);
+            const std::size_t padded = (given + 7) / 8 * 8;
+            for (std::size_t i = padded; i < given + 7; ++i)
+                EXPECT_EQ(batch.value[i], before_all[i]);
             for (std::size_t i = 0; i < count; ++i) {
                 const double transmittance = std::exp(-batch.before[i]);
                 const double opacity = -std::expm1(-batch.depth[i]);

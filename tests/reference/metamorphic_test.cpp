@@ -200,9 +200,9 @@ TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(many.segments, one.segments);
 }
 
-// A picture leaves out blocks of cells that show nothing, and single pixels do not: the same
+// A picture leaves out cells that show nothing, and single pixels do not: the same
 // digits.
-TEST(Metamorphic, BlocksThatShowNothingChangeNothing) {
+TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
     const TransferFunction function = TransferFunction::linear(
         {{.5, {{.2, .4, .6}, 0}}, {.8, {{.9, .5, .1}, 20}}, {1, {{.1, 1, .3}, 10}}});
     for (const Centering centering : {Centering::node, Centering::cell}) {

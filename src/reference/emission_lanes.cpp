@@ -1,42 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Vector form of integrate_emission(): the rules on whole pieces. Pieces that have to be bisected
 // are left to the scalar form.
-#include "reference/emission_batch.h"
+#include "reference/piece_batch.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "reference/emission_batch.cpp"
+#define HWY_TARGET_INCLUDE "reference/emission_lanes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "reference/patterson_rules.h"
-
 // After highway.h, which it needs for each target.
 #include <hwy/contrib/math/math-inl.h>
+
+#include "reference/cubic_lanes-inl.h"
+#include "reference/patterson_rules.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Lanes = hn::ScalableTag<double>;
-using Doubles = hn::Vec<Lanes>;
-
-HWY_INLINE Doubles number(double value) {
-    return hn::Set(Lanes(), value);
-}
-
-struct Cubics {
-    Doubles c[4];
-
-    HWY_INLINE Doubles at(Doubles t) const {
-        return hn::MulAdd(hn::MulAdd(hn::MulAdd(c[3], t, c[2]), t, c[1]), t, c[0]);
-    }
-};
-
-HWY_INLINE Cubics load_cubics(const double (&from)[4][EmissionBatch::capacity], std::size_t i) {
+HWY_INLINE Cubics load_cubics(const PieceBatch::Column (&from)[4], std::size_t i) {
     Cubics cubics;
     for (std::size_t power = 0; power < 4; ++power)
-        cubics.c[power] = hn::Load(Lanes(), from[power] + i);
+        cubics.c[power] = hn::LoadU(Lanes(), from[power].data() + i);
     return cubics;
 }
 
@@ -56,7 +41,7 @@ HWY_INLINE RuleSum no_sum() {
 
 class PieceLanes {
   public:
-    HWY_INLINE PieceLanes(const EmissionBatch& batch, std::size_t i)
+    HWY_INLINE PieceLanes(const PieceBatch& batch, std::size_t i)
         : position_(load_cubics(batch.position, i)),
           extinction_(load_cubics(batch.extinction, i)),
           mean_depth_(extinction_) {
@@ -93,17 +78,17 @@ HWY_INLINE Doubles difference(const RuleSum& fine, const RuleSum& coarse, Double
 }
 
 // Returns the lanes that a rule has integrated.
-HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) {
+HWY_INLINE hn::Mask<Lanes> integrate_lanes(PieceBatch& batch, std::size_t i) {
     using namespace patterson;
     const Lanes d;
     const PieceLanes pieces(batch, i);
-    const Doubles depth = hn::Load(d, batch.depth + i);
+    const Doubles depth = hn::LoadU(d, batch.depth.data() + i);
     const Doubles opacity = hn::Neg(hn::Expm1(d, hn::Neg(depth)));
-    const Doubles transmittance = hn::Exp(d, hn::Neg(hn::Load(d, batch.before + i)));
-    const Doubles span = hn::Load(d, batch.color_span + i);
+    const Doubles transmittance = hn::Exp(d, hn::Neg(hn::LoadU(d, batch.before.data() + i)));
+    const Doubles span = hn::LoadU(d, batch.color_span.data() + i);
     const Doubles allowed =
         hn::Div(hn::MulAdd(number(batch.error_of_opacity), hn::Mul(opacity, transmittance),
-                           hn::Load(d, batch.error_of_length + i)),
+                           hn::LoadU(d, batch.error_of_length.data() + i)),
                 hn::Mul(transmittance, span));
     const Doubles enough = hn::Max(allowed, hn::Mul(number(emission_rounding), depth));
 
@@ -116,7 +101,8 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) 
     }
     Doubles value = seven.xw, error = difference(seven, three, opacity);
     // Lanes behind the last piece hold anything.
-    auto done = hn::Or(hn::Le(error, enough), hn::Not(hn::FirstN(d, batch.count - i)));
+    const Mask beyond = hn::Not(hn::FirstN(d, batch.count - i));
+    Mask done = hn::Or(hn::Le(error, enough), beyond);
     if (!hn::AllTrue(d, done)) {
         for (int pair = 0; pair < 8; ++pair) {
             if (pair >= 4) pieces.evaluate(pair, w[pair], xw[pair]);
@@ -131,30 +117,38 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(EmissionBatch& batch, std::size_t i) 
     const auto faint = hn::Le(opacity, hn::Mul(number(negligible_opacity), allowed));
     value = hn::IfThenElse(faint, hn::Mul(pieces.middle(), opacity), value);
     error = hn::IfThenElse(faint, opacity, error);
-    hn::Store(transmittance, d, batch.transmittance + i);
-    hn::Store(opacity, d, batch.opacity + i);
-    hn::Store(value, d, batch.value + i);
-    hn::Store(error, d, batch.error + i);
-    return hn::Or(done, faint);
+    hn::StoreU(transmittance, d, batch.transmittance.data() + i);
+    hn::StoreU(opacity, d, batch.opacity.data() + i);
+    hn::StoreU(value, d, batch.value.data() + i);
+    hn::StoreU(error, d, batch.error.data() + i);
+    return hn::Or(hn::Or(done, faint), beyond);
 }
 
-// Sets the results, and left[i] to 1 where a piece is left to do.
-inline void integrate_rules(EmissionBatch& batch, std::uint8_t* left) {
-    const Lanes d;
-    const std::size_t lanes = hn::Lanes(d);
-    for (std::size_t i = 0; i < batch.count; i += lanes) {
-        alignas(64) std::int64_t done[HWY_MAX_BYTES / 8];
-        const auto mask = integrate_lanes(batch, i);
-        hn::Store(hn::BitCast(hn::ScalableTag<std::int64_t>(), hn::VecFromMask(d, mask)),
-                  hn::ScalableTag<std::int64_t>(), done);
-        for (std::size_t lane = 0; lane < lanes; ++lane) left[i + lane] = done[lane] == 0;
-    }
+// A piece that the rules on the whole of it do not integrate.
+inline void integrate_bisected(PieceBatch& batch, std::size_t i) {
+    if (!(batch.color_span[i] > 0) || !(batch.transmittance[i] > 0)) return;
+    const double reach = batch.transmittance[i] * batch.color_span[i];
+    const EmissionIntegral emission =
+        integrate_emission(batch.piece(i), batch.error_of_length[i] / reach,
+                           batch.error_of_opacity / batch.color_span[i]);
+    batch.value[i] = emission.value;
+    batch.error[i] = emission.error;
 }
 
 }  // namespace reference
+
 // HWY_EXPORT takes functions of this namespace alone.
-inline void integrate_batch(EmissionBatch& batch, std::uint8_t* left) {
-    reference::integrate_rules(batch, left);
+inline void integrate_batch(PieceBatch& batch) {
+    using namespace reference;
+    const std::size_t lanes = hn::Lanes(Lanes());
+    for (std::size_t i = 0; i < batch.count; i += lanes) {
+        const Mask done = integrate_lanes(batch, i);
+        if (hn::AllTrue(Lanes(), done)) continue;
+        std::uint8_t bits[8];
+        hn::StoreMaskBits(Lanes(), done, bits);
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            if ((bits[lane / 8] >> lane % 8 & 1) == 0) integrate_bisected(batch, i + lane);
+    }
 }
 }  // namespace lamina::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -164,18 +158,8 @@ namespace lamina {
 
 HWY_EXPORT(integrate_batch);
 
-void integrate_emission(EmissionBatch& batch) {
-    std::uint8_t left[EmissionBatch::capacity];
-    HWY_DYNAMIC_DISPATCH(integrate_batch)(batch, left);
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        if (left[i] == 0 || !(batch.color_span[i] > 0) || !(batch.transmittance[i] > 0)) continue;
-        const double reach = batch.transmittance[i] * batch.color_span[i];
-        const EmissionIntegral emission =
-            integrate_emission(batch.piece(i), batch.error_of_length[i] / reach,
-                               batch.error_of_opacity / batch.color_span[i]);
-        batch.value[i] = emission.value;
-        batch.error[i] = emission.error;
-    }
+void integrate_emission(PieceBatch& batch) {
+    HWY_DYNAMIC_DISPATCH(integrate_batch)(batch);
 }
 
 }  // namespace lamina

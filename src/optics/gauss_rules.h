@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace lamina {
+
+// A Gauss-Legendre rule on [0, 1], computed with 40 digits. The number of points is a multiple
+// of 4.
+struct GaussRule {
+    std::size_t points;
+    const double* x;
+    const double* weight;
+};
+
+inline constexpr double gauss4_x[] = {0.06943184420297371239, 0.3300094782075718676,
+                                      0.6699905217924281324, 0.9305681557970262876};
+inline constexpr double gauss4_weight[] = {0.1739274225687269287, 0.3260725774312730713,
+                                           0.3260725774312730713, 0.1739274225687269287};
+inline constexpr GaussRule gauss4{4, gauss4_x, gauss4_weight};
+
+inline constexpr double gauss8_x[] = {
+    0.01985507175123188416, 0.1016667612931866302, 0.2372337950418355071, 0.4082826787521750975,
+    0.5917173212478249025,  0.7627662049581644929, 0.8983332387068133698, 0.9801449282487681158};
+inline constexpr double gauss8_weight[] = {
+    0.05061426814518812958, 0.1111905172266872353, 0.1568533229389436437, 0.1813418916891809915,
+    0.1813418916891809915,  0.1568533229389436437, 0.1111905172266872353, 0.05061426814518812958};
+inline constexpr GaussRule gauss8{8, gauss8_x, gauss8_weight};
+
+inline constexpr double gauss16_x[] = {
+    0.005299532504175033702, 0.02771248846338371196, 0.06718439880608412806, 0.1222977958224984831,
+    0.1910618777986781258,   0.2709916111713863068,  0.3591982246103705434,  0.4524937450811812799,
+    0.5475062549188187201,   0.6408017753896294566,  0.7290083888286136932,  0.8089381222013218742,
+    0.8777022041775015169,   0.9328156011939158719,  0.972287511536616288,   0.9947004674958249663};
+inline constexpr double gauss16_weight[] = {
+    0.01357622970587704743, 0.03112676196932394643, 0.0475792558412463924,  0.06231448562776693603,
+    0.07479799440828836604, 0.08457825969750126909, 0.09130170752246179443, 0.09472530522753424814,
+    0.09472530522753424814, 0.09130170752246179443, 0.08457825969750126909, 0.07479799440828836604,
+    0.06231448562776693603, 0.0475792558412463924,  0.03112676196932394643, 0.01357622970587704743};
+inline constexpr GaussRule gauss16{16, gauss16_x, gauss16_weight};
+
+// Pieces of more optical depth have a closed form that loses no digits.
+inline constexpr double largest_gauss_depth = 4;
+
+// The rule for the weights of a piece of this optical depth D (optics/segment_integral.h). n points
+// are off by about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term), |k| <= D: relative to
+// D, below 1e-15 at each of the limits.
+inline const GaussRule& gauss_rule(double depth) {
+    return depth < 1e-3 ? gauss4 : depth < 0.5 ? gauss8 : gauss16;
+}
+
+}  // namespace lamina

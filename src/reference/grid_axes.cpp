@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/grid_axes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamina {
+namespace {
+
+GridAxes::Axis scaled_axis(const glm::dvec3& step) {
+    const double largest = std::max({std::abs(step.x), std::abs(step.y), std::abs(step.z)});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    --exponent;  // to [1, 2): an offset of one subnormal number from a face must survive
+    GridAxes::Axis axis;
+    DoubleDouble parts[3];
+    for (int i = 0; i < 3; ++i) {
+        axis.scaled[i] = std::scalbn(step[i], -exponent);
+        parts[i] = {axis.scaled[i], 0};
+    }
+    axis.square = dot(parts, axis.scaled);
+    axis.unscale = std::scalbn(1.0, -exponent);
+    return axis;
+}
+
+}  // namespace
+
+DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
+    DoubleDouble sum;
+    for (int i = 0; i < 3; ++i) sum = sum + a[i] * DoubleDouble{b[i], 0};
+    return sum;
+}
+
+GridAxes::GridAxes(const Grid& grid)
+    : origin(grid.origin),
+      lowest(grid.index_min()),
+      highest(grid.index_max()),
+      axes{scaled_axis(grid.step[0]), scaled_axis(grid.step[1]), scaled_axis(grid.step[2])} {}
+
+}  // namespace lamina

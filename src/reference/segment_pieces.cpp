@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Segments are cut where their scalar crosses knots, in rounds: each round takes a vector of
+// segments on to their next knots, or to where their scalars turn.
+#include "reference/segment_pieces.h"
+
+#include <bit>
+#include <vector>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "reference/segment_pieces.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// After highway.h, which it needs for each target.
+#include "reference/cubic_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace reference {
+
+HWY_INLINE Doubles gather(const std::vector<double>& column, Numbers place) {
+    return hn::GatherIndex(Lanes(), column.data(), place);
+}
+
+HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
+    return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
+}
+
+// Finds the intervals of values.
+class IntervalSearch {
+  public:
+    HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
+        : bounds_(columns.bounds.data()),
+          first_step_(static_cast<std::int64_t>(std::bit_ceil(columns.knot_count + 1) / 2)) {}
+
+    HWY_INLINE Doubles lower(Numbers interval) const {
+        return hn::GatherIndex(Lanes(), bounds_, interval);
+    }
+    HWY_INLINE Doubles upper(Numbers interval) const {
+        return hn::GatherIndex(Lanes(), bounds_ + 1, interval);
+    }
+    // The interval for values at and above each value.
+    HWY_INLINE Numbers above(Doubles value) const {
+        Numbers count = hn::Zero(NumberLanes());  // of knots at and below the value
+        for (std::int64_t step = first_step_; step > 0; step /= 2) {
+            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
+            count = where(hn::Le(lower(next), value), next, count);
+        }
+        return count;
+    }
+
+    // The same where the scalar rises from there; where it falls, the interval for values at and
+    // below. Goes on from an interval that does not lie above it.
+    HWY_INLINE Numbers onwards(Numbers interval, Doubles value, Mask rises) const {
+        while (true) {
+            const Doubles knot = upper(interval);
+            const Mask passed = hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
+            if (hn::AllFalse(Lanes(), passed)) return interval;
+            interval = where(passed, hn::Add(interval, hn::Set(NumberLanes(), 1)), interval);
+        }
+    }
+
+  private:
+    const double* bounds_;
+    std::int64_t first_step_;
+};
+
+// A vector of segments on their way from front to back. `at` is how far they are, `part_end` where
+// their monotone part ends.
+class SegmentLanes {
+  public:
+    HWY_INLINE SegmentLanes(const SegmentBatch& segments, std::size_t first,
+                            const IntervalColumns& columns)
+        : columns_(columns),
+          search_(columns),
+          segment_(hn::Iota(NumberLanes(), static_cast<std::int64_t>(first))),
+          active_(hn::FirstN(Lanes(), segments.count - first)),
+          lo_(load(segments.lo + first)),
+          hi_(load(segments.hi + first)),
+          at_(hn::Zero(Lanes())) {
+        for (std::size_t power = 0; power < 4; ++power)
+            scalar_.c[power] = load(segments.scalar[power] + first);
+        // A segment in one interval is one piece. A constant may be a step's knot: there the value
+        // itself decides the side.
+        lowest_ = search_.above(lo_);
+        const Mask whole =
+            hn::And(hn::Le(hi_, search_.upper(lowest_)), hn::Not(scalar_.constant()));
+        const Turns turns = turns_of(scalar_);
+        part_end_ = hn::IfThenElse(whole, number(1), turns.first);
+        next_end_ = turns.second;
+        value_ = value_at(at_);
+        begin_part();
+        interval_ = where(whole, lowest_, interval_);
+    }
+
+    HWY_INLINE bool active() const { return !hn::AllFalse(Lanes(), active_); }
+
+    // Appends the pieces up to the next knots or ends of parts, and goes on to there.
+    HWY_INLINE void advance(PieceBatch& pieces) {
+        const Doubles knot =
+            hn::IfThenElse(rises_, search_.upper(interval_), search_.lower(interval_));
+        const Mask before_end = hn::Or(hn::And(rises_, hn::Lt(knot, part_value_)),
+                                       hn::AndNot(rises_, hn::Gt(knot, part_value_)));
+        const Mask crosses = hn::And(active_, before_end);
+        const Doubles end = hn::IfThenElse(crosses, knot, part_value_);
+        Doubles to = part_end_;
+        if (!hn::AllFalse(Lanes(), crosses)) {
+            const Mask away = hn::And(crosses, hn::Ne(knot, value_));
+            const Doubles root = solve_monotone(scalar_, knot, at_, part_end_, away);
+            to = hn::IfThenElse(crosses, hn::IfThenElse(away, root, at_), to);
+        }
+        append(to, end, pieces);
+        at_ = to;
+        value_ = end;
+        const Numbers one = hn::Set(NumberLanes(), 1);
+        const Numbers beyond = where(rises_, hn::Add(interval_, one), hn::Sub(interval_, one));
+        interval_ = where(crosses, beyond, interval_);
+        const Mask ended = hn::AndNot(crosses, active_);
+        active_ = hn::And(active_, hn::Or(crosses, hn::Lt(at_, number(1))));
+        if (hn::AllFalse(Lanes(), hn::And(ended, active_))) return;
+        next_part(ended);
+    }
+
+  private:
+    // Lanes behind the last segment are 0.
+    HWY_INLINE Doubles load(const double* from) const {
+        return hn::MaskedLoad(active_, Lanes(), from);
+    }
+
+    HWY_INLINE Doubles value_at(Doubles t) const {
+        return hn::Min(hn::Max(scalar_.at(t), lo_), hi_);
+    }
+
+    HWY_INLINE void begin_part() {
+        part_value_ = value_at(part_end_);
+        rises_ = hn::Le(value_, part_value_);
+        interval_ = search_.onwards(lowest_, value_, rises_);
+    }
+
+    HWY_INLINE void next_part(Mask ended) {
+        const Doubles one = number(1);
+        const Doubles value = part_value_;
+        const Numbers interval = interval_;
+        const Mask rises = rises_;
+        part_end_ = hn::IfThenElse(ended, next_end_, part_end_);
+        next_end_ = hn::IfThenElse(ended, one, next_end_);
+        begin_part();
+        part_value_ = hn::IfThenElse(ended, part_value_, value);
+        interval_ = where(ended, interval_, interval);
+        rises_ = hn::Or(hn::And(ended, rises_), hn::AndNot(ended, rises));
+    }
+
+    HWY_INLINE void append(Doubles to, Doubles end, PieceBatch& pieces) const {
+        constexpr std::size_t most = PieceBatch::longest_vector;
+        static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
+        const Lanes d;
+        const NumberLanes n;
+        const Mask seen = hn::Eq(gather(columns_.transparent, interval_), hn::Zero(d));
+        const Mask kept = hn::And(hn::And(active_, seen), hn::Lt(at_, to));
+        std::uint8_t kept_bits[8] = {};
+        hn::StoreMaskBits(d, kept, kept_bits);
+        alignas(64) std::int64_t segments[most], intervals[most];
+        alignas(64) double from[most], until[most], starts[most], ends[most];
+        hn::Store(segment_, n, segments);
+        hn::Store(interval_, n, intervals);
+        hn::Store(at_, d, from);
+        hn::Store(to, d, until);
+        hn::Store(value_, d, starts);
+        hn::Store(end, d, ends);
+        pieces.make_room(pieces.count + hn::Lanes(d));
+        for (unsigned bits = kept_bits[0]; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+            const std::size_t i = pieces.count++;
+            pieces.segment[i] = segments[lane];
+            pieces.interval[i] = intervals[lane];
+            pieces.from[i] = from[lane];
+            pieces.to[i] = until[lane];
+            pieces.start[i] = starts[lane];
+            pieces.end[i] = ends[lane];
+        }
+    }
+
+    const IntervalColumns& columns_;
+    IntervalSearch search_;
+    Numbers segment_;
+    Mask active_;
+    Doubles lo_, hi_;
+    Cubics scalar_;
+    Doubles at_, value_;
+    Doubles part_end_, next_end_, part_value_;
+    Mask rises_;
+    Numbers lowest_, interval_;  // the one of lo_, and of the piece that is next
+};
+
+// Sets the optics of a vector of pieces. Extinction is computed from the nearer knot, so that few
+// digits are lost where a steep interval ends at extinction 0.
+HWY_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& columns,
+                           double error_per_length, std::size_t i, PieceBatch& pieces) {
+    const Lanes d;
+    const Numbers segment = hn::LoadU(NumberLanes(), pieces.segment.data() + i);
+    const Numbers interval = hn::LoadU(NumberLanes(), pieces.interval.data() + i);
+    const Doubles from = hn::LoadU(d, pieces.from.data() + i);
+    const Doubles to = hn::LoadU(d, pieces.to.data() + i);
+    Cubics whole;
+    for (std::size_t power = 0; power < 4; ++power)
+        whole.c[power] = hn::GatherIndex(d, segments.scalar[power], segment);
+    const Cubics scalar = part_of(whole, from, to, hn::LoadU(d, pieces.start.data() + i),
+                                  hn::LoadU(d, pieces.end.data() + i));
+    const Doubles length = hn::Mul(hn::GatherIndex(d, segments.length, segment), hn::Sub(to, from));
+    const Doubles inverse = gather(columns.inverse_width, interval);
+    const Doubles at_lo = gather(columns.extinction, interval);
+    const Doubles change = gather(columns.extinction_change, interval);
+    const Doubles from_lo = hn::Mul(hn::Sub(scalar.c[0], gather(columns.lo, interval)), inverse);
+    const Doubles from_hi = hn::Mul(hn::Sub(gather(columns.hi, interval), scalar.c[0]), inverse);
+    const Doubles first =
+        hn::IfThenElse(hn::Lt(from_lo, from_hi), hn::MulAdd(change, from_lo, at_lo),
+                       hn::NegMulAdd(change, from_hi, hn::Add(at_lo, change)));
+    Cubics position, extinction;
+    position.c[0] = from_lo;
+    extinction.c[0] = hn::Mul(hn::Max(first, hn::Zero(d)), length);
+    for (std::size_t power = 1; power < 4; ++power) {
+        position.c[power] = hn::Mul(scalar.c[power], inverse);
+        extinction.c[power] = hn::Mul(hn::Mul(change, position.c[power]), length);
+    }
+    Doubles depth = hn::Zero(d);
+    for (std::size_t power = 4; power-- > 0;) {
+        hn::StoreU(position.c[power], d, pieces.position[power].data() + i);
+        hn::StoreU(extinction.c[power], d, pieces.extinction[power].data() + i);
+        depth = hn::Add(depth,
+                        hn::Mul(extinction.c[power], number(1 / static_cast<double>(power + 1))));
+    }
+    hn::StoreU(hn::Max(depth, hn::Zero(d)), d, pieces.depth.data() + i);
+    hn::StoreU(hn::Mul(number(error_per_length), length), d, pieces.error_of_length.data() + i);
+    hn::StoreU(gather(columns.color_span, interval), d, pieces.color_span.data() + i);
+}
+
+}  // namespace reference
+
+// HWY_EXPORT takes functions of this namespace alone.
+inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns& columns,
+                             double error_per_length, PieceBatch& pieces) {
+    using namespace reference;
+    const std::size_t lanes = hn::Lanes(Lanes()), first = pieces.count;
+    for (std::size_t i = 0; i < segments.count; i += lanes) {
+        SegmentLanes on_their_way(segments, i, columns);
+        while (on_their_way.active()) on_their_way.advance(pieces);
+    }
+    for (std::size_t i = first; i < pieces.count; i += lanes)
+        set_optics(segments, columns, error_per_length, i, pieces);
+}
+
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lamina {
+
+HWY_EXPORT(append_pieces_of);
+
+void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
+                   double error_per_length, PieceBatch& pieces) {
+    HWY_DYNAMIC_DISPATCH(append_pieces_of)
+    (segments, transfer.columns(), error_per_length, pieces);
+}
+
+}  // namespace lamina
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "reference/piece_batch.h"
+#include "reference/segment_batch.h"
+#include "reference/transfer_intervals.h"
+
+namespace lamina {
+
+// Appends the pieces of the segments that are not transparent. It does not set `before`, nor the
+// results. Pieces of one segment are in its order; those of different segments are mixed.
+// `error_per_length`: allowed to a channel of the ray.
+void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
+                   double error_per_length, PieceBatch& pieces);
+
+}  // namespace lamina
