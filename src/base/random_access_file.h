@@ -23,7 +23,7 @@ class RandomAccessFile {
     void read(std::uint64_t begin, char* to, std::size_t count) const;  // all of them
     // For who reads from first to last alone: the system then reads further ahead.
     void expect_in_order() const;
-    // For who reads what he needs, and nothing beside it: the system then does not read ahead.
+    // For reads of single places: the system then reads nothing but what is asked for.
     void expect_single_reads() const;
 
   private:

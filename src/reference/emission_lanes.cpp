@@ -78,7 +78,7 @@ HWY_INLINE Doubles difference(const RuleSum& fine, const RuleSum& coarse, Double
 }
 
 // Returns the lanes that a rule has integrated.
-HWY_INLINE hn::Mask<Lanes> integrate_lanes(PieceBatch& batch, std::size_t i) {
+HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i) {
     using namespace patterson;
     const Lanes d;
     const PieceLanes pieces(batch, i);
@@ -114,7 +114,7 @@ HWY_INLINE hn::Mask<Lanes> integrate_lanes(PieceBatch& batch, std::size_t i) {
     }
     done = hn::And(done, hn::Lt(depth, number(resolvable_depth)));
     // x is somewhere in [0, 1], so any of its values is within `opacity` of the integral.
-    const auto faint = hn::Le(opacity, hn::Mul(number(negligible_opacity), allowed));
+    const Mask faint = hn::Le(opacity, hn::Mul(number(negligible_opacity), allowed));
     value = hn::IfThenElse(faint, hn::Mul(pieces.middle(), opacity), value);
     error = hn::IfThenElse(faint, opacity, error);
     hn::StoreU(transmittance, d, batch.transmittance.data() + i);

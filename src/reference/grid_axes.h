@@ -9,9 +9,10 @@
 
 namespace lamina {
 
+// The dot product, in twice the precision of double.
 DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b);
 
-// What clip_to_box() needs of a grid, computed once for all rays.
+// This holds what clip_to_box() needs of a grid, so that it is computed once for all rays.
 struct GridAxes {
     // A step of the grid, scaled by a power of two so that its square does not underflow.
     struct Axis {

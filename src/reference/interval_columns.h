@@ -6,7 +6,9 @@
 
 namespace lamina {
 
-// TransferIntervals field by field, for vectors of pieces.
+// What vectors of pieces need of TransferIntervals, field by field. In interval i extinction is
+// linear in the position x = (value - lo) * inverse_width, 0 <= x <= 1; outside the outermost knots
+// it is constant (change = 0).
 struct IntervalColumns {
     // Interval i lies between bounds[i] and bounds[i + 1]: the knots, -infinity before them, and
     // infinity behind them, at least as often as to make the knots and one more a power of two.
@@ -14,8 +16,8 @@ struct IntervalColumns {
     std::size_t knot_count = 0;
     std::vector<double> lo, hi, inverse_width;
     std::vector<double> extinction, extinction_change;  // at lo, and from there to hi
-    std::vector<double> color_span;
-    std::vector<double> transparent;  // 1 or 0
+    std::vector<double> color_span;                     // the largest change of a colour
+    std::vector<double> transparent;                    // 1 or 0
 };
 
 }  // namespace lamina

@@ -20,7 +20,7 @@ constexpr double termination_share = 1e-3;
 // Pieces are integrated when there are so many, so that vectors are full.
 constexpr std::size_t pieces_together = 32;
 
-// What is hidden counts as if it lay behind this optical depth, of which exp(-x) is 0.
+// Hidden pieces get this optical depth in front of them: exp(-x) of it is 0, so they add nothing.
 constexpr double hidden_depth = 1e4;
 
 GradientAlong part_of(const GradientAlong& gradient, double from, double to) {
@@ -92,20 +92,20 @@ void RayIntegrator::finish_batch() {
     for (std::size_t i = 0; i < batch_.count; ++i) {
         const double transmittance = batch_.transmittance[i];
         if (!(transmittance > 0)) continue;
-        const TransferInterval& interval = transfer_[static_cast<std::size_t>(batch_.interval[i])];
-        color_ += transmittance * batch_.opacity[i] * interval.at_lo.color;
-        if (!(interval.color_span > 0)) continue;
-        color_ += transmittance * batch_.value[i] * interval.color_change;
-        error_ += transmittance * interval.color_span * batch_.error[i];
+        const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[i]));
+        color_ += transmittance * batch_.opacity[i] * color;
+        if (!(batch_.color_span[i] > 0)) continue;
+        color_ += transmittance * batch_.value[i] * change;
+        error_ += transmittance * batch_.color_span[i] * batch_.error[i];
     }
     batch_.count = 0;
 }
 
 void RayIntegrator::add_light(std::size_t piece, const GradientAlong& gradient) {
-    const TransferInterval& interval = transfer_[static_cast<std::size_t>(batch_.interval[piece])];
+    const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[piece]));
     const double transmittance = std::exp(-depth_.value());
     const LightIntegral light = integrate_light(
-        {batch_.piece(piece), interval.at_lo.color, interval.color_change,
+        {batch_.piece(piece), color, change,
          part_of(gradient, batch_.from[piece], batch_.to[piece])},
         *lights_, 0.5 * batch_.error_of_length[piece] / transmittance, 0.5 * error_per_opacity_);
     light_ += transmittance * light.value;

@@ -137,17 +137,11 @@ class SegmentLanes {
         interval_ = search_.onwards(lowest_, value_, rises_);
     }
 
+    // Segments whose part goes on find the same direction and interval again.
     HWY_INLINE void next_part(Mask ended) {
-        const Doubles one = number(1);
-        const Doubles value = part_value_;
-        const Numbers interval = interval_;
-        const Mask rises = rises_;
         part_end_ = hn::IfThenElse(ended, next_end_, part_end_);
-        next_end_ = hn::IfThenElse(ended, one, next_end_);
+        next_end_ = hn::IfThenElse(ended, number(1), next_end_);
         begin_part();
-        part_value_ = hn::IfThenElse(ended, part_value_, value);
-        interval_ = where(ended, interval_, interval);
-        rises_ = hn::Or(hn::And(ended, rises_), hn::AndNot(ended, rises));
     }
 
     HWY_INLINE void append(Doubles to, Doubles end, PieceBatch& pieces) const {

@@ -11,18 +11,11 @@
 
 namespace lamina {
 
-// A transfer function between two neighbouring knots, where colour and extinction are linear in the
-// position x = (value - lo) * inverse_width, 0 <= x <= 1. Outside the outermost knots both are
-// constant (changes = 0).
-struct TransferInterval {
-    double lo = 0;
-    double hi = 1;
-    double inverse_width = 1;
-    OpticalProperties at_lo;
-    glm::dvec3 color_change{0};
-    double extinction_change = 0;
-    double color_span = 0;  // largest |color_change|
-    bool transparent = true;
+// The colour of a transfer function between two neighbouring knots, by the position x of
+// IntervalColumns: color + x * change.
+struct IntervalColor {
+    glm::dvec3 color{0};
+    glm::dvec3 change{0};
 };
 
 // A transfer function as a list of intervals. The interval of a value is decided once for each
@@ -32,7 +25,7 @@ class TransferIntervals {
     explicit TransferIntervals(const TransferFunction& transfer_function);
 
     // Interval i lies between knots i-1 and i.
-    const TransferInterval& operator[](std::size_t interval) const { return intervals_[interval]; }
+    const IntervalColor& color(std::size_t interval) const { return colors_[interval]; }
     const IntervalColumns& columns() const { return columns_; }
 
     // Whether any interval that touches [lo, hi] has extinction.
@@ -47,14 +40,14 @@ class TransferIntervals {
     double brightest() const { return brightest_; }  // largest colour component of all
 
   private:
+    void add(const TransferKnot& from, const TransferKnot& to);
+    void add_constant(const TransferKnot& knot);
     void find_visible();
-    void make_columns();
 
     struct Range {
         double lo, hi;
     };
-    std::vector<double> knots_;
-    std::vector<TransferInterval> intervals_;
+    std::vector<IntervalColor> colors_;
     std::vector<Range> visible_;  // sorted, disjoint
     IntervalColumns columns_;
     double brightest_ = 0;

@@ -19,7 +19,7 @@ class VisibleCells {
   public:
     static constexpr std::int64_t edge = 8;
 
-    // Of no volume: all may show something.
+    // Without a volume, every cell may show something.
     VisibleCells() = default;
     VisibleCells(const Volume& volume, const TransferIntervals& transfer);  // parallel
     static std::uint64_t bytes_for(const Grid& grid);

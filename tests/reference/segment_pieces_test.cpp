@@ -132,7 +132,7 @@ void test_pieces(std::size_t shift, Random& random) {
                 cubics.push_back(cubic);
                 segments.add(cubic, *std::ranges::min_element(b), *std::ranges::max_element(b), 1);
             }
-            // What is behind the last segment is not looked at.
+            // append_pieces() must not look behind the last segment.
             for (std::size_t i = cubics.size(); i < SegmentBatch::capacity; ++i) {
                 segments.lo[i] = segments.hi[i] = INFINITY;
                 for (auto& coefficients : segments.scalar) coefficients[i] = INFINITY;
