@@ -39,12 +39,18 @@ class FragmentQueue {
         // Of lit fragments: columns and rows from the center.
         Vector aside, slant;
     };
-    // A vector of pixels, and the position of its fragments in the queue.
-    struct Place {
-        std::uint16_t place;  // TileGrid::place() of the first pixel
-        std::uint16_t part;   // number of the cell fragment in its TileChunk
-        std::uint16_t first;
-        std::uint8_t inside[8];
+    // A vector of pixels, by the TileGrid::place() of the first one, and the number in the TileBatch
+    // of the cell fragment that covers some of them.
+    class Place {
+      public:
+        Place() = default;
+        HWY_INLINE Place(std::size_t place, std::size_t part)
+            : bits_(static_cast<std::uint32_t>(place | part << 16)) {}
+        std::size_t place() const { return bits_ & 0xffff; }
+        std::size_t part() const { return bits_ >> 16; }
+
+      private:
+        std::uint32_t bits_;
     };
 
     bool is_full() const { return end_ >= enough; }  // another cell fragment may not fit
@@ -53,53 +59,66 @@ class FragmentQueue {
     // Adds the vectors of one cell fragment.
     class Writer {
       public:
-        Writer(FragmentQueue& queue, std::size_t part)
+        HWY_INLINE Writer(FragmentQueue& queue, std::size_t part)
             : queue_(queue),
-              part_(static_cast<std::uint16_t>(part)),
-              end_(queue.end_),
-              place_count_(queue.place_count_) {}
+              part_(part),
+              to_(queue.values_ + position(0, queue.end_)),
+              place_(queue.places_ + queue.place_count_) {}
 
         // Keeps the vector where one of its pixels is `inside`. It does so without a branch, which
-        // could not be predicted.
+        // could not be predicted. The span of pixels that are not inside becomes 0.
         HWY_INLINE void add(Tag d, std::size_t place, const Found& found, Inside inside) {
+            const std::size_t some = hn::AllFalse(d, inside) ? 0 : 1;
+            *place_ = Place(place, part_);
             store(d, 0, pack(inside, found.span.enter));
             store(d, 1, pack(inside, found.span.leave));
-            store(d, 2, pack(inside, found.aside));
-            store(d, 3, pack(inside, found.slant));
-            Place& pixels = queue_.places_[place_count_];
-            pixels.place = static_cast<std::uint16_t>(place);
-            pixels.part = part_;
-            pixels.first = static_cast<std::uint16_t>(end_);
-            hn::StoreMaskBits(d, inside, pixels.inside);
-            const std::size_t count = hn::CountTrue(d, inside);
-            count_ += count;
-            place_count_ += count > 0 ? 1 : 0;
-            end_ += packs ? count : count > 0 ? lanes : 0;
+            if constexpr (packs) {
+                store(d, 2, hn::Compress(found.aside, inside));
+                store(d, 3, hn::Compress(found.slant, inside));
+                Packed& packed = queue_.packed_[place_ - queue_.places_];
+                packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
+                hn::StoreMaskBits(d, inside, packed.inside);
+                to_ += hn::CountTrue(d, inside);
+            } else {
+                store(d, 2, found.aside);
+                store(d, 3, found.slant);
+                to_ += some * (values * lanes);
+            }
+            place_ += some;
+            const hn::RebindToSigned<Tag> di;
+            // The lanes of a mask are -1 where they are true.
+            minus_count_ = hn::Add(minus_count_, hn::VecFromMask(di, hn::RebindMask(di, inside)));
         }
         // Returns the number of fragments.
         HWY_INLINE std::size_t finish(Tag d) {
             if constexpr (packs) {
                 for (std::size_t i = 0; i < values; ++i) store(d, i, hn::Zero(d));
-                end_ = (end_ + lanes - 1) / lanes * lanes;
             }
+            const auto written = static_cast<std::size_t>(to_ - queue_.values_);
+            const std::size_t end =
+                packs ? (written + lanes - 1) / lanes * lanes : written / values;
             // A single store is mostly enough. The number that is needed could not be predicted.
             std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
-            const std::size_t vectors = (end_ - queue_.end_) / lanes;
-            std::fill_n(parts, some_parts, part_);
-            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part_);
-            queue_.end_ = end_;
-            queue_.place_count_ = place_count_;
-            return count_;
+            const std::size_t vectors = (end - queue_.end_) / lanes;
+            const auto part = static_cast<std::uint16_t>(part_);
+            std::fill_n(parts, some_parts, part);
+            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part);
+            queue_.end_ = end;
+            queue_.place_count_ = static_cast<std::size_t>(place_ - queue_.places_);
+            const hn::RebindToSigned<Tag> di;
+            return static_cast<std::size_t>(-hn::GetLane(hn::SumOfLanes(di, minus_count_)));
         }
 
       private:
         HWY_INLINE void store(Tag d, std::size_t value, Vector v) {
-            hn::StoreU(v, d, queue_.values_[value] + end_);
+            hn::StoreU(v, d, to_ + position(value, 0));
         }
 
         FragmentQueue& queue_;
-        std::uint16_t part_;
-        std::size_t end_, place_count_, count_ = 0;
+        std::size_t part_;
+        float* to_;
+        Place* place_;
+        hn::Vec<hn::RebindToSigned<Tag>> minus_count_ = hn::Zero(hn::RebindToSigned<Tag>());
     };
 
     // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
@@ -107,7 +126,15 @@ class FragmentQueue {
     HWY_INLINE void for_each_vector(const Visit& visit) const {
         for (std::size_t i = 0; i < end_; i += lanes) visit(std::size_t{parts_[i / lanes]}, i);
     }
-    std::span<const Place> places() const { return {places_, place_count_}; }
+    // Calls visit(Place, color) for each vector of pixels. The colour is 0 where a pixel is not
+    // covered.
+    template <class Visit>
+    HWY_INLINE void for_each_place(Tag d, const Visit& visit) const {
+        for (std::size_t i = 0; i < place_count_; ++i) {
+            const auto channel = [&](std::size_t value) HWY_ATTR { return pixels(d, value, i); };
+            visit(places_[i], Fragment<Vector>{channel(0), channel(1), channel(2), channel(3)});
+        }
+    }
 
     HWY_INLINE Found found(Tag d, std::size_t i) const {
         return {{load(d, 0, i), load(d, 1, i)}, load(d, 2, i), load(d, 3, i)};
@@ -127,20 +154,22 @@ class FragmentQueue {
         store(d, 2, i, color.blue);
         store(d, 3, i, color.alpha);
     }
-    // The colours of a vector of pixels; 0 for pixels that are not covered.
-    HWY_INLINE Fragment<Vector> color(Tag d, const Place& pixels) const {
-        const Inside inside = hn::LoadMaskBits(d, pixels.inside);
-        const auto channel = [&](std::size_t value) HWY_ATTR {
-            return unpack(d, inside, values_[value] + pixels.first);
-        };
-        return {channel(0), channel(1), channel(2), channel(3)};
-    }
 
   private:
     static constexpr bool packs = HWY_TARGET <= HWY_AVX3;
     static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
                                  some_parts = 16;
+    // The position of a place's fragments in a queue that packs them.
+    struct Packed {
+        std::uint16_t first;
+        std::uint8_t inside[8];
+    };
 
+    // Packed fragments begin anywhere, so each value has an array of its own. Else the values of a
+    // vector follow each other.
+    static constexpr std::size_t position(std::size_t value, std::size_t i) {
+        return packs ? value * most + i : value * lanes + i * values;
+    }
     static HWY_INLINE Vector pack(Inside inside, Vector v) {
         if constexpr (packs) {
             return hn::Compress(v, inside);
@@ -148,26 +177,27 @@ class FragmentQueue {
             return hn::IfThenElseZero(inside, v);
         }
     }
-    static HWY_INLINE Vector unpack(Tag d, Inside inside, const float* from) {
+    HWY_INLINE Vector pixels(Tag d, std::size_t value, std::size_t place) const {
 #if HWY_TARGET <= HWY_AVX3
-        static_cast<void>(d);
-        return Vector{_mm512_maskz_expandloadu_ps(inside.raw, from)};
+        const Packed& packed = packed_[place];
+        return Vector{_mm512_maskz_expandloadu_ps(hn::LoadMaskBits(d, packed.inside).raw,
+                                                  values_ + position(value, packed.first))};
 #else
-        static_cast<void>(inside);
-        return hn::Load(d, from);
+        return load(d, value, place * lanes);
 #endif
     }
     HWY_INLINE void store(Tag d, std::size_t value, std::size_t i, Vector v) {
-        hn::Store(v, d, values_[value] + i);
+        hn::Store(v, d, values_ + position(value, i));
     }
     HWY_INLINE Vector load(Tag d, std::size_t value, std::size_t i) const {
-        return hn::Load(d, values_[value] + i);
+        return hn::Load(d, values_ + position(value, i));
     }
 
     std::size_t end_ = 0, place_count_ = 0;
     std::uint16_t parts_[most / lanes + some_parts];  // of vectors
     Place places_[enough + TileGrid::pixels / lanes + 1];
-    HWY_ALIGN float values_[values][most];
+    Packed packed_[packs ? enough + TileGrid::pixels / lanes + 1 : 1];
+    HWY_ALIGN float values_[values * most];
 };
 
 }  // namespace lamina::HWY_NAMESPACE

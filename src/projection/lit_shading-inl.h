@@ -72,10 +72,10 @@ struct LitShader {
     explicit LitShader(const TetFragments& of)
         : fragments(of), cut(of.source == SegmentSource::parts), perspective(of.perspective) {}
 
-    HWY_NOINLINE Fragment<Vector> lit_color(const TileChunk& chunk, std::size_t part,
+    HWY_NOINLINE Fragment<Vector> lit_color(const TileBatch& batch, std::size_t part,
                                             const FragmentQueue::Found& found) const {
         const Tag d;
-        const TetRecord& record = chunk.record(part);
+        const TetRecord& record = batch.record(part);
         const Number column(found.aside), row(found.slant);
         GradientRun gradient;
         const Number slant = find_eye(record, column, row, gradient);
@@ -85,8 +85,8 @@ struct LitShader {
         const Number aside =
             column * Number(record.scalar_per_column) + row * Number(record.scalar_per_row);
         const TetRun<Vector> run = run_between(d, *this, record, ends, aside.v);
-        find_gradients(chunk.gradient(part), column, row, ends, gradient);
-        return cut ? part_lit(chunk, part, run, gradient) : analytic_lit(run, gradient);
+        find_gradients(batch.gradient(part), column, row, ends, gradient);
+        return cut ? part_lit(batch, part, run, gradient) : analytic_lit(run, gradient);
     }
     HWY_INLINE void put(Tag d, const TetFragments&, std::uint32_t number,
                         const Fragment<Vector>& fragment, const TetTile& tile,
@@ -132,13 +132,13 @@ struct LitShader {
         }
     }
 
-    HWY_INLINE Fragment<Vector> part_lit(const TileChunk& chunk, std::size_t part,
+    HWY_INLINE Fragment<Vector> part_lit(const TileBatch& batch, std::size_t part,
                                          const TetRun<Vector>& run,
                                          const GradientRun& gradient) const {
         const Tag d;
-        const TetRecord& record = chunk.record(part);
+        const TetRecord& record = batch.record(part);
         const Fragment<Vector> unlit = part_color(
-            d, true, GeneralShader::depth_of(fragments, chunk.area(part)), fragments, record, run);
+            d, true, GeneralShader::depth_of(fragments, batch.area(part)), fragments, record, run);
         const auto optics = [&](std::size_t i, Vector place) HWY_ATTR {
             return mix(hn::Set(d, record.low[i]), hn::Set(d, record.high[i]), place);
         };

@@ -33,21 +33,13 @@ HWY_INLINE void store_pixels(Tag d, const Pixels<Vector>& there, TilePixels& pix
 
 class TetDrawing {
   public:
-    TetDrawing(const TetFragments& fragments, const TileChunk& chunk, const TetTile& tile)
-        : fragments_(fragments), chunk_(chunk), tile_(tile), coverage_(fragments, tile) {}
+    TetDrawing(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile)
+        : fragments_(fragments), batch_(batch), tile_(tile), coverage_(fragments, tile) {}
 
     template <class Shader>
-    HWY_INLINE void draw(const Shader& shader, const TileChunk::Parts& parts) {
-        std::size_t count = 0;
-        for_each_part(parts, [&](std::size_t part) HWY_ATTR {
-            blocks_[count++] = {coverage_.blocks(chunk_.area(part)), part};
-        });
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto [blocks, part] = blocks_[i];
-            coverage_.find<Shader::lit>(shader.cut, chunk_.record(part), chunk_.area(part), blocks,
-                                        part, queue_);
-            if (queue_.is_full()) draw_queue(shader);
-        }
+    HWY_INLINE void draw(const Shader& shader) {
+        batch_.for_each_word(tile_.number, [&](std::size_t first, std::uint64_t parts)
+                                               HWY_ATTR { draw_parts(shader, first, parts); });
         draw_queue(shader);
     }
     std::int64_t fragments() const { return coverage_.fragments(); }
@@ -58,19 +50,41 @@ class TetDrawing {
         std::size_t part;
     };
 
+    // `parts`: as in TileBatch::for_each_word().
     template <class Shader>
-    HWY_INLINE void draw_queue(const Shader& shader) {
+    HWY_INLINE void draw_parts(const Shader& shader, std::size_t first, std::uint64_t parts) {
+        std::size_t count = 0;
+        for (std::uint64_t left = parts; left != 0; left &= left - 1) {
+            const std::size_t part = first + static_cast<std::size_t>(std::countr_zero(left));
+            prefetch(batch_.record(part));
+            blocks_[count++] = {coverage_.blocks(batch_.area(part)), part};
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [blocks, part] = blocks_[i];
+            coverage_.find<Shader::lit>(shader.cut, batch_.record(part), batch_.area(part), blocks,
+                                        part, queue_);
+            if (queue_.is_full()) draw_queue(shader);
+        }
+    }
+    static void prefetch(const TetRecord& record) {
+        const auto* const bytes = reinterpret_cast<const std::byte*>(&record);
+        for (std::size_t line = 0; line < sizeof(record); line += 64) hwy::Prefetch(bytes + line);
+    }
+
+    template <class Shader>
+    HWY_NOINLINE void draw_queue(const Shader& shader) {
         if constexpr (Shader::lit) {
             queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
-                queue_.set_color(d_, i, shader.lit_color(chunk_, part, queue_.found(d_, i)));
+                queue_.set_color(d_, i, shader.lit_color(batch_, part, queue_.found(d_, i)));
             });
         } else {
             find_colors(shader);
         }
-        for (const FragmentQueue::Place& pixels : queue_.places()) {
-            shader.put(d_, fragments_, chunk_.record(pixels.part).number, queue_.color(d_, pixels),
-                       tile_, pixels.place);
-        }
+        queue_.for_each_place(
+            d_, [&](const FragmentQueue::Place& pixels, const Fragment<Vector>& color) HWY_ATTR {
+                shader.put(d_, fragments_, batch_.record(pixels.part()).number, color, tile_,
+                           pixels.place());
+            });
         queue_.clear();
     }
 
@@ -79,22 +93,22 @@ class TetDrawing {
         queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
             const FragmentQueue::Found found = queue_.found(d_, i);
             queue_.set_run(d_, i,
-                           find_run(d_, shader, fragments_, chunk_.record(part), found.span,
+                           find_run(d_, shader, fragments_, batch_.record(part), found.span,
                                     found.aside, found.slant));
         });
         queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
             queue_.set_color(d_, i,
-                             shader.color(d_, fragments_, chunk_.record(part), chunk_.area(part),
+                             shader.color(d_, fragments_, batch_.record(part), batch_.area(part),
                                           queue_.run(d_, i)));
         });
     }
 
     const TetFragments& fragments_;
-    const TileChunk& chunk_;
+    const TileBatch& batch_;
     const TetTile& tile_;
     Tag d_;
     TetCoverage coverage_;
-    Blocks blocks_[TileChunk::most_parts];
+    Blocks blocks_[64];  // of the cell fragments of a word
     FragmentQueue queue_;
 };
 

@@ -11,9 +11,9 @@
 #include "facts/tet_pieces.h"
 #include "mesh/tet_mesh.h"
 #include "projection/gradient_record.h"
+#include "projection/part_area.h"
 #include "projection/tet_part.h"
 #include "projection/tet_record.h"
-#include "projection/tile_chunk.h"
 #include "projection/window_view.h"
 #include "volume/min_max_bricks.h"
 

@@ -30,10 +30,10 @@ struct PartShader {
     }
 };
 
-std::int64_t draw_colored_parts(const TetFragments& fragments, const TileChunk& chunk,
-                                const TileChunk::Parts& parts, const TetTile& tile) {
-    TetDrawing drawing(fragments, chunk, tile);
-    drawing.draw(PartShader(), parts);
+std::int64_t draw_colored_parts(const TetFragments& fragments, const TileBatch& batch,
+                                const TetTile& tile) {
+    TetDrawing drawing(fragments, batch, tile);
+    drawing.draw(PartShader());
     return drawing.fragments();
 }
 
@@ -45,15 +45,14 @@ namespace lamina {
 
 HWY_EXPORT(draw_colored_parts);
 
-std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
-                       const TileChunk::Parts& parts, const TetTile& tile) {
-    if (chunk.is_lit()) return draw_lit_tets(fragments, chunk, parts, tile);
+std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
+    if (batch.is_lit()) return draw_lit_tets(fragments, batch, tile);
     const bool known = fragments.source == SegmentSource::parts && fragments.colored &&
                        fragments.perspective && fragments.output == FragmentOutput::native &&
                        fragments.blend.target == Target::float32 && !fragments.opacity_only &&
-                       !chunk.has_triangles();
-    if (!known) return draw_general_tets(fragments, chunk, parts, tile);
-    return HWY_DYNAMIC_DISPATCH(draw_colored_parts)(fragments, chunk, parts, tile);
+                       !batch.has_triangles();
+    if (!known) return draw_general_tets(fragments, batch, tile);
+    return HWY_DYNAMIC_DISPATCH(draw_colored_parts)(fragments, batch, tile);
 }
 
 }  // namespace lamina

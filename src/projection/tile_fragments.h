@@ -12,7 +12,7 @@
 #include "executors/tile_transfer.h"
 #include "optics/segment_table.h"
 #include "plan/project_plan.h"
-#include "projection/tile_chunk.h"
+#include "projection/tile_batch.h"
 #include "tiles/target_blend.h"
 #include "tiles/tile_grid.h"
 #include "tiles/tile_image.h"
@@ -59,27 +59,27 @@ struct TetFragments {
     bool slanted = false;              // lengths along rays are longer than differences of z
 };
 
-// One tile of a frame. `slants`: world length per unit of z for each pixel, at TileGrid::place();
-// null where it is 1 for all.
+// One tile of a frame; `number` is that of TileGrid. `slants`: world length per unit of z for each
+// pixel, at TileGrid::place(); null where it is 1 for all.
 struct TetTile {
+    std::size_t number;
     TileGrid::Tile area;
     const float* slants;
     TilePixels* pixels;
     TilePlane* opacity;  // used instead of `pixels` where opacity_only
 };
 
-// Puts those cell fragments of a chunk that the tile draws over its pixels. Returns the number of
+// Puts those cell fragments of a batch that the tile draws over its pixels. Returns the number of
 // fragments.
-std::int64_t draw_tets(const TetFragments& fragments, const TileChunk& chunk,
-                       const TileChunk::Parts& parts, const TetTile& tile);
+std::int64_t draw_tets(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile);
 
-// The same for chunks that are lit.
-std::int64_t draw_lit_tets(const TetFragments& fragments, const TileChunk& chunk,
-                           const TileChunk::Parts& parts, const TetTile& tile);
+// The same for batches that are lit.
+std::int64_t draw_lit_tets(const TetFragments& fragments, const TileBatch& batch,
+                           const TetTile& tile);
 
 // The same for everything else that a plan may ask for. draw_tets() is specialised for the most
 // frequent plans and calls this for others.
-std::int64_t draw_general_tets(const TetFragments& fragments, const TileChunk& chunk,
-                               const TileChunk::Parts& parts, const TetTile& tile);
+std::int64_t draw_general_tets(const TetFragments& fragments, const TileBatch& batch,
+                               const TetTile& tile);
 
 }  // namespace lamina

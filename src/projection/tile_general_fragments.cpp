@@ -6,6 +6,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "projection/general_shading-inl.h"
 #include "projection/triangle_coverage-inl.h"
 
@@ -112,19 +114,21 @@ class TriangleDrawing {
     std::int64_t count_ = 0;
 };
 
-std::int64_t draw_fans(const TetFragments& fragments, const TileChunk& chunk,
-                       const TileChunk::Parts& parts, const TetTile& tile) {
+std::int64_t draw_fans(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     TriangleDrawing drawing(fragments, tile);
-    for_each_part(parts, [&](std::size_t part)
-                             HWY_ATTR { drawing.draw(chunk.triangle(part), chunk.area(part)); });
+    batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t parts) HWY_ATTR {
+        for (std::uint64_t left = parts; left != 0; left &= left - 1) {
+            const std::size_t part = first + static_cast<std::size_t>(std::countr_zero(left));
+            drawing.draw(batch.triangle(part), batch.area(part));
+        }
+    });
     return drawing.fragments();
 }
 
-std::int64_t draw_any(const TetFragments& fragments, const TileChunk& chunk,
-                      const TileChunk::Parts& parts, const TetTile& tile) {
-    if (chunk.has_triangles()) return draw_fans(fragments, chunk, parts, tile);
-    TetDrawing drawing(fragments, chunk, tile);
-    drawing.draw(GeneralShader(fragments), parts);
+std::int64_t draw_any(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
+    if (batch.has_triangles()) return draw_fans(fragments, batch, tile);
+    TetDrawing drawing(fragments, batch, tile);
+    drawing.draw(GeneralShader(fragments));
     return drawing.fragments();
 }
 
@@ -136,9 +140,9 @@ namespace lamina {
 
 HWY_EXPORT(draw_any);
 
-std::int64_t draw_general_tets(const TetFragments& fragments, const TileChunk& chunk,
-                               const TileChunk::Parts& parts, const TetTile& tile) {
-    return HWY_DYNAMIC_DISPATCH(draw_any)(fragments, chunk, parts, tile);
+std::int64_t draw_general_tets(const TetFragments& fragments, const TileBatch& batch,
+                               const TetTile& tile) {
+    return HWY_DYNAMIC_DISPATCH(draw_any)(fragments, batch, tile);
 }
 
 }  // namespace lamina

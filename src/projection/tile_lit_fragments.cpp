@@ -11,10 +11,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-std::int64_t draw_lit(const TetFragments& fragments, const TileChunk& chunk,
-                      const TileChunk::Parts& parts, const TetTile& tile) {
-    TetDrawing drawing(fragments, chunk, tile);
-    drawing.draw(LitShader(fragments), parts);
+std::int64_t draw_lit(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
+    TetDrawing drawing(fragments, batch, tile);
+    drawing.draw(LitShader(fragments));
     return drawing.fragments();
 }
 
@@ -26,9 +25,9 @@ namespace lamina {
 
 HWY_EXPORT(draw_lit);
 
-std::int64_t draw_lit_tets(const TetFragments& fragments, const TileChunk& chunk,
-                           const TileChunk::Parts& parts, const TetTile& tile) {
-    return HWY_DYNAMIC_DISPATCH(draw_lit)(fragments, chunk, parts, tile);
+std::int64_t draw_lit_tets(const TetFragments& fragments, const TileBatch& batch,
+                           const TetTile& tile) {
+    return HWY_DYNAMIC_DISPATCH(draw_lit)(fragments, batch, tile);
 }
 
 }  // namespace lamina

@@ -75,16 +75,16 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     }
     const std::size_t chunks =
         chunks_of_batch(static_cast<std::size_t>(parts_->count()), parts_a_chunk());
-    for (Chunks& batch : batches_) {
-        for (std::size_t i = 0; i < chunks; ++i)
-            batch.push_back(
-                std::make_unique<TileChunk>(image_.grid().count(), is_fan(), light_.has_value()));
+    for (auto& batch : batches_) {
+        batch = std::make_unique<TileBatch>(chunks, image_.grid().count(), is_fan(),
+                                            light_.has_value());
     }
 }
 
 // So many parts fit into a chunk in every view.
 std::size_t TileProjectRenderer::parts_a_chunk() const {
-    return is_fan() ? 3 * TileChunk::most_parts / FanGeometry::most_indices : TileChunk::most_parts;
+    constexpr std::size_t most = TileBatch::chunk_parts;
+    return is_fan() ? 3 * most / FanGeometry::most_indices : most;
 }
 
 std::size_t TileProjectRenderer::batch_count(std::size_t parts) const {
@@ -103,9 +103,7 @@ std::int64_t TileProjectRenderer::fragments() const {
 std::int64_t TileProjectRenderer::byte_count() const {
     std::int64_t bytes =
         image_.byte_count() + static_cast<std::int64_t>(slants_.size() * sizeof(TilePixels::Plane));
-    for (const Chunks& batch : batches_) {
-        for (const auto& chunk : batch) bytes += chunk->byte_count();
-    }
+    for (const auto& batch : batches_) bytes += batch ? batch->byte_count() : 0;
     if (tables_) bytes += tables_->byte_count();
     if (tree_) bytes += tree_->byte_count();
     bytes += static_cast<std::int64_t>(gradients_.at_points.size() * sizeof(glm::vec3));
@@ -152,13 +150,13 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<con
         if (first >= parts.size()) return;
         const Stage setting_up("set-up");
         project(projectors, parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
-                batches_[batch % 2]);
+                *batches_[batch % 2]);
     };
     project_batch(0);
     for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
-        const Chunks& chunks = batches_[batch % 2];
-        count_tets(chunks);
-        parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(chunks, leaf); });
+        const TileBatch& projected = *batches_[batch % 2];
+        count_tets(projected);
+        parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(projected, leaf); });
         if (progress != nullptr) progress->advance();
     }
 }
@@ -223,18 +221,19 @@ void TileProjectRenderer::clear() {
 }
 
 void TileProjectRenderer::project(const Projectors& projectors, std::span<const TetPart> parts,
-                                  Chunks& chunks) const {
-    parallel_for(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t number) {
+                                  TileBatch& batch) const {
+    parallel_for(static_cast<std::int64_t>(batch.chunk_count()), 1, [&](std::int64_t number) {
         const std::size_t first =
             std::min(static_cast<std::size_t>(number) * parts_a_chunk(), parts.size());
         project_chunk(projectors,
                       parts.subspan(first, std::min(parts_a_chunk(), parts.size() - first)),
-                      *chunks[static_cast<std::size_t>(number)]);
+                      batch.chunk(static_cast<std::size_t>(number)));
     });
 }
 
 void TileProjectRenderer::project_chunk(const Projectors& projectors,
-                                        std::span<const TetPart> parts, TileChunk& chunk) const {
+                                        std::span<const TetPart> parts,
+                                        TileBatch::Chunk& chunk) const {
     chunk.clear();
     if (is_fan()) {
         for (const TetPart& part : parts) project_fan(projectors.fans, part, chunk);
@@ -267,7 +266,7 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
 }
 
 void TileProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
-                                           TileChunk& chunk) const {
+                                           TileBatch::Chunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
     const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
@@ -283,7 +282,7 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
 }
 
 void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
-                                      TileChunk& chunk) const {
+                                      TileBatch::Chunk& chunk) const {
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
@@ -307,43 +306,42 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
     }
 }
 
-void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const {
+void TileProjectRenderer::add(const PartArea& area, std::int32_t tet,
+                              TileBatch::Chunk& chunk) const {
     constexpr int edge = TileGrid::edge;
-    const std::size_t number = chunk.count();
     chunk.add(area, tet);
     for (int row = area.first_row / edge; row <= area.last_row / edge; ++row) {
         for (int column = area.first_column / edge; column <= area.last_column / edge; ++column)
-            chunk.touch(static_cast<std::size_t>(row * image_.grid().columns() + column), number);
+            chunk.touch(static_cast<std::size_t>(row * image_.grid().columns() + column));
     }
 }
 
 // Parts of one tet follow each other, also from chunk to chunk.
-void TileProjectRenderer::count_tets(const Chunks& chunks) {
-    for (const auto& chunk : chunks) {
-        if (chunk->count() == 0) continue;
-        tets_drawn_ += chunk->tets() - (chunk->first_tet() == last_tet_);
-        last_tet_ = chunk->last_tet();
+void TileProjectRenderer::count_tets(const TileBatch& batch) {
+    for (std::size_t i = 0; i < batch.chunk_count(); ++i) {
+        const TileBatch::Chunk& chunk = batch.chunk(i);
+        if (chunk.empty()) continue;
+        tets_drawn_ += chunk.tets() - (chunk.first_tet() == last_tet_);
+        last_tet_ = chunk.last_tet();
     }
 }
 
-void TileProjectRenderer::draw(const Chunks& chunks, TileTetTree::Node* leaf) {
+void TileProjectRenderer::draw(const TileBatch& batch, TileTetTree::Node* leaf) {
     const Stage drawing("tiles");
     parallel_for(image_.grid().count(), 1, [&](std::int64_t tile) {
-        draw_tile(chunks, static_cast<std::size_t>(tile), leaf);
+        draw_tile(batch, static_cast<std::size_t>(tile), leaf);
     });
 }
 
-void TileProjectRenderer::draw_tile(const Chunks& chunks, std::size_t tile,
+void TileProjectRenderer::draw_tile(const TileBatch& batch, std::size_t tile,
                                     TileTetTree::Node* leaf) {
+    if (!batch.is_drawn_by(tile)) return;
     const int number = static_cast<int>(tile);
-    const TetTile target{image_.grid().tile(number),
+    const TetTile target{tile, image_.grid().tile(number),
                          slants_.empty() ? nullptr : slants_[tile].data(), &image_.tile(number),
                          leaf != nullptr ? &leaf->opacity[tile] : nullptr};
-    for (const auto& chunk : chunks) {
-        if (chunk->count() == 0 || !chunk->has_parts(tile)) continue;
-        if (leaf != nullptr) leaf->touched[tile] = 1;
-        fragment_counts_[tile] += draw_tets(fragments_, *chunk, chunk->parts(tile), target);
-    }
+    if (leaf != nullptr) leaf->touched[tile] = 1;
+    fragment_counts_[tile] += draw_tets(fragments_, batch, target);
 }
 
 void TileProjectRenderer::read(Image& image) const {

@@ -15,7 +15,7 @@
 #include "projection/stored_gradients.h"
 #include "projection/tet_projector.h"
 #include "projection/tet_setup.h"
-#include "projection/tile_chunk.h"
+#include "projection/tile_batch.h"
 #include "projection/tile_fragments.h"
 #include "projection/tile_project_tables.h"
 #include "projection/tile_tet_tree.h"
@@ -66,11 +66,10 @@ class TileProjectRenderer : public ProjectRenderer {
         TetProjector careful;
         FanGeometry fans;
     };
-    using Chunks = std::vector<std::unique_ptr<TileChunk>>;
 
     bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
     std::size_t parts_a_chunk() const;
-    std::size_t parts_a_batch() const { return batches_[0].size() * parts_a_chunk(); }
+    std::size_t parts_a_batch() const { return batches_[0]->chunk_count() * parts_a_chunk(); }
     std::size_t batch_count(std::size_t parts) const;
     void set_light();
     void set_view(const View& view);
@@ -80,16 +79,16 @@ class TileProjectRenderer : public ProjectRenderer {
     void draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
                    Progress* progress);
     void project(const Projectors& projectors, std::span<const TetPart> parts,
-                 Chunks& chunks) const;
+                 TileBatch& batch) const;
     void project_chunk(const Projectors& projectors, std::span<const TetPart> parts,
-                       TileChunk& chunk) const;
+                       TileBatch::Chunk& chunk) const;
     void project_doubtful(const TetProjector& projector, const TetPart& part,
-                          TileChunk& chunk) const;
-    void project_fan(const FanGeometry& fans, const TetPart& part, TileChunk& chunk) const;
-    void add(const PartArea& area, std::int32_t tet, TileChunk& chunk) const;
-    void count_tets(const Chunks& chunks);
-    void draw(const Chunks& chunks, TileTetTree::Node* leaf);
-    void draw_tile(const Chunks& chunks, std::size_t tile, TileTetTree::Node* leaf);
+                          TileBatch::Chunk& chunk) const;
+    void project_fan(const FanGeometry& fans, const TetPart& part, TileBatch::Chunk& chunk) const;
+    void add(const PartArea& area, std::int32_t tet, TileBatch::Chunk& chunk) const;
+    void count_tets(const TileBatch& batch);
+    void draw(const TileBatch& batch, TileTetTree::Node* leaf);
+    void draw_tile(const TileBatch& batch, std::size_t tile, TileTetTree::Node* leaf);
 
     const SceneMesh& mesh_;
     TransferFunction transfer_function_;  // in the plan's units
@@ -103,9 +102,10 @@ class TileProjectRenderer : public ProjectRenderer {
     std::optional<TileLight> light_;
     TetFragments fragments_{};
     TileImage image_;
-    std::vector<TilePixels::Plane> slants_;      // for each tile; empty where all are 1
-    double slant_pixel_ = 0;                     // View::pixel that the slants were computed for
-    std::array<Chunks, 2> batches_;              // one is projected while the other is drawn
+    std::vector<TilePixels::Plane> slants_;  // for each tile; empty where all are 1
+    double slant_pixel_ = 0;                 // View::pixel that the slants were computed for
+    std::array<std::unique_ptr<TileBatch>, 2>
+        batches_;                                // one is projected while the other is drawn
     std::vector<std::int64_t> fragment_counts_;  // for each tile
     std::int64_t tets_drawn_ = 0;
     std::int32_t last_tet_ = -1;

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "projection/gradient_record.h"
+#include "projection/part_area.h"
+#include "projection/tet_record.h"
+#include "projection/triangle_record.h"
+
+namespace lamina {
+
+// Some projected cell fragments that follow each other in visibility order, and the set of them
+// that each tile of the picture draws. Threads fill it in chunks, each its own. Its size does not
+// depend on the view.
+class TileBatch {
+  public:
+    // The cell fragments of chunk i have numbers from i * chunk_parts on.
+    static constexpr std::size_t chunk_parts = 512;
+
+    // `triangles`: the batch holds triangles instead of cell fragments. `lit`: these have
+    // gradients.
+    TileBatch(std::size_t chunks, int tiles, bool triangles, bool lit)
+        : records_(triangles ? 0 : chunks * chunk_parts),
+          gradients_(lit ? chunks * chunk_parts : 0),
+          triangles_(triangles ? chunks * chunk_parts : 0),
+          areas_(chunks * chunk_parts),
+          sets_(static_cast<std::size_t>(tiles) * chunks) {
+        for (std::size_t i = 0; i < chunks; ++i)
+            chunks_.emplace_back(*this, i, static_cast<std::size_t>(tiles));
+    }
+    TileBatch(const TileBatch&) = delete;
+    TileBatch& operator=(const TileBatch&) = delete;
+
+    // Writes one chunk.
+    class alignas(64) Chunk {
+      public:
+        Chunk(TileBatch& batch, std::size_t number, std::size_t tiles)
+            : batch_(&batch), number_(number), tiles_((tiles + 63) / 64) {}
+
+        void clear() {
+            for_each_bit(tiles_, [&](std::size_t tile) { set(tile) = {}; });
+            std::ranges::fill(tiles_, 0);
+            count_ = 0;
+            tets_ = 0;
+            first_tet_ = last_tet_ = -1;
+        }
+        // The record that the next cell fragment is written to. It is kept once add() is called.
+        TetRecord& next() { return batch_->records_[end()]; }
+        GradientRecord* next_gradient() {
+            return batch_->is_lit() ? &batch_->gradients_[end()] : nullptr;
+        }
+        TriangleRecord& next_triangle() { return batch_->triangles_[end()]; }
+        void add(const PartArea& area, std::int32_t tet) {
+            batch_->areas_[end()] = area;
+            ++count_;
+            if (tet != last_tet_) ++tets_;
+            if (count_ == 1) first_tet_ = tet;
+            last_tet_ = tet;
+        }
+        // The tile draws the cell fragment that was added last.
+        void touch(std::size_t tile) {
+            const std::size_t part = count_ - 1;
+            tiles_[tile / 64] |= std::uint64_t{1} << tile % 64;
+            set(tile)[part / 64] |= std::uint64_t{1} << part % 64;
+        }
+
+        bool empty() const { return count_ == 0; }
+        std::int64_t tets() const { return tets_; }  // number of tets that its parts belong to
+        std::int32_t first_tet() const { return first_tet_; }
+        std::int32_t last_tet() const { return last_tet_; }
+        bool is_drawn_by(std::size_t tile) const {
+            return (tiles_[tile / 64] >> tile % 64 & 1) != 0;
+        }
+
+      private:
+        std::size_t end() const { return number_ * chunk_parts + count_; }
+        std::array<std::uint64_t, chunk_parts / 64>& set(std::size_t tile) {
+            return batch_->sets_[tile * batch_->chunks_.size() + number_].words;
+        }
+
+        TileBatch* batch_;
+        std::size_t number_, count_ = 0;
+        std::int64_t tets_ = 0;
+        std::int32_t first_tet_ = -1, last_tet_ = -1;
+        std::vector<std::uint64_t> tiles_;  // a bit for each tile that draws some of the chunk
+    };
+
+    std::size_t chunk_count() const { return chunks_.size(); }
+    Chunk& chunk(std::size_t number) { return chunks_[number]; }
+    const Chunk& chunk(std::size_t number) const { return chunks_[number]; }
+
+    bool has_triangles() const { return !triangles_.empty(); }
+    bool is_lit() const { return !gradients_.empty(); }
+    const TetRecord& record(std::size_t part) const { return records_[part]; }
+    const GradientRecord& gradient(std::size_t part) const { return gradients_[part]; }
+    const TriangleRecord& triangle(std::size_t part) const { return triangles_[part]; }
+    const PartArea& area(std::size_t part) const { return areas_[part]; }
+
+    // Calls visit(first, parts) for the cell fragments that a tile draws, in order: bit i of
+    // `parts` stands for number first + i.
+    template <typename Visit>
+    void for_each_word(std::size_t tile, const Visit& visit) const {
+        for (std::size_t i = 0; i < chunks_.size(); ++i) {
+            if (!chunks_[i].is_drawn_by(tile)) continue;
+            const auto& words = sets_[tile * chunks_.size() + i].words;
+            for (std::size_t word = 0; word < words.size(); ++word) {
+                if (words[word] != 0) visit(i * chunk_parts + 64 * word, words[word]);
+            }
+        }
+    }
+    bool is_drawn_by(std::size_t tile) const {
+        return std::ranges::any_of(chunks_,
+                                   [&](const Chunk& chunk) { return chunk.is_drawn_by(tile); });
+    }
+    std::int64_t byte_count() const {
+        return static_cast<std::int64_t>(sizeof(*this) + records_.size() * sizeof(TetRecord) +
+                                         gradients_.size() * sizeof(GradientRecord) +
+                                         triangles_.size() * sizeof(TriangleRecord) +
+                                         areas_.size() * sizeof(PartArea) +
+                                         sets_.size() * sizeof(Set));
+    }
+
+  private:
+    // A set of a chunk's cell fragments. It fills a cache line, because tiles of different chunks
+    // are written at the same time.
+    struct alignas(64) Set {
+        std::array<std::uint64_t, chunk_parts / 64> words{};
+    };
+
+    template <typename Visit>
+    static void for_each_bit(const std::vector<std::uint64_t>& words, const Visit& visit) {
+        for (std::size_t word = 0; word < words.size(); ++word) {
+            for (std::uint64_t left = words[word]; left != 0; left &= left - 1)
+                visit(64 * word + static_cast<std::size_t>(std::countr_zero(left)));
+        }
+    }
+
+    std::vector<TetRecord> records_;
+    std::vector<GradientRecord> gradients_;  // of the records; empty where nothing is lit
+    std::vector<TriangleRecord> triangles_;
+    std::vector<PartArea> areas_;
+    std::vector<Set> sets_;  // by tile and chunk, so that those of a tile follow each other
+    std::vector<Chunk> chunks_;
+};
+
+}  // namespace lamina
