@@ -51,7 +51,8 @@ QUICK_RUN = ("**These figures are no measurement.** They are from a quick trial 
 
 def machine_line(about, round_count, spread):
     """spread: the median and the ninth decile of the deviation of a round's ratio from the median of the rounds."""
-    instructions = {"AVX3": "AVX-512"}.get(about["engine"].partition(":")[2].split(",")[0].strip(), about["engine"])
+    instructions = about["engine"].partition(":")[2].split(",")[0].strip()
+    instructions = {"AVX3": "AVX-512"}.get(instructions, instructions)
     rounds = f"**Rounds:** {round_count}."
     if round_count > 1:
         rounds += (f" From round to round half of the ratios changed by less than {100 * spread[0]:.0f} %, and nine of "
