@@ -9,6 +9,9 @@ target_compile_options(lamina_options INTERFACE -Wall -Wextra -Wpedantic -Wshado
     -ffp-contract=$<IF:$<BOOL:$<TARGET_PROPERTY:LAMINA_FUSED>>,fast,off>)
 # -ffp-contract=off: the same expression must round in the same way wherever it is compiled (but see LAMINA_FMA).
 target_compile_definitions(lamina_options INTERFACE GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_SILENT_WARNINGS)
+if(LAMINA_FMA)
+    target_compile_definitions(lamina_options INTERFACE LAMINA_FMA)
+endif()
 if(LAMINA_WARNINGS_AS_ERRORS)
     target_compile_options(lamina_options INTERFACE -Werror)
 endif()
@@ -65,8 +68,8 @@ function(lamina_test name)
 endfunction()
 
 # Sources of this room are compiled once for each instruction set (src/tiles/instruction_set.h). The least of them is
-# taken for granted, so that there is no version without vectors. LAMINA_FMA does not touch the reference tracer, which
-# judges the others.
+# taken for granted, so that there is no version without vectors. LAMINA_FMA (x86-64, where the least set has no such
+# instruction) does not touch the reference tracer, which judges the others.
 function(lamina_vector_room name)
     target_link_libraries(lamina_${name} PUBLIC hwy::hwy)
     if(LAMINA_FMA AND NOT name STREQUAL "reference")

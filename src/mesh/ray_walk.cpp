@@ -9,6 +9,17 @@
 #include "mesh/norm1.h"
 #include "mesh/predicates.h"
 
+// Without the instruction, std::fma is a call of the C library with the same result, and takes a
+// quarter of a step. Sanitizers are not ready when the loader chooses between clones.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define LAMINA_CLONE_FOR_FMA __attribute__((target_clones("default", "fma")))
+#define LAMINA_IN_CLONES __attribute__((always_inline)) inline
+#else
+#define LAMINA_CLONE_FOR_FMA
+#define LAMINA_IN_CLONES inline
+#endif
+
 namespace lamina {
 namespace {
 
@@ -26,7 +37,7 @@ constexpr double touching = 1e-12;
 
 // Computes a * b - c * d to 2 ulps (Kahan; Jeannerod, Louvet, Muller 2013), so that faces seen
 // edge-on keep their weights.
-double difference_of_products(double a, double b, double c, double d) {
+LAMINA_IN_CLONES double difference_of_products(double a, double b, double c, double d) {
     const double cd = c * d;
     return std::fma(a, b, -cd) + std::fma(-c, d, cd);
 }
@@ -59,13 +70,13 @@ void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction) {
     find_crossings();
 }
 
-RayWalk::Seen RayWalk::see(std::int32_t point) const {
+LAMINA_IN_CLONES RayWalk::Seen RayWalk::see(std::int32_t point) const {
     const glm::dvec3 p = mesh_.points()[static_cast<std::size_t>(point)] - origin_;
     return {point, glm::dot(p, across_x_), glm::dot(p, across_y_),
             glm::dot(p, direction_) / direction_square_, place_error * norm1(p)};
 }
 
-RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const {
+LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const {
     const double area = difference_of_products(a.x, b.y, a.y, b.x);
     const double error = (std::abs(a.x) + std::abs(a.y) + a.reach) * b.reach +
                          (std::abs(b.x) + std::abs(b.y)) * a.reach + epsilon * std::abs(area);
@@ -176,7 +187,7 @@ void RayWalk::find_crossings() {
 // The line passes inside the front's three edges. Turning about the line from corner to corner, the
 // edges to the fourth corner change from one side of the line to the other and back: the line
 // leaves through the face of the two corners i, j where they change from negative to positive.
-std::int32_t RayWalk::step(TetSegment& segment, Front& front) const {
+LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, Front& front) const {
     const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
     const auto& entered = segment.in.corners;
     std::size_t apex = 0;

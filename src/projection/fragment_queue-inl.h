@@ -11,7 +11,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <span>
 
 #include "projection/tet_run-inl.h"
 #include "tiles/target_pixels-inl.h"
@@ -39,8 +38,8 @@ class FragmentQueue {
         // Of lit fragments: columns and rows from the center.
         Vector aside, slant;
     };
-    // A vector of pixels, by the TileGrid::place() of the first one, and the number in the TileBatch
-    // of the cell fragment that covers some of them.
+    // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
+    // TileBatch of the cell fragment that covers some of them.
     class Place {
       public:
         Place() = default;
@@ -66,7 +65,8 @@ class FragmentQueue {
               place_(queue.places_ + queue.place_count_) {}
 
         // Keeps the vector where one of its pixels is `inside`. It does so without a branch, which
-        // could not be predicted. The span of pixels that are not inside becomes 0.
+        // could not be predicted. The span of pixels that are not inside becomes 0, so that `aside`
+        // and `slant`, which stay as they are, make no difference there.
         HWY_INLINE void add(Tag d, std::size_t place, const Found& found, Inside inside) {
             const std::size_t some = hn::AllFalse(d, inside) ? 0 : 1;
             *place_ = Place(place, part_);
@@ -156,6 +156,8 @@ class FragmentQueue {
     }
 
   private:
+    static_assert(TileBatch::most_chunks * TileBatch::chunk_parts <= 1 << 16,
+                  "numbers of cell fragments are kept in 16 bits");
     static constexpr bool packs = HWY_TARGET <= HWY_AVX3;
     static constexpr std::size_t values = 4, enough = 256, most = enough + TileGrid::pixels + lanes,
                                  some_parts = 16;

@@ -54,21 +54,15 @@ class TetDrawing {
     template <class Shader>
     HWY_INLINE void draw_parts(const Shader& shader, std::size_t first, std::uint64_t parts) {
         std::size_t count = 0;
-        for (std::uint64_t left = parts; left != 0; left &= left - 1) {
-            const std::size_t part = first + static_cast<std::size_t>(std::countr_zero(left));
-            prefetch(batch_.record(part));
+        for_each_member(first, parts, [&](std::size_t part) HWY_ATTR {
             blocks_[count++] = {coverage_.blocks(batch_.area(part)), part};
-        }
+        });
         for (std::size_t i = 0; i < count; ++i) {
             const auto [blocks, part] = blocks_[i];
             coverage_.find<Shader::lit>(shader.cut, batch_.record(part), batch_.area(part), blocks,
                                         part, queue_);
             if (queue_.is_full()) draw_queue(shader);
         }
-    }
-    static void prefetch(const TetRecord& record) {
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&record);
-        for (std::size_t line = 0; line < sizeof(record); line += 64) hwy::Prefetch(bytes + line);
     }
 
     template <class Shader>

@@ -24,7 +24,7 @@ struct InsideSpan {
 };
 
 // The run of a ray through a cell fragment. Scalars are normalised as the record says. A ray that
-// misses the cell fragment has scalars 0 and length 0.
+// misses the cell fragment has equal scalars and length 0.
 template <class V>
 struct TetRun {
     V front, back, world_length;

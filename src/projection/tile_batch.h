@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,13 +15,20 @@
 
 namespace lamina {
 
+// Calls visit(first + i) for each bit i of a word that is set.
+template <typename Visit>
+void for_each_member(std::size_t first, std::uint64_t word, const Visit& visit) {
+    for (std::uint64_t left = word; left != 0; left &= left - 1)
+        visit(first + static_cast<std::size_t>(std::countr_zero(left)));
+}
+
 // Some projected cell fragments that follow each other in visibility order, and the set of them
 // that each tile of the picture draws. Threads fill it in chunks, each its own. Its size does not
 // depend on the view.
 class TileBatch {
   public:
-    // The cell fragments of chunk i have numbers from i * chunk_parts on.
-    static constexpr std::size_t chunk_parts = 512;
+    // The cell fragments (or triangles) of chunk i have numbers from i * chunk_parts on.
+    static constexpr std::size_t chunk_parts = 512, most_chunks = 12;
 
     // `triangles`: the batch holds triangles instead of cell fragments. `lit`: these have
     // gradients.
@@ -30,21 +38,38 @@ class TileBatch {
           triangles_(triangles ? chunks * chunk_parts : 0),
           areas_(chunks * chunk_parts),
           sets_(static_cast<std::size_t>(tiles) * chunks) {
+        chunks_.reserve(chunks);
         for (std::size_t i = 0; i < chunks; ++i)
             chunks_.emplace_back(*this, i, static_cast<std::size_t>(tiles));
     }
     TileBatch(const TileBatch&) = delete;
     TileBatch& operator=(const TileBatch&) = delete;
 
-    // Writes one chunk.
+  private:
+    // A set of numbers below chunk_parts. It fills a cache line, because the sets that a tile has
+    // in different chunks are written at the same time.
+    struct alignas(64) Set {
+        std::array<std::uint64_t, chunk_parts / 64> words{};
+
+        void add(std::size_t number) { words[number / 64] |= std::uint64_t{1} << number % 64; }
+        bool has(std::size_t number) const { return (words[number / 64] >> number % 64 & 1) != 0; }
+    };
+
+  public:
+    // One chunk: it is filled by one thread, and then read by all.
     class alignas(64) Chunk {
       public:
         Chunk(TileBatch& batch, std::size_t number, std::size_t tiles)
-            : batch_(&batch), number_(number), tiles_((tiles + 63) / 64) {}
+            : batch_(&batch), number_(number), tiles_((tiles + chunk_parts - 1) / chunk_parts) {}
 
         void clear() {
-            for_each_bit(tiles_, [&](std::size_t tile) { set(tile) = {}; });
-            std::ranges::fill(tiles_, 0);
+            for (std::size_t i = 0; i < tiles_.size(); ++i) {
+                for (std::size_t word = 0; word < tiles_[i].words.size(); ++word) {
+                    for_each_member(chunk_parts * i + 64 * word, tiles_[i].words[word],
+                                    [&](std::size_t tile) { set_of(tile) = {}; });
+                }
+                tiles_[i] = {};
+            }
             count_ = 0;
             tets_ = 0;
             first_tet_ = last_tet_ = -1;
@@ -64,9 +89,8 @@ class TileBatch {
         }
         // The tile draws the cell fragment that was added last.
         void touch(std::size_t tile) {
-            const std::size_t part = count_ - 1;
-            tiles_[tile / 64] |= std::uint64_t{1} << tile % 64;
-            set(tile)[part / 64] |= std::uint64_t{1} << part % 64;
+            tiles_[tile / chunk_parts].add(tile % chunk_parts);
+            set_of(tile).add(count_ - 1);
         }
 
         bool empty() const { return count_ == 0; }
@@ -74,20 +98,21 @@ class TileBatch {
         std::int32_t first_tet() const { return first_tet_; }
         std::int32_t last_tet() const { return last_tet_; }
         bool is_drawn_by(std::size_t tile) const {
-            return (tiles_[tile / 64] >> tile % 64 & 1) != 0;
+            return tiles_[tile / chunk_parts].has(tile % chunk_parts);
         }
+        std::size_t byte_count() const { return sizeof(*this) + tiles_.size() * sizeof(Set); }
 
       private:
         std::size_t end() const { return number_ * chunk_parts + count_; }
-        std::array<std::uint64_t, chunk_parts / 64>& set(std::size_t tile) {
-            return batch_->sets_[tile * batch_->chunks_.size() + number_].words;
+        Set& set_of(std::size_t tile) {
+            return batch_->sets_[tile * batch_->chunks_.size() + number_];
         }
 
         TileBatch* batch_;
         std::size_t number_, count_ = 0;
         std::int64_t tets_ = 0;
         std::int32_t first_tet_ = -1, last_tet_ = -1;
-        std::vector<std::uint64_t> tiles_;  // a bit for each tile that draws some of the chunk
+        std::vector<Set> tiles_;  // that draw some of the chunk, chunk_parts of them in each set
     };
 
     std::size_t chunk_count() const { return chunks_.size(); }
@@ -118,28 +143,15 @@ class TileBatch {
                                    [&](const Chunk& chunk) { return chunk.is_drawn_by(tile); });
     }
     std::int64_t byte_count() const {
-        return static_cast<std::int64_t>(sizeof(*this) + records_.size() * sizeof(TetRecord) +
-                                         gradients_.size() * sizeof(GradientRecord) +
-                                         triangles_.size() * sizeof(TriangleRecord) +
-                                         areas_.size() * sizeof(PartArea) +
-                                         sets_.size() * sizeof(Set));
+        std::size_t bytes = sizeof(*this) + records_.size() * sizeof(TetRecord) +
+                            gradients_.size() * sizeof(GradientRecord) +
+                            triangles_.size() * sizeof(TriangleRecord) +
+                            areas_.size() * sizeof(PartArea) + sets_.size() * sizeof(Set);
+        for (const Chunk& chunk : chunks_) bytes += chunk.byte_count();
+        return static_cast<std::int64_t>(bytes);
     }
 
   private:
-    // A set of a chunk's cell fragments. It fills a cache line, because tiles of different chunks
-    // are written at the same time.
-    struct alignas(64) Set {
-        std::array<std::uint64_t, chunk_parts / 64> words{};
-    };
-
-    template <typename Visit>
-    static void for_each_bit(const std::vector<std::uint64_t>& words, const Visit& visit) {
-        for (std::size_t word = 0; word < words.size(); ++word) {
-            for (std::uint64_t left = words[word]; left != 0; left &= left - 1)
-                visit(64 * word + static_cast<std::size_t>(std::countr_zero(left)));
-        }
-    }
-
     std::vector<TetRecord> records_;
     std::vector<GradientRecord> gradients_;  // of the records; empty where nothing is lit
     std::vector<TriangleRecord> triangles_;

@@ -6,8 +6,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <bit>
-
 #include "projection/general_shading-inl.h"
 #include "projection/triangle_coverage-inl.h"
 
@@ -117,10 +115,9 @@ class TriangleDrawing {
 std::int64_t draw_fans(const TetFragments& fragments, const TileBatch& batch, const TetTile& tile) {
     TriangleDrawing drawing(fragments, tile);
     batch.for_each_word(tile.number, [&](std::size_t first, std::uint64_t parts) HWY_ATTR {
-        for (std::uint64_t left = parts; left != 0; left &= left - 1) {
-            const std::size_t part = first + static_cast<std::size_t>(std::countr_zero(left));
+        for_each_member(first, parts, [&](std::size_t part) HWY_ATTR {
             drawing.draw(batch.triangle(part), batch.area(part));
-        }
+        });
     });
     return drawing.fragments();
 }

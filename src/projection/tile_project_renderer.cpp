@@ -23,9 +23,9 @@ constexpr double margin = 1e-3;
 
 // The chunks of a batch are enough for the tiles of all threads to find work, few enough for the
 // caches (2 MB with 800 x 600 pixels), and few enough that two batches take less memory than a
-// fourth of the mesh's parts.
+// fourth of the mesh's parts, beside 64 bytes for each tile and chunk.
 std::size_t chunks_of_batch(std::size_t parts, std::size_t parts_a_chunk) {
-    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, 12);
+    return std::clamp<std::size_t>(parts / (8 * parts_a_chunk), 1, TileBatch::most_chunks);
 }
 
 double farthest_corner(const TetMesh& mesh, const glm::dvec3& eye) {

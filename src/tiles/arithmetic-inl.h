@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elementary functions of vectors of floats. As everywhere in this room, every product and every
-// sum is rounded by itself, so that all instruction sets compute the same numbers.
+// sum is rounded by itself, so that all instruction sets compute the same numbers (unless they are
+// built with LAMINA_FMA).
 #if defined(LAMINA_TILES_ARITHMETIC_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_ARITHMETIC_INL_H_
 #undef LAMINA_TILES_ARITHMETIC_INL_H_

@@ -16,7 +16,12 @@ namespace lamina {
 Capabilities tile_capabilities() {
     constexpr int largest_edge = 32768;  // pixel coordinates are exact in floats
     Capabilities capabilities;
-    capabilities.renderer = fmt::format("cpu: {}", instruction_set());
+#ifdef LAMINA_FMA
+    constexpr const char* fused = ", fused";
+#else
+    constexpr const char* fused = "";
+#endif
+    capabilities.renderer = fmt::format("cpu: {}{}", instruction_set(), fused);
     const auto allowed =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
     capabilities.threads =
