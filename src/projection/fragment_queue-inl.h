@@ -40,16 +40,8 @@ class FragmentQueue {
     };
     // A vector of pixels, by the TileGrid::place() of the first one, and the number in the
     // TileBatch of the cell fragment that covers some of them.
-    class Place {
-      public:
-        Place() = default;
-        HWY_INLINE Place(std::size_t place, std::size_t part)
-            : bits_(static_cast<std::uint32_t>(place | part << 16)) {}
-        std::size_t place() const { return bits_ & 0xffff; }
-        std::size_t part() const { return bits_ >> 16; }
-
-      private:
-        std::uint32_t bits_;
+    struct Place {
+        std::uint16_t place, part;
     };
 
     bool is_full() const { return end_ >= enough; }  // another cell fragment may not fit
@@ -60,7 +52,7 @@ class FragmentQueue {
       public:
         HWY_INLINE Writer(FragmentQueue& queue, std::size_t part)
             : queue_(queue),
-              part_(part),
+              part_(static_cast<std::uint16_t>(part)),
               to_(queue.values_ + position(0, queue.end_)),
               place_(queue.places_ + queue.place_count_) {}
 
@@ -68,26 +60,26 @@ class FragmentQueue {
         // could not be predicted. The span of pixels that are not inside becomes 0, so that `aside`
         // and `slant`, which stay as they are, make no difference there.
         HWY_INLINE void add(Tag d, std::size_t place, const Found& found, Inside inside) {
-            const std::size_t some = hn::AllFalse(d, inside) ? 0 : 1;
-            *place_ = Place(place, part_);
-            store(d, 0, pack(inside, found.span.enter));
-            store(d, 1, pack(inside, found.span.leave));
+            const std::size_t count = hn::CountTrue(d, inside), some = count > 0 ? 1 : 0;
+            *place_ = {static_cast<std::uint16_t>(place), part_};
             if constexpr (packs) {
+                store(d, 0, hn::Compress(found.span.enter, inside));
+                store(d, 1, hn::Compress(found.span.leave, inside));
                 store(d, 2, hn::Compress(found.aside, inside));
                 store(d, 3, hn::Compress(found.slant, inside));
                 Packed& packed = queue_.packed_[place_ - queue_.places_];
                 packed.first = static_cast<std::uint16_t>(to_ - queue_.values_);
                 hn::StoreMaskBits(d, inside, packed.inside);
-                to_ += hn::CountTrue(d, inside);
+                to_ += count;
             } else {
+                store(d, 0, hn::IfThenElseZero(inside, found.span.enter));
+                store(d, 1, hn::IfThenElseZero(inside, found.span.leave));
                 store(d, 2, found.aside);
                 store(d, 3, found.slant);
                 to_ += some * (values * lanes);
             }
             place_ += some;
-            const hn::RebindToSigned<Tag> di;
-            // The lanes of a mask are -1 where they are true.
-            minus_count_ = hn::Add(minus_count_, hn::VecFromMask(di, hn::RebindMask(di, inside)));
+            count_ += count;
         }
         // Returns the number of fragments.
         HWY_INLINE std::size_t finish(Tag d) {
@@ -100,13 +92,11 @@ class FragmentQueue {
             // A single store is mostly enough. The number that is needed could not be predicted.
             std::uint16_t* const parts = queue_.parts_ + queue_.end_ / lanes;
             const std::size_t vectors = (end - queue_.end_) / lanes;
-            const auto part = static_cast<std::uint16_t>(part_);
-            std::fill_n(parts, some_parts, part);
-            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part);
+            std::fill_n(parts, some_parts, part_);
+            if (vectors > some_parts) std::fill_n(parts + some_parts, vectors - some_parts, part_);
             queue_.end_ = end;
             queue_.place_count_ = static_cast<std::size_t>(place_ - queue_.places_);
-            const hn::RebindToSigned<Tag> di;
-            return static_cast<std::size_t>(-hn::GetLane(hn::SumOfLanes(di, minus_count_)));
+            return count_;
         }
 
       private:
@@ -115,10 +105,10 @@ class FragmentQueue {
         }
 
         FragmentQueue& queue_;
-        std::size_t part_;
+        std::uint16_t part_;
         float* to_;
         Place* place_;
-        hn::Vec<hn::RebindToSigned<Tag>> minus_count_ = hn::Zero(hn::RebindToSigned<Tag>());
+        std::size_t count_ = 0;
     };
 
     // Calls visit(part, i) for each vector of fragments; `i` is the number of its first fragment.
@@ -171,13 +161,6 @@ class FragmentQueue {
     // vector follow each other.
     static constexpr std::size_t position(std::size_t value, std::size_t i) {
         return packs ? value * most + i : value * lanes + i * values;
-    }
-    static HWY_INLINE Vector pack(Inside inside, Vector v) {
-        if constexpr (packs) {
-            return hn::Compress(v, inside);
-        } else {
-            return hn::IfThenElseZero(inside, v);
-        }
     }
     HWY_INLINE Vector pixels(Tag d, std::size_t value, std::size_t place) const {
 #if HWY_TARGET <= HWY_AVX3

@@ -65,6 +65,7 @@ class TetDrawing {
         }
     }
 
+    // It is not inlined, because only then does GCC inline the shader into it.
     template <class Shader>
     HWY_NOINLINE void draw_queue(const Shader& shader) {
         if constexpr (Shader::lit) {
@@ -76,8 +77,8 @@ class TetDrawing {
         }
         queue_.for_each_place(
             d_, [&](const FragmentQueue::Place& pixels, const Fragment<Vector>& color) HWY_ATTR {
-                shader.put(d_, fragments_, batch_.record(pixels.part()).number, color, tile_,
-                           pixels.place());
+                shader.put(d_, fragments_, batch_.record(pixels.part).number, color, tile_,
+                           pixels.place);
             });
         queue_.clear();
     }

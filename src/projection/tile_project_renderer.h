@@ -105,8 +105,8 @@ class TileProjectRenderer : public ProjectRenderer {
     TileImage image_;
     std::vector<TilePixels::Plane> slants_;  // for each tile; empty where all are 1
     double slant_pixel_ = 0;                 // View::pixel that the slants were computed for
-    std::array<std::unique_ptr<TileBatch>, 2>
-        batches_;                                // one is projected while the other is drawn
+    // One is projected while the other is drawn.
+    std::array<std::unique_ptr<TileBatch>, 2> batches_;
     std::vector<std::int64_t> fragment_counts_;  // for each tile
     std::int64_t tets_drawn_ = 0;
     std::int32_t last_tet_ = -1;
