@@ -48,8 +48,9 @@ TEST(ShaderSource, InsertsDefinesAfterTheVersion) {
         compose({{"a.frag", "// licence\n#version 450 core\nvoid main() {}\n"}}, "a.frag",
                 Defines().set("N", 3).set("MODE", "fast"));
     EXPECT_EQ(source.text,
-              "// licence\n#version 450 core\n#define N 3\n#define MODE fast\nvoid main() {}\n");
-    EXPECT_EQ(places(source), "a.frag:1 a.frag:2 a.frag:2 a.frag:2 a.frag:3");
+              "// licence\n#version 450 core\n#pragma optionNV(fastmath off)\n#define N 3\n#define "
+              "MODE fast\nvoid main() {}\n");
+    EXPECT_EQ(places(source), "a.frag:1 a.frag:2 a.frag:2 a.frag:2 a.frag:2 a.frag:3");
     EXPECT_EQ(source.name, "a.frag");
 }
 
@@ -61,15 +62,16 @@ TEST(ShaderSource, GuardsIncludesAndTracksTheirLines) {
                                          {"lib/c.glsl", "C"}},
                                         "a.frag");
     EXPECT_EQ(source.text,
-              "#version 450 core\n"
+              "#version 450 core\n#pragma optionNV(fastmath off)\n"
               "#ifndef INCLUDED_FILE_0\n#define INCLUDED_FILE_0\n"
               "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
               "B\n#endif\n"
               "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
               "A\n");
-    EXPECT_EQ(places(source),
-              "a.frag:1 a.frag:2 a.frag:2 lib/b.glsl:1 lib/b.glsl:1 lib/c.glsl:1 lib/b.glsl:1 "
-              "lib/b.glsl:2 a.frag:2 a.frag:3 a.frag:3 lib/c.glsl:1 a.frag:3 a.frag:4");
+    EXPECT_EQ(
+        places(source),
+        "a.frag:1 a.frag:1 a.frag:2 a.frag:2 lib/b.glsl:1 lib/b.glsl:1 lib/c.glsl:1 "
+        "lib/b.glsl:1 lib/b.glsl:2 a.frag:2 a.frag:3 a.frag:3 lib/c.glsl:1 a.frag:3 a.frag:4");
 }
 
 TEST(ShaderSource, NamesMissingFilesAndWhoWantsThem) {
