@@ -18,53 +18,121 @@ HWY_INLINE Doubles sum(Doubles a, Doubles x, Doubles b) {
     return hn::MulAdd(a, x, b);
 }
 
-HWY_INLINE void make_lanes(const CellBatch& cells, const Chord& chord, std::size_t i,
-                           SegmentBatch& segments) {
-    const Lanes d;
-    const Doubles from = hn::Load(d, cells.from + i);
-    const Doubles along = hn::Sub(hn::Load(d, cells.to + i), from);
-    Doubles start[3], step[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        const Doubles direction = number(chord.direction[axis]);
-        const Doubles at = hn::MulAdd(from, direction, number(chord.entry[axis]));
-        const Doubles inside = hn::Sub(at, hn::Load(d, cells.place[axis] + i));
-        start[axis] = hn::Min(hn::Max(inside, hn::Zero(d)), number(1));
-        step[axis] = hn::Mul(along, direction);
-    }
+struct CornerLanes {
     Doubles v[8];
-    for (std::size_t corner = 0; corner < 8; ++corner)
-        v[corner] = hn::Load(d, cells.corners[corner] + i);
+
+    HWY_INLINE CornerLanes(const CellBatch& cells, std::size_t i) {
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            v[corner] = hn::Load(Lanes(), cells.corners[corner] + i);
+    }
+    HWY_INLINE Doubles least() const {
+        return hn::Min(hn::Min(hn::Min(v[0], v[1]), hn::Min(v[2], v[3])),
+                       hn::Min(hn::Min(v[4], v[5]), hn::Min(v[6], v[7])));
+    }
+    HWY_INLINE Doubles most() const {
+        return hn::Max(hn::Max(hn::Max(v[0], v[1]), hn::Max(v[2], v[3])),
+                       hn::Max(hn::Max(v[4], v[5]), hn::Max(v[6], v[7])));
+    }
+    // The sum of eight finite samples, which are floats at most, is finite.
+    HWY_INLINE Mask finite() const {
+        return hn::IsFinite(hn::Add(hn::Add(hn::Add(v[0], v[1]), hn::Add(v[2], v[3])),
+                                    hn::Add(hn::Add(v[4], v[5]), hn::Add(v[6], v[7]))));
+    }
+};
+
+// As TransferIntervals::visible().
+class VisibleRanges {
+  public:
+    HWY_INLINE explicit VisibleRanges(const IntervalColumns& columns)
+        : lo_(columns.visible_lo.data()),
+          hi_(columns.visible_hi.data()),
+          first_step_(static_cast<std::int64_t>(columns.visible_lo.size() / 2)) {}
+
+    HWY_INLINE Mask meet(Doubles lo, Doubles hi) const {
+        // Most functions have one.
+        if (first_step_ <= 1)
+            return hn::And(hn::Le(number(lo_[0]), hi), hn::Le(lo, number(hi_[0])));
+        const NumberLanes n;
+        Numbers below = hn::Zero(n);  // ranges
+        for (std::int64_t step = first_step_; step > 0; step /= 2) {
+            const Numbers next = hn::Add(below, hn::Set(n, step));
+            const Mask further = hn::Lt(hn::GatherIndex(Lanes(), hi_ - 1, next), lo);
+            below = hn::IfThenElse(hn::RebindMask(n, further), next, below);
+        }
+        return hn::Le(hn::GatherIndex(Lanes(), lo_, below), hi);
+    }
+
+  private:
+    const double *lo_, *hi_;
+    std::int64_t first_step_;
+};
+
+// The chord inside cells, in the cells' coordinates: start + t * step, 0 <= t <= 1.
+struct PathLanes {
+    Doubles start[3], step[3], along;
+
+    HWY_INLINE PathLanes(const CellBatch& cells, const Chord& chord, std::size_t i) {
+        const Lanes d;
+        const Doubles from = hn::Load(d, cells.from + i);
+        along = hn::Sub(hn::Load(d, cells.to + i), from);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Doubles direction = number(chord.direction[axis]);
+            const Doubles at = hn::MulAdd(from, direction, number(chord.entry[axis]));
+            const Doubles cell = hn::ConvertTo(d, hn::Load(NumberLanes(), cells.cell[axis] + i));
+            start[axis] = hn::Min(hn::Max(hn::Sub(at, cell), hn::Zero(d)), number(1));
+            step[axis] = hn::Mul(along, direction);
+        }
+    }
+};
+
+HWY_INLINE Cubics field_along(const CornerLanes& corners, const PathLanes& path) {
+    const Doubles(&v)[8] = corners.v;
     const Doubles x = hn::Sub(v[1], v[0]), y = hn::Sub(v[2], v[0]), z = hn::Sub(v[4], v[0]);
     const Doubles xy = hn::Sub(hn::Sub(v[3], v[2]), x), xz = hn::Sub(hn::Sub(v[5], v[4]), x);
     const Doubles yz = hn::Sub(hn::Sub(v[6], v[4]), y);
     const Doubles xyz = hn::Sub(hn::Sub(hn::Sub(v[7], v[6]), hn::Sub(v[5], v[4])), xy);
-    const auto& [u, w, q] = start;
-    const auto& [du, dw, dq] = step;
+    const auto& [u, w, q] = path.start;
+    const auto& [du, dw, dq] = path.step;
     // The field's derivatives at the start, by each axis and by pairs of them.
     const Doubles by_xy = sum(q, xyz, xy), by_xz = sum(w, xyz, xz), by_yz = sum(u, xyz, yz);
     const Doubles by_x = sum(w, by_xy, sum(q, xz, x)), by_y = sum(u, by_xy, sum(q, yz, y));
     const Doubles by_z = sum(u, by_xz, sum(w, yz, z));
-    const Doubles c0 = sum(u, by_x, sum(w, sum(q, yz, y), sum(q, z, v[0])));
-    const Doubles c1 = sum(du, by_x, sum(dw, by_y, hn::Mul(dq, by_z)));
-    const Doubles c2 =
+    Cubics field;
+    field.c[0] = sum(u, by_x, sum(w, sum(q, yz, y), sum(q, z, v[0])));
+    field.c[1] = sum(du, by_x, sum(dw, by_y, hn::Mul(dq, by_z)));
+    field.c[2] =
         sum(hn::Mul(du, dw), by_xy, sum(hn::Mul(du, dq), by_xz, hn::Mul(hn::Mul(dw, dq), by_yz)));
-    hn::Store(c0, d, segments.scalar[0] + i);
-    hn::Store(c1, d, segments.scalar[1] + i);
-    hn::Store(c2, d, segments.scalar[2] + i);
-    hn::Store(hn::Mul(hn::Mul(du, dw), hn::Mul(dq, xyz)), d, segments.scalar[3] + i);
-    hn::Store(hn::Load(d, cells.lo + i), d, segments.lo + i);
-    hn::Store(hn::Load(d, cells.hi + i), d, segments.hi + i);
-    hn::Store(hn::Mul(along, number(chord.world_per_z)), d, segments.length + i);
+    field.c[3] = hn::Mul(hn::Mul(du, dw), hn::Mul(dq, xyz));
+    return field;
 }
 
 }  // namespace reference
 
 // HWY_EXPORT takes functions of this namespace alone.
-inline void make_segments_of(const CellBatch& cells, const Chord& chord, SegmentBatch& segments) {
+inline void make_segments_of(CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
+                             SegmentBatch& segments) {
     using namespace reference;
-    for (std::size_t i = 0; i < cells.count; i += hn::Lanes(Lanes()))
-        make_lanes(cells, chord, i, segments);
-    segments.count = cells.count;
+    const Lanes d;
+    const VisibleRanges visible(intervals);
+    segments.count = 0;
+    for (std::size_t i = 0; i < cells.count; i += hn::Lanes(d)) {
+        const CornerLanes corners(cells, i);
+        const Doubles lo = corners.least(), hi = corners.most();
+        const Mask seen = hn::And(hn::And(visible.meet(lo, hi), corners.finite()),
+                                  hn::FirstN(d, cells.count - i));
+        if (hn::AllFalse(d, seen)) continue;
+        const PathLanes path(cells, chord, i);
+        const Cubics field = field_along(corners, path);
+        const std::size_t first = segments.count;
+        for (std::size_t power = 0; power < 4; ++power)
+            store_kept(field.c[power], seen, segments.scalar[power] + first);
+        store_kept(lo, seen, segments.lo + first);
+        store_kept(hi, seen, segments.hi + first);
+        store_kept(hn::Mul(path.along, number(chord.world_per_z)), seen, segments.length + first);
+        const Numbers numbers = hn::Iota(NumberLanes(), static_cast<std::int64_t>(i));
+        store_kept(numbers, seen, cells.seen + first);
+        segments.count += hn::CountTrue(d, seen);
+    }
 }
 
 }  // namespace lamina::HWY_NAMESPACE
@@ -75,8 +143,9 @@ namespace lamina {
 
 HWY_EXPORT(make_segments_of);
 
-void make_segments(const CellBatch& cells, const Chord& chord, SegmentBatch& segments) {
-    HWY_DYNAMIC_DISPATCH(make_segments_of)(cells, chord, segments);
+void make_segments(CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
+                   SegmentBatch& segments) {
+    HWY_DYNAMIC_DISPATCH(make_segments_of)(cells, chord, intervals, segments);
 }
 
 }  // namespace lamina

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
+#include "reference/cell_walk.h"
 #include "reference/chord.h"
+#include "reference/interval_columns.h"
 #include "reference/segment_batch.h"
-#include "reference/trilinear.h"
 
 namespace lamina {
 
@@ -13,30 +15,27 @@ namespace lamina {
 struct CellBatch {
     static constexpr std::size_t capacity = SegmentBatch::capacity;
 
-    alignas(64) double corners[8][capacity];  // CellCorners, corner by corner
-    alignas(64) double lo[capacity];          // their range
-    alignas(64) double hi[capacity];
-    alignas(64) double place[3][capacity];  // of corner 0, in index space
-    alignas(64) double from[capacity];      // parameters of the chord
+    alignas(64) std::int64_t cell[3][capacity];
+    alignas(64) double from[capacity];  // parameters of the chord
     alignas(64) double to[capacity];
     std::size_t count = 0;
 
-    void add(const CellCorners& values, const CellCorners::Range& range, const CellIndex& cell,
-             double begin, double end) {
-        for (std::size_t corner = 0; corner < 8; ++corner)
-            corners[corner][count] = values.v[corner];
-        lo[count] = range.lo;
-        hi[count] = range.hi;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            place[axis][count] = static_cast<double>(cell[axis]);
+    alignas(64) double corners[8][capacity];  // CellSamples::fetch(): samples, at index x + 2y + 4z
+    // make_segments(): each segment's cell in this batch.
+    alignas(64) std::int64_t seen[SegmentBatch::room];
+
+    void add(const CellIndex& index, double begin, double end) {
+        for (std::size_t axis = 0; axis < 3; ++axis) cell[axis][count] = index[axis];
         from[count] = begin;
         to[count] = end;
         ++count;
     }
 };
 
-// Sets the segments to the chord's inside the cells, of the trilinear field. In vectors:
-// CellCorners::along() does one.
-void make_segments(const CellBatch& cells, const Chord& chord, SegmentBatch& segments);
+// Sets the segments to the chord's inside those cells that may show something, of the trilinear
+// field. Cells with a NaN or infinite corner are transparent. In vectors: CellCorners::along() does
+// one.
+void make_segments(CellBatch& cells, const Chord& chord, const IntervalColumns& intervals,
+                   SegmentBatch& segments);
 
 }  // namespace lamina

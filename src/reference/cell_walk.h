@@ -15,6 +15,17 @@ namespace lamina {
 
 using CellIndex = std::array<std::int64_t, 3>;
 
+// Neighbouring cells that a walk treats alike.
+struct CellBlock {
+    CellIndex first, last;
+    bool hidden = false;                 // nothing is to be visited there
+    const std::uint8_t* rows = nullptr;  // VisibleCells::may_show()
+
+    bool holds(std::int64_t cell, int axis) const {
+        return first[axis] <= cell && cell <= last[axis];
+    }
+};
+
 // The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between
 // samples i and i+1. On `cell` axes the cells -1 and size-1 are the half voxels outside the
 // samples. Every crossing is computed from its own plane, so errors do not accumulate. The first
@@ -34,7 +45,9 @@ class CellWalk {
             // On a plane between two cells the ray belongs to the cell that it enters.
             const double cell = d < 0 ? std::ceil(p) - 1 : std::floor(p);
             cell_[axis] = std::clamp(static_cast<std::int64_t>(cell), first, last);
-            final_[axis] = d < 0 ? first : last;
+            final_[axis] = d < 0 ? first : d > 0 ? last : cell_[axis];
+            step_[axis] = d < 0 ? -1 : 1;
+            ahead_[axis] = d > 0 ? 1 : 0;
             crossing_[axis] = next_crossing(axis);
         }
     }
@@ -43,34 +56,48 @@ class CellWalk {
     // to. It ends early where visit returns false.
     template <typename Visit>
     void run(const Visit& visit) {
-        run(visit, [](const CellIndex&, CellIndex&, CellIndex&) { return false; });
+        const auto any_cell = [&](const CellIndex& cell, double from, double to, const CellBlock&) {
+            return visit(cell, from, to);
+        };
+        constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
+        constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
+        run(any_cell, [](const CellIndex&) {
+            return CellBlock{{lowest, lowest, lowest}, {highest, highest, highest}};
+        });
     }
 
-    // The same, but for boxes of cells in which nothing is to be visited: hidden(cell, first, last)
-    // returns whether the cell lies in one, and sets the box's first and last cells.
-    template <typename Visit, typename Hidden>
-    void run(const Visit& visit, const Hidden& hidden) {
+    // Calls visit(cell, from, to, block) likewise, but for cells in hidden blocks. block_of(cell)
+    // returns the block of a cell.
+    template <typename Visit, typename BlockOf>
+    void run(const Visit& visit, const BlockOf& block_of) {
         double from = 0;
-        CellIndex first, last_hidden;
-        while (true) {
-            if (hidden(cell_, first, last_hidden)) {
-                if (!leave(first, last_hidden, from)) return;
-                continue;
-            }
-            const int axis = nearest_axis();
-            const bool last = !(crossing_[axis] < chord_.length_z);
-            const double to = last ? chord_.length_z : crossing_[axis];
-            if (from < to && !visit(cell_, from, to)) return;
-            if (last) return;
-            from = std::max(from, to);
-            cell_[axis] += chord_.direction[axis] < 0 ? -1 : 1;
-            crossing_[axis] = next_crossing(axis);
+        bool goes_on = true;
+        while (goes_on) {
+            const CellBlock block = block_of(cell_);
+            goes_on = block.hidden ? leave(block, from) : cross(block, visit, from);
         }
     }
 
   private:
-    // Goes on from `from` to where the chord leaves a box of cells; false where it ends before.
-    bool leave(const CellIndex& first, const CellIndex& last, double& from) {
+    // Visits the cells of a block; returns whether the chord goes on behind it.
+    template <typename Visit>
+    bool cross(const CellBlock& block, const Visit& visit, double& from) {
+        while (true) {
+            const int axis = nearest_axis();
+            const bool last = !(crossing_[axis] < chord_.length_z);
+            const double to = last ? chord_.length_z : crossing_[axis];
+            if (from < to && !visit(cell_, from, to, block)) return false;
+            if (last) return false;
+            from = std::max(from, to);
+            cell_[axis] += step_[axis];
+            crossing_[axis] = next_crossing(axis);
+            if (!block.holds(cell_[axis], axis)) return true;
+        }
+    }
+
+    // Goes on from `from` to where the chord leaves a block; false where it ends before.
+    bool leave(const CellBlock& block, double& from) {
+        const CellIndex &first = block.first, &last = block.last;
         int leaving = -1;
         double to = chord_.length_z;
         for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +106,7 @@ class CellWalk {
             const std::int64_t end =
                 d < 0 ? std::max(first[axis], final_[axis]) : std::min(last[axis], final_[axis]);
             if (end == final_[axis]) continue;
-            const double crossing = crossing_of(end + (d > 0 ? 1 : 0), axis);
+            const double crossing = crossing_of(end + ahead_[axis], axis);
             if (crossing < to) {
                 to = crossing;
                 leaving = axis;
@@ -119,18 +146,20 @@ class CellWalk {
 
     // Where the chord crosses the plane through which it enters the cell.
     double crossing_into(int axis) const {
-        return crossing_of(cell_[axis] + (chord_.direction[axis] > 0 ? 0 : 1), axis);
+        return crossing_of(cell_[axis] + 1 - ahead_[axis], axis);
     }
 
     double next_crossing(int axis) const {
-        const double d = chord_.direction[axis];
-        if (d == 0 || cell_[axis] == final_[axis]) return std::numeric_limits<double>::infinity();
-        return crossing_of(cell_[axis] + (d > 0 ? 1 : 0), axis);
+        if (cell_[axis] == final_[axis]) return std::numeric_limits<double>::infinity();
+        return crossing_of(cell_[axis] + ahead_[axis], axis);
     }
 
     const Chord& chord_;
     CellIndex cell_;
     CellIndex final_;  // the last cell in the ray's direction
+    CellIndex step_;   // -1 or 1
+    CellIndex
+        ahead_;  // how far the plane through which the chord leaves a cell lies from its number
     std::array<double, 3> crossing_;
     std::array<double, 3> inverse_;  // of the direction
 };

@@ -17,12 +17,15 @@ struct Coordinate {
     DoubleDouble position;
     DoubleDouble slope;
 
-    DoubleDouble z_at(double plane) const { return (DoubleDouble{plane, 0} - position) / slope; }
+    LAMINA_IN_CLONES DoubleDouble z_at(double plane) const {
+        return (DoubleDouble{plane, 0} - position) / slope;
+    }
 };
 
 // Projects on one (orthogonal) grid axis.
-Coordinate project(const DoubleDouble (&offset)[3], const DoubleDouble (&direction)[3],
-                   const GridAxes::Axis& axis) {
+LAMINA_IN_CLONES Coordinate project(const DoubleDouble (&offset)[3],
+                                    const DoubleDouble (&direction)[3],
+                                    const GridAxes::Axis& axis) {
     const DoubleDouble unscale{axis.unscale, 0};
     return {dot(offset, axis.scaled) / axis.square * unscale,
             dot(direction, axis.scaled) / axis.square * unscale};
@@ -30,8 +33,8 @@ Coordinate project(const DoubleDouble (&offset)[3], const DoubleDouble (&directi
 
 // Returns the part of z >= 0 where every coordinate is inside its closed range. Where there is
 // none, from >= to.
-RaySpan clip_to_faces(const Coordinate (&ray)[3], const glm::dvec3& lowest,
-                      const glm::dvec3& highest, int& entry_axis) {
+LAMINA_IN_CLONES RaySpan clip_to_faces(const Coordinate (&ray)[3], const glm::dvec3& lowest,
+                                       const glm::dvec3& highest, int& entry_axis) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     RaySpan inside{{0, 0}, {infinity, 0}};
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,6 +61,7 @@ Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSp
     return clip_to_box(GridAxes(grid), ray, clip);
 }
 
+LAMINA_CLONE_FOR_FMA
 Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip) {
     DoubleDouble offset[3], direction[3];
     for (int i = 0; i < 3; ++i) {

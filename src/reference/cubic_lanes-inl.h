@@ -29,6 +29,18 @@ HWY_INLINE Doubles number(double value) {
     return hn::Set(Lanes(), value);
 }
 
+// Stores the lanes in `kept` one after the other. Writes a whole vector. (CompressStore is slow on
+// Zen 4.)
+HWY_INLINE void store_kept(Doubles values, Mask kept, double* to) {
+    const Lanes d;
+    hn::StoreU(hn::AllTrue(d, kept) ? values : hn::Compress(values, kept), d, to);
+}
+HWY_INLINE void store_kept(Numbers values, Mask kept, std::int64_t* to) {
+    const NumberLanes n;
+    const bool all = hn::AllTrue(Lanes(), kept);
+    hn::StoreU(all ? values : hn::Compress(values, hn::RebindMask(n, kept)), n, to);
+}
+
 struct Cubics {
     Doubles c[4];
 

@@ -39,6 +39,37 @@ HWY_INLINE RuleSum no_sum() {
     return {hn::Zero(Lanes()), hn::Zero(Lanes())};
 }
 
+// Up to this depth exp(-depth) is summed by Taylor's series.
+constexpr double short_depth = 0.25;
+
+// (exp(-depth) - 1) / depth, short_depth at most. The series' remainder is below depth^11 / 12! =
+// 5e-16.
+HWY_INLINE Doubles short_expm1_share(Doubles depth) {
+    constexpr double inverse_factorials[] = {1. / 2,       1. / 6,       1. / 24,    1. / 120,
+                                             1. / 720,     1. / 5040,    1. / 40320, 1. / 362880,
+                                             1. / 3628800, 1. / 39916800};
+    Doubles sum = number(inverse_factorials[9]);
+    for (int i = 9; i-- > 0;) sum = hn::NegMulAdd(depth, sum, number(inverse_factorials[i]));
+    return hn::MulSub(depth, sum, number(1));
+}
+
+// How exp() is computed.
+struct AnyDepth {
+    HWY_INLINE static Doubles exp(Doubles depth) { return hn::Exp(Lanes(), hn::Neg(depth)); }
+    HWY_INLINE static Doubles opacity(Doubles depth) {
+        return hn::Neg(hn::Expm1(Lanes(), hn::Neg(depth)));
+    }
+};
+struct ShortDepth {
+    HWY_INLINE static Doubles exp(Doubles depth) {
+        return hn::MulAdd(depth, short_expm1_share(depth), number(1));
+    }
+    HWY_INLINE static Doubles opacity(Doubles depth) {
+        return hn::Neg(hn::Mul(depth, short_expm1_share(depth)));
+    }
+};
+
+template <typename Depth>
 class PieceLanes {
   public:
     HWY_INLINE PieceLanes(const PieceBatch& batch, std::size_t i)
@@ -67,7 +98,7 @@ class PieceLanes {
     HWY_INLINE Doubles weight_at(double place) const {
         const Doubles t = number(place);
         const Doubles depth = hn::Mul(t, mean_depth_.at(t));
-        return hn::Mul(extinction_.at(t), hn::Exp(Lanes(), hn::Neg(depth)));
+        return hn::Mul(extinction_.at(t), Depth::exp(depth));
     }
 
     Cubics position_, extinction_, mean_depth_;  // mean_depth_ t is the depth up to t
@@ -77,13 +108,18 @@ HWY_INLINE Doubles difference(const RuleSum& fine, const RuleSum& coarse, Double
     return hn::Max(hn::Abs(hn::Sub(fine.xw, coarse.xw)), hn::Abs(hn::Sub(fine.w, opacity)));
 }
 
+HWY_INLINE Mask given(const PieceBatch& batch, std::size_t i) {
+    return hn::FirstN(Lanes(), batch.count - i);
+}
+
 // Returns the lanes that a rule has integrated.
+template <typename Depth>
 HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i) {
     using namespace patterson;
     const Lanes d;
-    const PieceLanes pieces(batch, i);
+    const PieceLanes<Depth> pieces(batch, i);
     const Doubles depth = hn::LoadU(d, batch.depth.data() + i);
-    const Doubles opacity = hn::Neg(hn::Expm1(d, hn::Neg(depth)));
+    const Doubles opacity = Depth::opacity(depth);
     const Doubles transmittance = hn::Exp(d, hn::Neg(hn::LoadU(d, batch.before.data() + i)));
     const Doubles span = hn::LoadU(d, batch.color_span.data() + i);
     const Doubles allowed =
@@ -100,8 +136,7 @@ HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i) {
         seven.add(weight7[pair], w[pair], xw[pair]);
     }
     Doubles value = seven.xw, error = difference(seven, three, opacity);
-    // Lanes behind the last piece hold anything.
-    const Mask beyond = hn::Not(hn::FirstN(d, batch.count - i));
+    const Mask beyond = hn::Not(given(batch, i));
     Mask done = hn::Or(hn::Le(error, enough), beyond);
     if (!hn::AllTrue(d, done)) {
         for (int pair = 0; pair < 8; ++pair) {
@@ -142,7 +177,11 @@ inline void integrate_batch(PieceBatch& batch) {
     using namespace reference;
     const std::size_t lanes = hn::Lanes(Lanes());
     for (std::size_t i = 0; i < batch.count; i += lanes) {
-        const Mask done = integrate_lanes(batch, i);
+        // Lanes behind the last piece hold anything.
+        const Mask any = hn::Gt(hn::LoadU(Lanes(), batch.depth.data() + i), number(short_depth));
+        const bool all_short = hn::AllFalse(Lanes(), hn::And(any, given(batch, i)));
+        const Mask done =
+            all_short ? integrate_lanes<ShortDepth>(batch, i) : integrate_lanes<AnyDepth>(batch, i);
         if (hn::AllTrue(Lanes(), done)) continue;
         std::uint8_t bits[8];
         hn::StoreMaskBits(Lanes(), done, bits);

@@ -25,12 +25,6 @@ GridAxes::Axis scaled_axis(const glm::dvec3& step) {
 
 }  // namespace
 
-DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
-    DoubleDouble sum;
-    for (int i = 0; i < 3; ++i) sum = sum + a[i] * DoubleDouble{b[i], 0};
-    return sum;
-}
-
 GridAxes::GridAxes(const Grid& grid)
     : origin(grid.origin),
       lowest(grid.index_min()),

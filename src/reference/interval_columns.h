@@ -18,6 +18,9 @@ struct IntervalColumns {
     std::vector<double> extinction, extinction_change;  // at lo, and from there to hi
     std::vector<double> color_span;                     // the largest change of a colour
     std::vector<double> transparent;                    // 1 or 0
+    // The ranges of values with extinction, as in TransferIntervals::visible(): ascending, then
+    // infinity, at least as often as to make them and one more a power of two.
+    std::vector<double> visible_lo, visible_hi;
 };
 
 }  // namespace lamina

@@ -6,14 +6,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/cut_round.h"
 #include "reference/emission_integral.h"
 
 namespace lamina {
 
-// Pieces of one ray, whose emission is integrated in vectors. A piece is the part of a segment
-// (SegmentBatch) on which the transfer function is linear.
+// Pieces of one ray, front to back, whose emission is integrated in vectors. A piece is the part of
+// a segment (SegmentBatch) on which the transfer function is linear.
 struct PieceBatch {
     using Column = std::vector<double>;
+    static constexpr std::size_t longest_vector = CutRound::longest_vector;
 
     std::vector<std::int64_t> segment, interval;  // numbers
     Column from, to;                              // parameters of the segment, 0 <= from < to <= 1
@@ -33,7 +35,7 @@ struct PieceBatch {
 
     std::size_t count = 0;
 
-    static constexpr std::size_t longest_vector = 8;  // doubles
+    std::vector<CutRound> rounds;  // memory of append_pieces()
 
     // Makes sure that columns have room for so many pieces, and a vector of doubles more: vectors
     // read and write beyond the last piece, and find numbers there that are valid.

@@ -2,7 +2,6 @@
 #include "reference/ray_integrator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -58,8 +57,7 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient
     std::int64_t lit_segment = -1;
     GradientAlong gradient;
     append_pieces(segments, transfer_, error_per_length_, batch_);
-    order_pieces(first);
-    for (const std::size_t piece : order_) {
+    for (std::size_t piece = first; piece < batch_.count; ++piece) {
         batch_.before[piece] = opaque() ? hidden_depth : depth_.value();
         if (opaque()) continue;
         ++pieces_;
@@ -73,18 +71,6 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient
         depth_.add(batch_.depth[piece]);
     }
     if (batch_.count >= pieces_together) finish_batch();
-}
-
-// Sorts the pieces from `first` on by their segments, and leaves those of one as they come.
-void RayIntegrator::order_pieces(std::size_t first) {
-    std::array<std::size_t, SegmentBatch::capacity + 1> begin{};  // of each segment's pieces
-    for (std::size_t piece = first; piece < batch_.count; ++piece)
-        ++begin[static_cast<std::size_t>(batch_.segment[piece]) + 1];
-    for (std::size_t segment = 0; segment < SegmentBatch::capacity; ++segment)
-        begin[segment + 1] += begin[segment];
-    order_.resize(batch_.count - first);
-    for (std::size_t piece = first; piece < batch_.count; ++piece)
-        order_[begin[static_cast<std::size_t>(batch_.segment[piece])]++] = piece;
 }
 
 void RayIntegrator::finish_batch() {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <vector>
 
 #include "base/compensated_sum.h"
 #include "optics/ray_lights.h"
@@ -55,7 +54,6 @@ class RayIntegrator {
 
   private:
     void add(const SegmentBatch& segments, const GradientOf* gradient_of);
-    void order_pieces(std::size_t first);
     void add_light(std::size_t piece, const GradientAlong& gradient);
     void finish_batch();
     double hidden() const { return opaque() ? brightest_ * std::exp(-depth_.value()) : 0; }
@@ -73,8 +71,7 @@ class RayIntegrator {
     glm::dvec3 light_{0};
     double light_error_ = 0;
     std::int64_t pieces_ = 0;
-    PieceBatch batch_;                // the last pieces, which are not in color_ and error_
-    std::vector<std::size_t> order_;  // of the pieces that were added last, front to back
+    PieceBatch batch_;  // the last pieces, which are not in color_ and error_
 };
 
 }  // namespace lamina

@@ -61,13 +61,6 @@ std::optional<SeenPoint> point_in(const std::vector<RayStep<Piece>>& steps, cons
                      opacity_from_depth(steps.back().depth_after)};
 }
 
-// The scalar in a cell, between two parameters of the chord.
-Cubic scalar_in(const CellCorners& corners, const CellIndex& cell, const Chord& chord, double from,
-                double to) {
-    const glm::dvec3 corner(cell[0], cell[1], cell[2]);
-    return corners.along(chord.place_in_cell(corner, from), (to - from) * chord.direction);
-}
-
 template <typename Samples>
 std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Samples& first_sample,
                                  const View::Ray& ray) {
@@ -77,13 +70,12 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
     const TransferIntervals transfer(scene.transfer_function);
     const auto integrate = [&](const CellIndex& cell, double from, double to,
                                RayIntegrator& integrator) {
-        const CellCorners corners = samples.corners(cell);
-        const auto [lo, hi] = corners.range();
-        if (!transfer.visible(lo, hi) || !CellSamples<Samples>::finite(corners)) return;
-        SegmentBatch alone;
-        alone.add(scalar_in(corners, cell, chord, from, to), lo, hi,
-                  (to - from) * chord.world_per_z);
-        integrator.add(alone);
+        CellBatch alone;
+        alone.add(cell, from, to);
+        samples.fetch(alone);
+        SegmentBatch segment;
+        make_segments(alone, chord, transfer.columns(), segment);
+        integrator.add(segment);
     };
     RayIntegrator whole(transfer, scene.trace_tolerance), part(transfer, scene.trace_tolerance);
     whole.begin(chord.world_length());
@@ -100,7 +92,8 @@ std::optional<SeenPoint> seen_in(const Scene& scene, const Grid& grid, const Sam
         return part.optical_depth();
     };
     const auto value_of = [&](const CellIndex& cell, double place) {
-        return scalar_in(samples.corners(cell), cell, chord, place, place)(0);
+        const glm::dvec3 corner(cell[0], cell[1], cell[2]);
+        return samples.corners(cell).along(chord.place_in_cell(corner, place), glm::dvec3(0))(0);
     };
     // The chord counts from its entry into the box.
     const glm::dvec3 entry = grid.to_world(chord.entry);

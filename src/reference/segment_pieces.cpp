@@ -4,6 +4,7 @@
 #include "reference/segment_pieces.h"
 
 #include <bit>
+#include <span>
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
@@ -73,7 +74,6 @@ class SegmentLanes {
                             const IntervalColumns& columns)
         : columns_(columns),
           search_(columns),
-          segment_(hn::Iota(NumberLanes(), static_cast<std::int64_t>(first))),
           active_(hn::FirstN(Lanes(), segments.count - first)),
           lo_(load(segments.lo + first)),
           hi_(load(segments.hi + first)),
@@ -95,8 +95,8 @@ class SegmentLanes {
 
     HWY_INLINE bool active() const { return !hn::AllFalse(Lanes(), active_); }
 
-    // Appends the pieces up to the next knots or ends of parts, and goes on to there.
-    HWY_INLINE void advance(PieceBatch& pieces) {
+    // Goes on to the next knots or ends of parts. The round gets the pieces up to there.
+    HWY_INLINE void advance(CutRound& round) {
         const Doubles knot =
             hn::IfThenElse(rises_, search_.upper(interval_), search_.lower(interval_));
         const Mask before_end = hn::Or(hn::And(rises_, hn::Lt(knot, part_value_)),
@@ -109,7 +109,7 @@ class SegmentLanes {
             const Doubles root = solve_monotone(scalar_, knot, at_, part_end_, away);
             to = hn::IfThenElse(crosses, hn::IfThenElse(away, root, at_), to);
         }
-        append(to, end, pieces);
+        fill(round, to, end);
         at_ = to;
         value_ = end;
         const Numbers one = hn::Set(NumberLanes(), 1);
@@ -117,8 +117,7 @@ class SegmentLanes {
         interval_ = where(crosses, beyond, interval_);
         const Mask ended = hn::AndNot(crosses, active_);
         active_ = hn::And(active_, hn::Or(crosses, hn::Lt(at_, number(1))));
-        if (hn::AllFalse(Lanes(), hn::And(ended, active_))) return;
-        next_part(ended);
+        if (!hn::AllFalse(Lanes(), hn::And(ended, active_))) next_part(ended);
     }
 
   private:
@@ -144,39 +143,22 @@ class SegmentLanes {
         begin_part();
     }
 
-    HWY_INLINE void append(Doubles to, Doubles end, PieceBatch& pieces) const {
+    HWY_INLINE void fill(CutRound& round, Doubles to, Doubles end) const {
         constexpr std::size_t most = PieceBatch::longest_vector;
         static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
         const Lanes d;
-        const NumberLanes n;
-        const Mask seen = hn::Eq(gather(columns_.transparent, interval_), hn::Zero(d));
-        const Mask kept = hn::And(hn::And(active_, seen), hn::Lt(at_, to));
-        std::uint8_t kept_bits[8] = {};
-        hn::StoreMaskBits(d, kept, kept_bits);
-        alignas(64) std::int64_t segments[most], intervals[most];
-        alignas(64) double from[most], until[most], starts[most], ends[most];
-        hn::Store(segment_, n, segments);
-        hn::Store(interval_, n, intervals);
-        hn::Store(at_, d, from);
-        hn::Store(to, d, until);
-        hn::Store(value_, d, starts);
-        hn::Store(end, d, ends);
-        pieces.make_room(pieces.count + hn::Lanes(d));
-        for (unsigned bits = kept_bits[0]; bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-            const std::size_t i = pieces.count++;
-            pieces.segment[i] = segments[lane];
-            pieces.interval[i] = intervals[lane];
-            pieces.from[i] = from[lane];
-            pieces.to[i] = until[lane];
-            pieces.start[i] = starts[lane];
-            pieces.end[i] = ends[lane];
-        }
+        const Mask shows = hn::Eq(gather(columns_.transparent, interval_), hn::Zero(d));
+        const Mask kept = hn::And(hn::And(active_, shows), hn::Lt(at_, to));
+        hn::StoreMaskBits(d, kept, round.kept);
+        hn::Store(interval_, NumberLanes(), round.interval);
+        hn::Store(at_, d, round.from);
+        hn::Store(to, d, round.to);
+        hn::Store(value_, d, round.start);
+        hn::Store(end, d, round.end);
     }
 
     const IntervalColumns& columns_;
     IntervalSearch search_;
-    Numbers segment_;
     Mask active_;
     Doubles lo_, hi_;
     Cubics scalar_;
@@ -185,6 +167,26 @@ class SegmentLanes {
     Mask rises_;
     Numbers lowest_, interval_;  // the one of lo_, and of the piece that is next
 };
+
+// Appends the pieces of a vector of segments, one segment after the other.
+HWY_INLINE void append_rounds(std::span<const CutRound> rounds, std::size_t first_segment,
+                              PieceBatch& pieces) {
+    const std::size_t lanes = hn::Lanes(Lanes());
+    pieces.make_room(pieces.count + lanes * rounds.size());
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (const CutRound& round : rounds) {
+            // Written over by the next where it is not kept: a branch would often be mispredicted.
+            const std::size_t i = pieces.count;
+            pieces.segment[i] = static_cast<std::int64_t>(first_segment + lane);
+            pieces.interval[i] = round.interval[lane];
+            pieces.from[i] = round.from[lane];
+            pieces.to[i] = round.to[lane];
+            pieces.start[i] = round.start[lane];
+            pieces.end[i] = round.end[lane];
+            pieces.count += round.kept[0] >> lane & 1;
+        }
+    }
+}
 
 // Sets the optics of a vector of pieces. Extinction is computed from the nearer knot, so that few
 // digits are lost where a steep interval ends at extinction 0.
@@ -237,7 +239,12 @@ inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns
     const std::size_t lanes = hn::Lanes(Lanes()), first = pieces.count;
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         SegmentLanes on_their_way(segments, i, columns);
-        while (on_their_way.active()) on_their_way.advance(pieces);
+        std::size_t rounds = 0;
+        while (on_their_way.active()) {
+            if (rounds == pieces.rounds.size()) pieces.rounds.resize(2 * rounds + 8);
+            on_their_way.advance(pieces.rounds[rounds++]);
+        }
+        append_rounds(std::span(pieces.rounds).first(rounds), i, pieces);
     }
     for (std::size_t i = first; i < pieces.count; i += lanes)
         set_optics(segments, columns, error_per_length, i, pieces);

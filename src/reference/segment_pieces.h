@@ -7,8 +7,8 @@
 
 namespace lamina {
 
-// Appends the pieces of the segments that are not transparent. It does not set `before`, nor the
-// results. Pieces of one segment are in its order; those of different segments are mixed.
+// Appends the pieces of the segments that are not transparent, front to back. It does not set
+// `before`, nor the results.
 // `error_per_length`: allowed to a channel of the ray.
 void append_pieces(const SegmentBatch& segments, const TransferIntervals& transfer,
                    double error_per_length, PieceBatch& pieces);

@@ -69,6 +69,13 @@ void TransferIntervals::find_visible() {
             visible_.push_back({lo, hi});
         }
     }
+    for (const Range& range : visible_) {
+        columns_.visible_lo.push_back(range.lo);
+        columns_.visible_hi.push_back(range.hi);
+    }
+    const std::size_t room = std::bit_ceil(visible_.size() + 1);
+    columns_.visible_lo.resize(room, std::numeric_limits<double>::infinity());
+    columns_.visible_hi.resize(room, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace lamina

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "lamina/grid.h"
+#include "reference/cell_batch.h"
 #include "reference/cell_walk.h"
 #include "reference/cubic.h"
 #include "volume/sample_access.h"
@@ -18,19 +19,6 @@ namespace lamina {
 // The eight samples at the corners of a cell, at index x + 2y + 4z.
 struct CellCorners {
     std::array<double, 8> v;
-
-    struct Range {
-        double lo, hi;
-    };
-    Range range() const {  // computed pairwise and without branches, because most cells need no
-                           // more than this
-        const auto lesser = [](double a, double b) { return b < a ? b : a; };
-        const auto greater = [](double a, double b) { return a < b ? b : a; };
-        return {lesser(lesser(lesser(v[0], v[1]), lesser(v[2], v[3])),
-                       lesser(lesser(v[4], v[5]), lesser(v[6], v[7]))),
-                greater(greater(greater(v[0], v[1]), greater(v[2], v[3])),
-                        greater(greater(v[4], v[5]), greater(v[6], v[7])))};
-    }
 
     // The trilinear field along from + t * step, 0 <= t <= 1, in coordinates of the cell (0..1). It
     // is computed from differences of corners, so that a constant cell is exactly constant and a
@@ -74,13 +62,20 @@ class CellSamples {
                 at(x0 + y0 + z1), at(x1 + y0 + z1), at(x0 + y1 + z1), at(x1 + y1 + z1)};
     }
 
-    // NaN and infinite samples make the cells around them transparent (scene option nan:
-    // transparent).
-    static bool finite(const CellCorners& corners) {
-        if constexpr (!std::is_floating_point_v<SampleOf<Samples>>) return true;
-        double sum = 0;  // the sum of eight finite floats cannot overflow in double
-        for (const double value : corners.v) sum += value;
-        return std::isfinite(sum);
+    // Fills in the corners.
+    void fetch(CellBatch& cells) const {
+        for (std::size_t i = 0; i < cells.count; ++i) {
+            const CellIndex cell{cells.cell[0][i], cells.cell[1][i], cells.cell[2][i]};
+            if constexpr (std::is_pointer_v<Samples>) {
+                if (inside(cell)) {
+                    fetch_inside(cell, cells, i);
+                    continue;
+                }
+            }
+            const CellCorners values = corners(cell);
+            for (std::size_t corner = 0; corner < 8; ++corner)
+                cells.corners[corner][i] = values.v[corner];
+        }
     }
 
   private:
@@ -94,6 +89,19 @@ class CellSamples {
         CellCorners found;
         for (std::size_t i = 0; i < 8; ++i) found.v[i] = static_cast<double>(samples[i]);
         return found;
+    }
+    // Whether all corners are samples.
+    bool inside(const CellIndex& cell) const {
+        const auto number = [](std::int64_t i) { return static_cast<std::uint64_t>(i); };
+        return number(cell[0]) < number(last_[0]) && number(cell[1]) < number(last_[1]) &&
+               number(cell[2]) < number(last_[2]);
+    }
+    void fetch_inside(const CellIndex& cell, CellBatch& cells, std::size_t i) const {
+        const auto* const sample = samples_ + cell[0] + cell[1] * row_ + cell[2] * slice_;
+        const std::int64_t steps[8]{0,      1,          row_,          row_ + 1,
+                                    slice_, slice_ + 1, slice_ + row_, slice_ + row_ + 1};
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            cells.corners[corner][i] = static_cast<double>(sample[steps[corner]]);
     }
     double at(std::int64_t offset) const { return static_cast<double>(samples_[offset]); }
     std::int64_t clamped(std::int64_t index, std::size_t axis) const {

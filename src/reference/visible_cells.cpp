@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include "base/parallel.h"
@@ -10,63 +14,119 @@
 namespace lamina {
 namespace {
 
-// The least and the greatest samples at the corners of a block's cells. A cell with a sample that
-// is no number has any of them: it is transparent.
-template <typename Sample>
-class BlockRanges {
-  public:
-    static constexpr std::size_t edge = VisibleCells::edge;
+// More ranges of visible values than this are taken as one from the first to the last.
+constexpr std::size_t most_ranges = 8;
 
-    BlockRanges(const Sample* samples, const std::array<std::int64_t, 3>& size,
-                const std::array<std::int64_t, 3>& first) {
-        for (std::size_t z = 0; z <= edge; ++z) {
-            const std::int64_t slice = clamped(first[2], z, size[2]) * size[1];
-            for (std::size_t y = 0; y <= edge; ++y) {
-                const Sample* const row =
-                    samples + (slice + clamped(first[1], y, size[1])) * size[0];
-                Sample values[edge + 1];
-                for (std::size_t x = 0; x <= edge; ++x)
-                    values[x] = row[clamped(first[0], x, size[0])];
-                for (std::size_t x = 0; x < edge; ++x) {
-                    least_[z][y][x] = lesser(values[x], values[x + 1]);
-                    most_[z][y][x] = greater(values[x], values[x + 1]);
-                }
-            }
+// A range of values in the type of the samples, no smaller than the one it is made of.
+template <typename Sample>
+class SampleRange {
+  public:
+    SampleRange(double from, double to) {
+        if constexpr (std::is_integral_v<Sample>) {
+            from = std::ceil(from);
+            to = std::floor(to);
         }
-        for (std::size_t z = 0; z <= edge; ++z) {
-            for (std::size_t y = 0; y < edge; ++y) join(z, y, z, y + 1);
-        }
-        for (std::size_t z = 0; z < edge; ++z) {
-            for (std::size_t y = 0; y < edge; ++y) join(z, y, z + 1, y);
+        constexpr double least = std::numeric_limits<Sample>::lowest();
+        constexpr double most = std::numeric_limits<Sample>::max();
+        empty_ = to < std::max(from, least) || most < from;
+        lo_ = static_cast<Sample>(std::clamp(from, least, most));
+        hi_ = static_cast<Sample>(std::clamp(to, least, most));
+        if constexpr (std::is_floating_point_v<Sample>) {
+            lo_ = std::nextafter(lo_, std::numeric_limits<Sample>::lowest());
+            hi_ = std::nextafter(hi_, std::numeric_limits<Sample>::max());
         }
     }
 
-    // The bits of a row of cells: 1 where a cell may show something.
-    std::uint8_t visible(std::size_t y, std::size_t z, const TransferIntervals& transfer) const {
-        unsigned bits = 0;
-        for (std::size_t x = 0; x < edge; ++x) {
-            const bool seen = transfer.visible(static_cast<double>(least_[z][y][x]),
-                                               static_cast<double>(most_[z][y][x]));
-            bits |= unsigned{seen} << x;
-        }
-        return static_cast<std::uint8_t>(bits);
+    bool empty() const { return empty_; }
+    // Bit 0: not below the range, bit 1: not above it.
+    std::uint8_t sides(Sample value) const {
+        return static_cast<std::uint8_t>((value >= lo_ ? 1 : 0) | (value <= hi_ ? 2 : 0));
     }
 
   private:
-    static Sample lesser(Sample a, Sample b) { return b < a ? b : a; }
-    static Sample greater(Sample a, Sample b) { return a < b ? b : a; }
-    static std::int64_t clamped(std::int64_t first, std::size_t step, std::int64_t size) {
-        return std::min(first + static_cast<std::int64_t>(step), size - 1);
+    Sample lo_, hi_;
+    bool empty_;
+};
+
+// The rows of samples at the corners of a line of blocks along x.
+template <typename Sample>
+class SampleRows {
+  public:
+    static constexpr std::int64_t edge = VisibleCells::edge;
+
+    SampleRows(const Sample* samples, const std::array<std::int64_t, 3>& size, std::int64_t y,
+               std::int64_t z)
+        : samples_(samples), size_(size), y_(y), z_(z), width_((size[0] - 1) / edge * edge + edge) {
+        sides_.resize(static_cast<std::size_t>((edge + 1) * (edge + 1) * (width_ + 1)));
     }
-    void join(std::size_t z, std::size_t y, std::size_t other_z, std::size_t other_y) {
-        for (std::size_t x = 0; x < edge; ++x) {
-            least_[z][y][x] = lesser(least_[z][y][x], least_[other_z][other_y][x]);
-            most_[z][y][x] = greater(most_[z][y][x], most_[other_z][other_y][x]);
+
+    // Sets the bits of the rows of cells, block by block: 1 where a cell may have a value of the
+    // range. A cell with a sample that is no number may have any: it is transparent.
+    void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
+        for (std::int64_t z = 0; z <= edge; ++z) {
+            for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);
+            for (std::int64_t y = 0; y < edge; ++y) join(at(y, z), at(y + 1, z));
+        }
+        for (std::int64_t z = 0; z < edge; ++z) {
+            for (std::int64_t y = 0; y < edge; ++y) {
+                join(at(y, z), at(y, z + 1));
+                mark_row(at(y, z), rows + z * edge + y);
+            }
         }
     }
 
-    Sample least_[edge + 1][edge + 1][edge], most_[edge + 1][edge + 1][edge];
+  private:
+    std::uint8_t* at(std::int64_t y, std::int64_t z) {
+        return sides_.data() + (z * (edge + 1) + y) * (width_ + 1);
+    }
+    static void join(std::uint8_t* sides, const std::uint8_t* others, std::int64_t count) {
+        for (std::int64_t x = 0; x < count; ++x) sides[x] |= others[x];
+    }
+    void join(std::uint8_t* sides, const std::uint8_t* others) { join(sides, others, width_); }
+
+    // Of the pairs of samples along x.
+    void find_sides(const SampleRange<Sample>& range, std::int64_t y, std::int64_t z) {
+        const std::int64_t row = std::min(y_ + y, size_[1] - 1);
+        const std::int64_t slice = std::min(z_ + z, size_[2] - 1);
+        const Sample* const values = samples_ + (slice * size_[1] + row) * size_[0];
+        std::uint8_t* const sides = at(y, z);
+        for (std::int64_t x = 0; x < size_[0]; ++x) sides[x] = range.sides(values[x]);
+        std::fill(sides + size_[0], sides + width_ + 1, sides[size_[0] - 1]);
+        for (std::int64_t x = 0; x < width_; ++x) sides[x] |= sides[x + 1];
+    }
+
+    void mark_row(const std::uint8_t* sides, std::uint8_t* row) const {
+        for (std::int64_t x = 0; x < width_; x += edge, row += edge * edge) {
+            std::uint64_t eight;  // the lowest byte is of the first
+            static_assert(std::endian::native == std::endian::little && edge == sizeof eight);
+            std::memcpy(&eight, sides + x, sizeof eight);
+            const std::uint64_t both = eight & eight >> 1 & 0x0101010101010101;
+            *row |=
+                static_cast<std::uint8_t>(both * 0x0102040810204080 >> 56);  // a bit of each byte
+        }
+    }
+
+    const Sample* samples_;
+    std::array<std::int64_t, 3> size_;
+    std::int64_t y_, z_, width_;
+    std::vector<std::uint8_t> sides_;  // SampleRange::sides(), row by row
 };
+
+template <typename Sample>
+std::vector<SampleRange<Sample>> sample_ranges(const IntervalColumns& columns) {
+    std::vector<SampleRange<Sample>> ranges;
+    const auto add = [&](double lo, double hi) {
+        if (const SampleRange<Sample> range(lo, hi); !range.empty()) ranges.push_back(range);
+    };
+    const auto beyond = std::ranges::find(columns.visible_lo, INFINITY);
+    const auto count = static_cast<std::size_t>(beyond - columns.visible_lo.begin());
+    if (count > most_ranges) {
+        add(columns.visible_lo[0], columns.visible_hi[count - 1]);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) add(columns.visible_lo[i], columns.visible_hi[i]);
+    }
+    return ranges;
+}
 
 }  // namespace
 
@@ -88,16 +148,17 @@ VisibleCells::VisibleCells(const Volume& volume, const TransferIntervals& transf
     rows_.resize(any_.size() * rows_of_block);
     volume.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
+        const auto ranges = sample_ranges<Sample>(transfer.columns());
         parallel_for(count_[1] * count_[2], 1, [&](std::int64_t line) {
             const std::int64_t y = line % count_[1], z = line / count_[1];
-            for (std::int64_t x = 0; x < count_[0]; ++x) {
-                const BlockRanges<Sample> ranges(samples, size, {x * edge, y * edge, z * edge});
-                const std::size_t block = place_of({x, y, z});
-                for (std::size_t row = 0; row < rows_of_block; ++row) {
-                    const std::uint8_t bits = ranges.visible(row % edge, row / edge, transfer);
-                    rows_[block * rows_of_block + row] = bits;
-                    any_[block] |= bits;
-                }
+            const std::size_t first = place_of({0, y, z});
+            SampleRows<Sample> line_of_blocks(samples, size, y * edge, z * edge);
+            for (const auto& range : ranges)
+                line_of_blocks.mark(range, rows_.data() + first * rows_of_block);
+            for (std::size_t block = first; block < first + static_cast<std::size_t>(count_[0]);
+                 ++block) {
+                for (std::size_t row = 0; row < rows_of_block; ++row)
+                    any_[block] |= rows_[block * rows_of_block + row];
             }
         });
     });

@@ -24,28 +24,32 @@ class VisibleCells {
     VisibleCells(const Volume& volume, const TransferIntervals& transfer);  // parallel
     static std::uint64_t bytes_for(const Grid& grid);
 
-    // Whether a cell (CellWalk) lies in a block that shows nothing, and the block's first and last
-    // cells. The outermost blocks hold the half voxels outside the samples, too.
-    bool hidden(const CellIndex& cell, CellIndex& first, CellIndex& last) const {
-        if (any_.empty()) return false;
-        std::array<std::int64_t, 3> block;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            block[axis] = std::clamp<std::int64_t>(cell[axis], 0, edge * count_[axis] - 1) / edge;
-        if (any_[place_of(block)] != 0) return false;
+    // The block of a cell (CellWalk), hidden where it shows nothing. The outermost blocks hold the
+    // half voxels outside the samples, too.
+    CellBlock block_of(const CellIndex& cell) const {
+        constexpr std::int64_t far = std::int64_t{1} << 62;
+        if (any_.empty()) return {{-far, -far, -far}, {far, far, far}};
+        std::array<std::int64_t, 3> number;
+        CellBlock block;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            first[axis] = block[axis] == 0 ? -1 : block[axis] * edge;
-            last[axis] = block[axis] * edge + edge - 1;
+            number[axis] = std::max<std::int64_t>(cell[axis], 0) / edge;
+            block.first[axis] = number[axis] == 0 ? -1 : number[axis] * edge;
+            block.last[axis] = number[axis] * edge + edge - 1;
         }
-        return true;
+        const std::size_t place = place_of(number);
+        block.hidden = any_[place] == 0;
+        block.rows = rows_.data() + place * rows_of_block;
+        return block;
     }
 
     // Whether a cell of a block that is not hidden may show something.
-    bool may_show(const CellIndex& cell) const {
-        if (any_.empty() || std::min({cell[0], cell[1], cell[2]}) < 0) return true;
-        const std::size_t row =
-            place_of({cell[0] / edge, cell[1] / edge, cell[2] / edge}) * rows_of_block +
-            static_cast<std::size_t>(cell[2] % edge * edge + cell[1] % edge);
-        return (rows_[row] >> (cell[0] % edge) & 1) != 0;
+    static bool may_show(const CellBlock& block, const CellIndex& cell) {
+        if (block.rows == nullptr || std::min({cell[0], cell[1], cell[2]}) < 0) return true;
+        constexpr auto within = static_cast<std::uint64_t>(edge - 1);
+        const auto [x, y, z] = std::array{static_cast<std::uint64_t>(cell[0]) & within,
+                                          static_cast<std::uint64_t>(cell[1]) & within,
+                                          static_cast<std::uint64_t>(cell[2]) & within};
+        return (block.rows[z * edge + y] >> x & 1) != 0;
     }
 
   private:

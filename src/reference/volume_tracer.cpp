@@ -55,12 +55,7 @@ class ChordCells {
     // Adds the part of the chord inside one cell, from parameter `from` to `to`. Returns whether
     // what follows is seen, as far as is known.
     bool add(const CellIndex& cell, double from, double to) {
-        if (!traced_.cells.may_show(cell)) return true;
-        const CellCorners corners = traced_.samples.corners(cell);
-        const CellCorners::Range range = corners.range();
-        if (!traced_.transfer.visible(range.lo, range.hi) || !CellSamples<Samples>::finite(corners))
-            return true;
-        cells_.add(corners, range, cell, from, to);
+        cells_.add(cell, from, to);
         if (cells_.count < together_) return true;
         flush();
         together_ = std::min(2 * together_, CellBatch::capacity);
@@ -68,9 +63,12 @@ class ChordCells {
     }
 
     void flush() {
-        make_segments(cells_, chord_, segments_);
+        traced_.samples.fetch(cells_);
+        make_segments(cells_, chord_, traced_.transfer.columns(), segments_);
         if (traced_.options.lighting)
-            integrator_.add_lit(segments_, [&](std::size_t cell) { return gradient(cell); });
+            integrator_.add_lit(segments_, [&](std::size_t segment) {
+                return gradient(static_cast<std::size_t>(cells_.seen[segment]));
+            });
         else
             integrator_.add(segments_);
         cells_.count = 0;
@@ -78,12 +76,9 @@ class ChordCells {
 
   private:
     GradientAlong gradient(std::size_t number) const {
-        glm::dvec3 corner;
-        CellIndex cell;
-        for (int axis = 0; axis < 3; ++axis) {
-            corner[axis] = cells_.place[axis][number];
-            cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(corner[axis]);
-        }
+        const CellIndex cell{cells_.cell[0][number], cells_.cell[1][number],
+                             cells_.cell[2][number]};
+        const glm::dvec3 corner(cell[0], cell[1], cell[2]);
         const double from = cells_.from[number], to = cells_.to[number];
         return traced_.gradients.along(cell, chord_.place_in_cell(corner, from),
                                        (to - from) * chord_.direction);
@@ -112,13 +107,11 @@ TracedRay trace_ray(const Traced<Samples>& traced, const View::Ray& ray,
     if (traced.options.lighting) lights.emplace(*traced.options.lighting, -ray.direction);
     integrator.begin(chord.world_length(), lights ? &*lights : nullptr);
     ChordCells<Samples> cells(traced, chord, integrator);
-    const auto visit = [&](const CellIndex& cell, double from, double to) {
-        return cells.add(cell, from, to);
+    const auto visit = [&](const CellIndex& cell, double from, double to, const CellBlock& block) {
+        return !VisibleCells::may_show(block, cell) || cells.add(cell, from, to);
     };
-    const auto hidden = [&](const CellIndex& cell, CellIndex& first, CellIndex& last) {
-        return traced.cells.hidden(cell, first, last);
-    };
-    CellWalk(traced.grid, chord).run(visit, hidden);
+    const auto block_of = [&](const CellIndex& cell) { return traced.cells.block_of(cell); };
+    CellWalk(traced.grid, chord).run(visit, block_of);
     cells.flush();
     return {glm::dvec4(integrator.color(), integrator.alpha()), integrator.error_estimate(),
             integrator.pieces()};
