@@ -57,6 +57,9 @@ void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction) {
                                                      : glm::dvec3(0, 0, 1);
     across_x_ = glm::normalize(glm::cross(axis, d));
     across_y_ = glm::cross(d, across_x_);
+    extent_x_ = glm::abs(across_x_);
+    extent_y_ = glm::abs(across_y_);
+    origin_norm_ = norm1(origin);
     find_crossings();
 }
 
@@ -129,37 +132,56 @@ FaceCrossing RayWalk::crossing(const Front& front) {
 }
 
 // The corners are counter-clockwise for a line that comes in.
-RayWalk::Front RayWalk::front_of(const TetFace& face) const {
+LAMINA_IN_CLONES std::array<RayWalk::Seen, 3> RayWalk::see_face(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
                                            static_cast<std::size_t>(face.face));
-    Front front{{see(a), see(c), see(b)}, {}};
-    const auto& p = front.corners;
-    front.sides = {side(p[0], p[1]), side(p[1], p[2]), side(p[2], p[0])};
-    return front;
+    return {see(a), see(c), see(b)};
+}
+
+LAMINA_IN_CLONES RayWalk::Front RayWalk::front_of(const std::array<Seen, 3>& p) const {
+    return {p, {side(p[0], p[1]), side(p[1], p[2]), side(p[2], p[0])}};
+}
+
+LAMINA_CLONE_FOR_FMA RayWalk::Front RayWalk::front_of(const TetFace& face) const {
+    return front_of(see_face(face));
+}
+
+// Whether the line passes the corners on one side of an axis across it, whatever their rounding.
+LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Seen, 3>& p) {
+    const double reach = std::max({p[0].reach, p[1].reach, p[2].reach});
+    const auto aside = [&](double a, double b, double c) {
+        return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+    };
+    return aside(p[0].x, p[1].x, p[2].x) || aside(p[0].y, p[1].y, p[2].y);
+}
+
+LAMINA_CLONE_FOR_FMA void RayWalk::test_face(const TetFace& face) {
+    const std::array<Seen, 3> corners = see_face(face);
+    if (passes(corners)) return;
+    Front front = front_of(corners);
+    const int sign = front.sides[0].sign;
+    if (front.sides[1].sign != sign || front.sides[2].sign != sign) return;
+    if (sign > 0) {
+        entries_.push_back({face, crossing(front).at});
+    } else {
+        for (Side& side : front.sides) side = side.turned();
+        exits_.push_back(crossing(front).at);
+    }
 }
 
 bool RayWalk::meets(const FaceTree::Box& box) const {
     const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max - origin_;
     const glm::dvec3 half = 0.5 * box.max - 0.5 * box.min;
-    const double margin = 2 * place_error * (norm1(center) + norm1(half) + norm1(origin_));
-    return std::abs(glm::dot(center, across_x_)) <= glm::dot(half, glm::abs(across_x_)) + margin &&
-           std::abs(glm::dot(center, across_y_)) <= glm::dot(half, glm::abs(across_y_)) + margin;
+    const double margin = 2 * place_error * (norm1(center) + norm1(half) + origin_norm_);
+    return std::abs(glm::dot(center, across_x_)) <= glm::dot(half, extent_x_) + margin &&
+           std::abs(glm::dot(center, across_y_)) <= glm::dot(half, extent_y_) + margin;
 }
 
 void RayWalk::find_crossings() {
     entries_.clear();
     exits_.clear();
     const auto test = [&](std::int32_t index) {
-        const TetFace& face = mesh_.open_faces()[static_cast<std::size_t>(index)];
-        Front front = front_of(face);
-        const int sign = front.sides[0].sign;
-        if (front.sides[1].sign != sign || front.sides[2].sign != sign) return;
-        if (sign > 0) {
-            entries_.push_back({face, crossing(front).at});
-        } else {
-            for (Side& side : front.sides) side = side.turned();
-            exits_.push_back(crossing(front).at);
-        }
+        test_face(mesh_.open_faces()[static_cast<std::size_t>(index)]);
     };
     tree_.visit([&](const FaceTree::Box& box) { return meets(box); }, test);
     std::sort(entries_.begin(), entries_.end(),

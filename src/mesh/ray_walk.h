@@ -96,7 +96,11 @@ class RayWalk {
     Seen see(std::int32_t point) const;
     Side side(const Seen& a, const Seen& b) const;
     int exact_side(const glm::dvec3& p, const glm::dvec3& q) const;
+    std::array<Seen, 3> see_face(const TetFace& face) const;
+    static bool passes(const std::array<Seen, 3>& corners);
+    Front front_of(const std::array<Seen, 3>& corners) const;
     Front front_of(const TetFace& face) const;
+    void test_face(const TetFace& face);
     static FaceCrossing crossing(const Front& front);
     bool meets(const FaceTree::Box& box) const;
     void find_crossings();
@@ -106,7 +110,9 @@ class RayWalk {
     const FaceTree& tree_;
     glm::dvec3 origin_{0}, direction_{0};
     glm::dvec3 across_x_{0}, across_y_{0};  // unit vectors; x, y, direction are right-handed
+    glm::dvec3 extent_x_{0}, extent_y_{0};  // how far a unit along each axis reaches along them
     double direction_square_ = 1;
+    double origin_norm_ = 0;
     std::vector<Entry> entries_;
     std::vector<double> exits_;
     bool overlapping_ = false;

@@ -16,6 +16,7 @@ struct IntervalColumns {
     std::size_t knot_count = 0;
     std::vector<double> lo, hi, inverse_width;
     std::vector<double> extinction, extinction_change;  // at lo, and from there to hi
+    std::vector<double> extinction_end;                 // at hi
     std::vector<double> color_span;                     // the largest change of a colour
     std::vector<double> transparent;                    // 1 or 0
     // The ranges of values with extinction, as in TransferIntervals::visible(): ascending, then

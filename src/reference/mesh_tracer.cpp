@@ -53,25 +53,26 @@ class MeshTileTracer {
     MeshTileTotals trace(const PictureTile& tile, PreciseImage& image) const {
         MeshTileTotals totals;
         RayWalk walk(mesh_, open_faces_);
+        SegmentSum sum(transfer_function_, intervals_,
+                       place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
+                       options_.tolerance);
         for (int row = tile.row; row < tile.row + tile.height; ++row) {
             check_interrupt();
-            trace_row(tile, row, walk, image, totals);
+            trace_row(tile, row, walk, sum, image, totals);
         }
         return totals;
     }
 
   private:
-    void trace_row(const PictureTile& tile, int row, RayWalk& walk, PreciseImage& image,
-                   MeshTileTotals& totals) const {
+    void trace_row(const PictureTile& tile, int row, RayWalk& walk, SegmentSum& sum,
+                   PreciseImage& image, MeshTileTotals& totals) const {
         std::vector<TetSegment> listed;
         for (int column = tile.column; column < tile.column + tile.width; ++column) {
             const View::Ray ray = view_.ray(column, row);
             const double world_per_z = glm::length(ray.direction);
             std::optional<RayLights> lights;
             if (options_.lighting) lights.emplace(*options_.lighting, -ray.direction);
-            SegmentSum sum(transfer_function_, intervals_,
-                           place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
-                           lights ? &*lights : nullptr, options_.tolerance);
+            sum.begin(lights ? &*lights : nullptr);
             walk.aim(ray.origin, ray.direction);
             const SeenRange seen = seen_range(options_.clip, ray);
             const auto add = [&](const TetSegment& segment) {
@@ -87,6 +88,7 @@ class MeshTileTracer {
                     if (!sum.opaque()) walk.follow(entry, add);
                 }
             }
+            sum.finish();
             double* const pixel = image.pixel(column, row);
             for (int channel = 0; channel < 3; ++channel) pixel[channel] = color_of(sum)[channel];
             pixel[3] = sum.alpha();

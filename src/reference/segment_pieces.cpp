@@ -3,7 +3,6 @@
 // segments on to their next knots, or to where their scalars turn.
 #include "reference/segment_pieces.h"
 
-#include <bit>
 #include <span>
 #include <vector>
 
@@ -14,57 +13,11 @@
 
 // After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
+#include "reference/interval_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
-
-HWY_INLINE Doubles gather(const std::vector<double>& column, Numbers place) {
-    return hn::GatherIndex(Lanes(), column.data(), place);
-}
-
-HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
-    return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
-}
-
-// Finds the intervals of values.
-class IntervalSearch {
-  public:
-    HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
-        : bounds_(columns.bounds.data()),
-          first_step_(static_cast<std::int64_t>(std::bit_ceil(columns.knot_count + 1) / 2)) {}
-
-    HWY_INLINE Doubles lower(Numbers interval) const {
-        return hn::GatherIndex(Lanes(), bounds_, interval);
-    }
-    HWY_INLINE Doubles upper(Numbers interval) const {
-        return hn::GatherIndex(Lanes(), bounds_ + 1, interval);
-    }
-    // The interval for values at and above each value.
-    HWY_INLINE Numbers above(Doubles value) const {
-        Numbers count = hn::Zero(NumberLanes());  // of knots at and below the value
-        for (std::int64_t step = first_step_; step > 0; step /= 2) {
-            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
-            count = where(hn::Le(lower(next), value), next, count);
-        }
-        return count;
-    }
-
-    // The same where the scalar rises from there; where it falls, the interval for values at and
-    // below. Goes on from an interval that does not lie above it.
-    HWY_INLINE Numbers onwards(Numbers interval, Doubles value, Mask rises) const {
-        while (true) {
-            const Doubles knot = upper(interval);
-            const Mask passed = hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
-            if (hn::AllFalse(Lanes(), passed)) return interval;
-            interval = where(passed, hn::Add(interval, hn::Set(NumberLanes(), 1)), interval);
-        }
-    }
-
-  private:
-    const double* bounds_;
-    std::int64_t first_step_;
-};
 
 // A vector of segments on their way from front to back. `at` is how far they are, `part_end` where
 // their monotone part ends.

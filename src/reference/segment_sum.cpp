@@ -7,45 +7,92 @@
 #include <limits>
 
 #include "optics/opacity.h"
-#include "optics/segment_integral.h"
-#include "reference/segment_weights.h"
 
 namespace lamina {
 namespace {
 
 // Light from behind this transmittance, times the brightest colour, is lost in rounding.
 constexpr double least_transmittance = 1e-17;
-// The relative error of a segment's colour and opacity (optics/segment_integral.h).
-constexpr double segment_error = 1e-13;
+// The relative error of a part's colour and opacity (weigh_parts()), and of its interpolations.
+constexpr double part_error = 1e-13;
+// So many segments are summed first: they may hide the others.
+constexpr std::size_t first_together = 8;
 
 }  // namespace
 
 SegmentSum::SegmentSum(const TransferFunction& transfer_function,
-                       const TransferIntervals& intervals, double place_error,
-                       const RayLights* lights, double tolerance)
+                       const TransferIntervals& intervals, double place_error, double tolerance)
     : transfer_function_(transfer_function),
       intervals_(intervals),
       place_error_(place_error),
-      lights_(lights),
-      light_(intervals, tolerance),
-      brightest_(std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals.brightest())
-                                                 : intervals.brightest())),
-      depth_limit_(std::log(brightest_ / least_transmittance)) {}
+      light_(intervals, tolerance) {
+    begin();
+}
+
+void SegmentSum::begin(const RayLights* lights) {
+    lights_ = lights;
+    brightest_ = std::max(1.0, lights != nullptr ? lights->brightest_lit(intervals_.brightest())
+                                                 : intervals_.brightest());
+    depth_limit_ = std::log(brightest_ / least_transmittance);
+    together_ = first_together;
+    waiting_.count = 0;
+    depth_ = {};
+    color_ = glm::dvec3(0);
+    error_ = 0;
+    segments_ = 0;
+}
 
 void SegmentSum::add(double front, double back, double length, double slack) {
     const auto [lo, hi] = std::minmax(front, back);
     if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
-    const SegmentIntegral segment =
-        integrate_segment(transfer_function_, front, back, length, segment_weights);
-    const double transmittance = std::exp(-depth_.value());
-    color_ += transmittance * segment.color;
-    // Where an end is off, this much depth moves from one side of it to the other.
-    const double moved = std::min(1.0, 2 * place_error_ * segment.optical_depth / length);
-    error_ += transmittance * brightest_ * (segment_error * segment.alpha + moved);
-    if (hi - lo <= slack && slack > 0)
-        error_ += transmittance * side_error(lo - slack, hi + slack, segment.alpha, length);
-    depth_.add(segment.optical_depth);
+    const bool may_be_aside = hi - lo <= slack && slack > 0;
+    side_errors_[waiting_.count] = may_be_aside ? side_error(lo - slack, hi + slack, length) : 0;
+    waiting_.add(front, back, length);
+    if (waiting_.count < together_) return;
+    finish();
+    together_ = std::min(2 * together_, LinearBatch::capacity);
+}
+
+void SegmentSum::finish() {
+    parts_.count = 0;
+    append_parts(waiting_, intervals_.columns(), parts_);
+    sum_depths();
+    weigh_parts(parts_);
+    add_colors();
+    waiting_.count = 0;
+}
+
+void SegmentSum::sum_depths() {
+    std::size_t segment = 0;  // the first whose side error is not added
+    for (std::size_t i = 0; i < parts_.count; ++i) {
+        add_side_errors(segment, static_cast<std::size_t>(parts_.segment[i]) + 1);
+        parts_.before[i] = depth_.value();
+        depth_.add(parts_.depth[i]);
+    }
+    add_side_errors(segment, waiting_.count);
+}
+
+void SegmentSum::add_side_errors(std::size_t& segment, std::size_t end) {
+    for (; segment < end; ++segment) {
+        if (side_errors_[segment] > 0) error_ += std::exp(-depth_.value()) * side_errors_[segment];
+    }
+}
+
+void SegmentSum::add_colors() {
+    for (std::size_t i = 0; i < parts_.count; ++i) {
+        const double transmittance = parts_.transmittance[i];
+        if (!(transmittance > 0)) continue;
+        const auto interval = static_cast<std::size_t>(parts_.interval[i]);
+        const auto& [color, change] = intervals_.color(interval);
+        color_ += transmittance * parts_.opacity[i] * color;
+        if (intervals_.columns().color_span[interval] > 0)
+            color_ += transmittance * parts_.change[i] * change;
+        // Where an end is off, this much depth moves from one side of it to the other.
+        const double length = waiting_.length[static_cast<std::size_t>(parts_.segment[i])];
+        const double moved = std::min(1.0, 2 * place_error_ * parts_.depth[i] / length);
+        error_ += transmittance * brightest_ * (part_error * parts_.opacity[i] + moved);
+    }
 }
 
 // The unlit segment stays what it is, in closed form: light is added to it.
@@ -59,6 +106,7 @@ void SegmentSum::add_lit(double front, double back, const GradientAlong& gradien
 
 void SegmentSum::add_light(double front, double back, const GradientAlong& gradient,
                            double length) {
+    finish();
     constexpr double unknown_length = std::numeric_limits<double>::infinity();
     light_.begin(unknown_length, lights_);
     const auto [lo, hi] = std::minmax(front, back);
@@ -72,9 +120,10 @@ void SegmentSum::add_light(double front, double back, const GradientAlong& gradi
 
 // Returns what would change if the scalar of a segment that is all but constant were elsewhere in
 // [lo, hi]: its rounding may choose the side of a step of the transfer function.
-double SegmentSum::side_error(double lo, double hi, double alpha, double length) const {
+double SegmentSum::side_error(double lo, double hi, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
+    const double alpha = opacity_from_depth(std::max(above.extinction, below.extinction) * length);
     const double lit = lights_ != nullptr ? lights_->largest_factor() : 1;
     const glm::dvec3 color = lit * glm::abs(above.color - below.color);
     return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);

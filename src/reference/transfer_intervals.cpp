@@ -47,8 +47,8 @@ void TransferIntervals::add(const TransferKnot& from, const TransferKnot& to) {
     constexpr double largest_inverse = 1e300;
     columns_.inverse_width.push_back(std::min(1 / (to.value - from.value), largest_inverse));
     columns_.extinction.push_back(extinction);
-    columns_.extinction_change.push_back(std::min(to.optics.extinction, largest_extinction) -
-                                         extinction);
+    columns_.extinction_end.push_back(std::min(to.optics.extinction, largest_extinction));
+    columns_.extinction_change.push_back(columns_.extinction_end.back() - extinction);
     columns_.color_span.push_back(largest(glm::abs(color.change)));
     columns_.transparent.push_back(from.optics.extinction == 0 && to.optics.extinction == 0);
 }

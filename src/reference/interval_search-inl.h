@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors of values and the intervals of a transfer function that they lie in.
+#if defined(LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
+#undef LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
+#else
+#define LAMINA_REFERENCE_INTERVAL_SEARCH_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "reference/cubic_lanes-inl.h"
+#include "reference/interval_columns.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace reference {
+
+HWY_INLINE Doubles gather(const std::vector<double>& column, Numbers place) {
+    return hn::GatherIndex(Lanes(), column.data(), place);
+}
+
+HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
+    return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
+}
+
+// Finds the intervals of values.
+class IntervalSearch {
+  public:
+    HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
+        : bounds_(columns.bounds.data()),
+          first_step_(static_cast<std::int64_t>(std::bit_ceil(columns.knot_count + 1) / 2)) {}
+
+    HWY_INLINE Doubles lower(Numbers interval) const {
+        return hn::GatherIndex(Lanes(), bounds_, interval);
+    }
+    HWY_INLINE Doubles upper(Numbers interval) const {
+        return hn::GatherIndex(Lanes(), bounds_ + 1, interval);
+    }
+    // The interval for values at and above each value.
+    HWY_INLINE Numbers above(Doubles value) const {
+        Numbers count = hn::Zero(NumberLanes());  // of knots at and below the value
+        for (std::int64_t step = first_step_; step > 0; step /= 2) {
+            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
+            count = where(hn::Le(lower(next), value), next, count);
+        }
+        return count;
+    }
+
+    // The interval for values at and above each value where the scalar rises from there; where it
+    // falls, the one for values at and below.
+    HWY_INLINE Numbers ahead(Doubles value, Mask rises) const {
+        Numbers count = hn::Zero(NumberLanes());  // of knots passed
+        for (std::int64_t step = first_step_; step > 0; step /= 2) {
+            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
+            count = where(passed(lower(next), value, rises), next, count);
+        }
+        return count;
+    }
+
+    // The same, from an interval on that does not lie above it.
+    HWY_INLINE Numbers onwards(Numbers interval, Doubles value, Mask rises) const {
+        while (true) {
+            const Mask further = passed(upper(interval), value, rises);
+            if (hn::AllFalse(Lanes(), further)) return interval;
+            interval = where(further, hn::Add(interval, hn::Set(NumberLanes(), 1)), interval);
+        }
+    }
+
+  private:
+    HWY_INLINE static Mask passed(Doubles knot, Doubles value, Mask rises) {
+        return hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
+    }
+
+    const double* bounds_;
+    std::int64_t first_step_;
+};
+
+}  // namespace reference
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reference/interval_columns.h"
+#include "reference/linear_batch.h"
+
+namespace lamina {
+
+// One part of each segment of a vector, where `kept` has its bit.
+struct LinearRound {
+    static constexpr std::size_t longest_vector = 8;  // doubles
+
+    alignas(64) std::int64_t interval[longest_vector];
+    alignas(64) double from[longest_vector];
+    alignas(64) double to[longest_vector];
+    alignas(64) double share[longest_vector];
+    std::uint8_t kept[8];
+};
+
+// Parts of the segments of one batch, front to back, on which extinction and colour are linear,
+// too.
+struct LinearParts {
+    using Column = std::vector<double>;
+
+    std::vector<std::int64_t> segment, interval;  // numbers
+    Column from, to;  // the places in the interval, 0 at its lower knot, 1 at its upper one
+    Column p, q;      // extinction * length there
+    Column depth;     // optical depth, >= 0
+    Column before;    // and of what lies in front: set by the caller
+
+    // The results of weigh_parts(): exp(-before), and the weights of the colours of the interval's
+    // lower knot and of the change from there to the upper one (TransferIntervals::color()).
+    Column transmittance, opacity, change;
+
+    std::size_t count = 0;
+    std::vector<LinearRound> rounds;  // memory of append_parts()
+
+    // Makes sure that columns have room for so many parts, and a vector of doubles more.
+    void make_room(std::size_t parts) {
+        if (parts + LinearRound::longest_vector <= from.size()) return;
+        const std::size_t room = std::max(2 * from.size(), parts + LinearRound::longest_vector);
+        segment.resize(room);
+        interval.resize(room);
+        for (Column* column :
+             {&from, &to, &p, &q, &depth, &before, &transmittance, &opacity, &change})
+            column->resize(room);
+    }
+};
+
+// Appends the parts that have extinction, with their depths.
+void append_parts(const LinearBatch& segments, const IntervalColumns& intervals,
+                  LinearParts& parts);
+// Sets the results. The relative error of each weight is some 1e-14 (optics/segment_integral.h).
+void weigh_parts(LinearParts& parts);
+
+}  // namespace lamina

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/linear_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fixtures.h"
+#include "optics/opacity.h"
+#include "optics/segment_integral.h"
+#include "reference/transfer_intervals.h"
+
+namespace lamina {
+namespace {
+
+using reference_test::Random;
+
+// Every colour and extinction changes from knot to knot; of every fifth interval nothing shows.
+TransferFunction function_of(const std::vector<double>& knots, Random& random) {
+    std::vector<TransferKnot> given;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        const double extinction = i % 5 < 2 ? 0 : std::pow(10, random.uniform(-9, 4));
+        given.push_back({knots[i], {random.point(0, 1), extinction}});
+    }
+    return TransferFunction::linear(given);
+}
+
+struct SegmentResult {
+    double depth = 0;
+    glm::dvec3 color{0};
+};
+
+// Each segment alone, from its parts.
+std::vector<SegmentResult> results_of(const LinearBatch& segments,
+                                      const TransferIntervals& intervals) {
+    LinearParts parts;
+    append_parts(segments, intervals.columns(), parts);
+    std::vector<SegmentResult> results(segments.count);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        double& depth = results[static_cast<std::size_t>(parts.segment[i])].depth;
+        parts.before[i] = depth;
+        depth += parts.depth[i];
+        if (i > 0) {
+            EXPECT_LE(parts.segment[i - 1], parts.segment[i]);
+        }
+    }
+    weigh_parts(parts);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        const auto& [color, change] = intervals.color(static_cast<std::size_t>(parts.interval[i]));
+        results[static_cast<std::size_t>(parts.segment[i])].color +=
+            parts.transmittance[i] * (parts.opacity[i] * color + parts.change[i] * change);
+    }
+    return results;
+}
+
+void test_segments(const std::vector<double>& knots, Random& random) {
+    const TransferFunction function = function_of(knots, random);
+    const TransferIntervals intervals(function);
+    const double width = knots.back() - knots.front();
+    const auto value = [&] {
+        const double knot = knots[static_cast<std::size_t>(random.below(int(knots.size())))];
+        return random.below(3) == 0 ? knot : knots.front() + width * random.uniform(-.2, 1.2);
+    };
+    for (int batch = 0; batch < 100; ++batch) {
+        LinearBatch segments;
+        const int count = 1 + random.below(static_cast<int>(LinearBatch::capacity));
+        for (int i = 0; i < count; ++i) {
+            const double front = value();
+            segments.add(front, i % 4 == 0 ? front : value(), std::pow(10, random.uniform(-9, 3)));
+        }
+        const auto found = results_of(segments, intervals);
+        for (std::size_t i = 0; i < segments.count; ++i) {
+            const SegmentIntegral expected = integrate_segment(
+                function, segments.front[i], segments.back[i], segments.length[i]);
+            // Both have some 1e-13 of every component (optics/segment_integral.h); a colour that
+            // fades out has it of the opacity.
+            EXPECT_NEAR(found[i].depth, expected.optical_depth, 2e-13 * expected.optical_depth);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[i].color[c], expected.color[c], 2e-13 * expected.alpha);
+        }
+    }
+}
+
+TEST(LinearParts, AreThoseOfSingleSegments) {
+    Random random(5);
+    std::vector<double> many;
+    for (int i = 0; i < 300; ++i) many.push_back(random.uniform(-1, 1));
+    std::ranges::sort(many);
+    for (int round = 0; round < 5; ++round) {
+        test_segments({3, 3.5}, random);
+        test_segments({0, 1, 2, 3, 4, 5}, random);
+        test_segments({-5, 2, 2, 7, 7, 9, 11, 11, 14}, random);
+        test_segments({-1e-300, 0, 1e-300, 2e-300}, random);
+        test_segments({-3e290, 1e290, 1e290, 2e290, 4e290}, random);
+        test_segments(many, random);
+    }
+}
+
+// A function of one interval: depths from 1e-300 to 1e3, up to where the weights have a closed
+// form.
+TEST(LinearParts, WeightsAreThoseOfThePiece) {
+    Random random(6);
+    for (int i = 0; i < 5000; ++i) {
+        const double p = i % 7 == 0 ? 0 : std::pow(10, random.uniform(-300, 3));
+        const double q = i % 5 == 0   ? 0
+                         : i % 2 == 0 ? p * random.uniform(0, 2)
+                                      : std::pow(10, random.uniform(-12, 3));
+        if (p + q == 0) continue;
+        const TransferIntervals intervals(
+            TransferFunction::linear({{0, {{0, 0, 0}, p}}, {1, {{1, 1, 1}, q}}}));
+        LinearBatch segments;
+        segments.add(0, 1, 1);
+        LinearParts parts;
+        append_parts(segments, intervals.columns(), parts);
+        ASSERT_EQ(parts.count, 1U);
+        weigh_parts(parts);
+        const PieceWeights expected = piece_weights(p, q);
+        // The exponential functions of vectors are good to 4 units in the last place, and all terms
+        // are >= 0; before the closed form the sum of both weights is one of two numbers < 1.
+        EXPECT_NEAR(parts.change[0], expected.back, 3e-15 * expected.back);
+        EXPECT_NEAR(parts.opacity[0], expected.front + expected.back,
+                    4e-15 * (expected.front + expected.back));
+        EXPECT_EQ(parts.depth[0], p / 2 + q / 2);
+    }
+}
+
+}  // namespace
+}  // namespace lamina
