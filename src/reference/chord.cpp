@@ -16,10 +16,6 @@ namespace {
 struct Coordinate {
     DoubleDouble position;
     DoubleDouble slope;
-
-    LAMINA_IN_CLONES DoubleDouble z_at(double plane) const {
-        return (DoubleDouble{plane, 0} - position) / slope;
-    }
 };
 
 // Projects on one (orthogonal) grid axis.
@@ -27,8 +23,20 @@ LAMINA_IN_CLONES Coordinate project(const DoubleDouble (&offset)[3],
                                     const DoubleDouble (&direction)[3],
                                     const GridAxes::Axis& axis) {
     const DoubleDouble unscale{axis.unscale, 0};
-    return {dot(offset, axis.scaled) / axis.square * unscale,
-            dot(direction, axis.scaled) / axis.square * unscale};
+    return {dot(offset, axis.scaled) * axis.inverse_square * unscale,
+            dot(direction, axis.scaled) * axis.inverse_square * unscale};
+}
+
+// Where a coordinate meets two planes.
+struct PlanePair {
+    DoubleDouble first, second;
+};
+LAMINA_IN_CLONES PlanePair meet(const Coordinate& ray, double first, double second) {
+    const DoubleDouble to_first = DoubleDouble{first, 0} - ray.position;
+    const DoubleDouble to_second = DoubleDouble{second, 0} - ray.position;
+    const DoubleDouble inverse = DoubleDouble{1, 0} / ray.slope;
+    if (!inverse.finite()) return {to_first / ray.slope, to_second / ray.slope};
+    return {to_first * inverse, to_second * inverse};
 }
 
 // Returns the part of z >= 0 where every coordinate is inside its closed range. Where there is
@@ -43,8 +51,7 @@ LAMINA_IN_CLONES RaySpan clip_to_faces(const Coordinate (&ray)[3], const glm::dv
             if (p < DoubleDouble{lowest[axis], 0} || DoubleDouble{highest[axis], 0} < p) return {};
             continue;
         }
-        DoubleDouble near = ray[axis].z_at(lowest[axis]);
-        DoubleDouble far = ray[axis].z_at(highest[axis]);
+        auto [near, far] = meet(ray[axis], lowest[axis], highest[axis]);
         if (far < near) std::swap(near, far);
         if (inside.from < near) {
             inside.from = near;

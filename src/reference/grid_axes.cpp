@@ -18,7 +18,7 @@ GridAxes::Axis scaled_axis(const glm::dvec3& step) {
         axis.scaled[i] = std::scalbn(step[i], -exponent);
         parts[i] = {axis.scaled[i], 0};
     }
-    axis.square = dot(parts, axis.scaled);
+    axis.inverse_square = DoubleDouble{1, 0} / dot(parts, axis.scaled);
     axis.unscale = std::scalbn(1.0, -exponent);
     return axis;
 }

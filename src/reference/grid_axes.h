@@ -23,8 +23,8 @@ struct GridAxes {
     // A step of the grid, scaled by a power of two so that its square does not underflow.
     struct Axis {
         glm::dvec3 scaled;
-        DoubleDouble square;  // of the scaled one
-        double unscale;       // the power of two
+        DoubleDouble inverse_square;  // of the scaled one
+        double unscale;               // the power of two
     };
 
     explicit GridAxes(const Grid& grid);

@@ -33,6 +33,7 @@ class IntervalSearch {
   public:
     HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
         : bounds_(columns.bounds.data()),
+          knot_count_(columns.knot_count),
           first_step_(static_cast<std::int64_t>(std::bit_ceil(columns.knot_count + 1) / 2)) {}
 
     HWY_INLINE Doubles lower(Numbers interval) const {
@@ -43,23 +44,13 @@ class IntervalSearch {
     }
     // The interval for values at and above each value.
     HWY_INLINE Numbers above(Doubles value) const {
-        Numbers count = hn::Zero(NumberLanes());  // of knots at and below the value
-        for (std::int64_t step = first_step_; step > 0; step /= 2) {
-            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
-            count = where(hn::Le(lower(next), value), next, count);
-        }
-        return count;
+        return count_passed([&](Doubles knot) HWY_ATTR { return hn::Le(knot, value); });
     }
 
     // The interval for values at and above each value where the scalar rises from there; where it
     // falls, the one for values at and below.
     HWY_INLINE Numbers ahead(Doubles value, Mask rises) const {
-        Numbers count = hn::Zero(NumberLanes());  // of knots passed
-        for (std::int64_t step = first_step_; step > 0; step /= 2) {
-            const Numbers next = hn::Add(count, hn::Set(NumberLanes(), step));
-            count = where(passed(lower(next), value, rises), next, count);
-        }
-        return count;
+        return count_passed([&](Doubles knot) HWY_ATTR { return passed(knot, value, rises); });
     }
 
     // The same, from an interval on that does not lie above it.
@@ -72,11 +63,34 @@ class IntervalSearch {
     }
 
   private:
+    // Counts knots, of which the first ones are passed.
+    template <typename Passed>
+    HWY_INLINE Numbers count_passed(const Passed& is_passed) const {
+        const NumberLanes n;
+        Numbers count = hn::Zero(n);
+        if (knot_count_ <= most_compared) {
+            for (std::size_t knot = 1; knot <= knot_count_; ++knot) {
+                const Mask one = is_passed(number(bounds_[knot]));
+                count = hn::Sub(count, hn::VecFromMask(n, hn::RebindMask(n, one)));
+            }
+            return count;
+        }
+        for (std::int64_t step = first_step_; step > 0; step /= 2) {
+            const Numbers next = hn::Add(count, hn::Set(n, step));
+            count = where(is_passed(lower(next)), next, count);
+        }
+        return count;
+    }
+
     HWY_INLINE static Mask passed(Doubles knot, Doubles value, Mask rises) {
         return hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
     }
 
+    // With so many knots a look at each of them is quicker than gathers of a binary search.
+    static constexpr std::size_t most_compared = 24;
+
     const double* bounds_;
+    std::size_t knot_count_;
     std::int64_t first_step_;
 };
 

@@ -19,6 +19,7 @@ SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
         return {0, 0, 0, 0};
     SeenSegment part{segment.in.at, segment.out.at, segment.in.interpolate(scalar),
                      segment.out.interpolate(scalar)};
+    if (part.to <= seen.to && part.from >= seen.from) return part;
     const double slope = (part.back - part.front) / (part.to - part.from);
     if (part.to > seen.to) {
         part.back -= slope * (part.to - seen.to);
