@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // LAMINA_CLONE_FOR_FMA before a function compiles it for processors with fused multiply-add, too,
 // and the loader chooses: without the instruction, std::fma is a call of the C library with the
-// same result. What such a function calls belongs into it: LAMINA_IN_CLONES.
+// same result. What such a function calls belongs in it: LAMINA_IN_CLONES.
 #pragma once
 
 // Sanitizers are not ready when glibc's loader chooses between clones.

@@ -38,11 +38,11 @@ struct ShaderSource {
     std::vector<ShaderLine> lines;
 };
 
-// Composes the shader `name`. Its first directive must be `#version 450 core`; the defines are
-// inserted after it. A line `#include "compositing/over.glsl"`, which may be under an #if, is
-// replaced by that file (named from the root of shaders/), unless the compiler has already seen it.
-// Throws Error, which names file and line, where a file is missing, includes form a cycle, or an
-// include is malformed.
+// Composes the shader `name`. Its first directive must be `#version 450 core`; a pragma
+// and the defines are inserted after it. A line `#include "compositing/over.glsl"`, which may be
+// under an #if, is replaced by that file (named from the root of shaders/), unless the compiler has
+// already seen it. Throws Error, which names file and line, where a file is missing, includes form
+// a cycle, or an include is malformed.
 ShaderSource compose_shader(const std::string& name, const Defines& defines = {});
 ShaderSource compose_shader(const std::string& name, const Defines& defines,
                             const ShaderFinder& find);

@@ -5,8 +5,7 @@
 
 namespace lamina {
 
-// A Gauss-Legendre rule on [0, 1], computed with 40 digits. The number of points is a multiple
-// of 4.
+// A Gauss-Legendre rule on [0, 1], computed with 40 digits.
 struct GaussRule {
     std::size_t points;
     const double* x;

@@ -104,19 +104,19 @@ double front_moment(double p, double q) {
 
 namespace {
 
-glm::dvec3 piece_color(const LinearPiece& piece, double p, double q, PieceWeightsOf weights_of) {
+glm::dvec3 piece_color(const LinearPiece& piece, double p, double q) {
     // Most pieces of palettes have one colour, whose weight is the opacity.
     if (piece.at_from.color == piece.at_to.color) {
         return opacity_from_depth(p / 2 + q / 2) * piece.at_from.color;
     }
-    const PieceWeights weights = weights_of(p, q);
+    const PieceWeights weights = piece_weights(p, q);
     return weights.front * piece.at_from.color + weights.back * piece.at_to.color;
 }
 
 }  // namespace
 
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
-                                  double back, double length, PieceWeightsOf weights_of) {
+                                  double back, double length) {
     SegmentIntegral result;
     if (!(length > 0)) return result;
     DepthSum depth;
@@ -129,7 +129,7 @@ SegmentIntegral integrate_segment(const TransferFunction& transfer_function, dou
         const double q = std::min(part * piece.at_to.extinction, largest_depth);
         if (p == 0 && q == 0) return;
         const double transmittance = depth.transmittance();
-        if (transmittance > 0) result.color += transmittance * piece_color(piece, p, q, weights_of);
+        if (transmittance > 0) result.color += transmittance * piece_color(piece, p, q);
         depth.add(p / 2 + q / 2);
     });
     result.optical_depth = depth.value();

@@ -24,14 +24,12 @@ struct PieceWeights {
     double back = 0;
 };
 PieceWeights piece_weights(double p, double q);
-using PieceWeightsOf = PieceWeights (*)(double p, double q);
 
 // Integrates a segment on which the scalar is linear from `front` (nearer to the eye) to `back`,
 // over `length` >= 0 world units. The relative error is about 1e-13 in every component, for optical
-// depths from 1e-300 to 1e300. `weights_of`: another way to compute piece_weights().
+// depths from 1e-300 to 1e300.
 SegmentIntegral integrate_segment(const TransferFunction& transfer_function, double front,
-                                  double back, double length,
-                                  PieceWeightsOf weights_of = piece_weights);
+                                  double back, double length);
 
 // Of such a piece the integral of (1 - x)^2 over what is seen of it, x from 0 at its front to 1 at
 // its back: to 1e-8.

@@ -8,6 +8,7 @@
 
 // After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
+#include "reference/interval_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -46,25 +47,19 @@ class VisibleRanges {
     HWY_INLINE explicit VisibleRanges(const IntervalColumns& columns)
         : lo_(columns.visible_lo.data()),
           hi_(columns.visible_hi.data()),
-          first_step_(static_cast<std::int64_t>(columns.visible_lo.size() / 2)) {}
+          count_(columns.visible_lo.size() - 1) {}
 
     HWY_INLINE Mask meet(Doubles lo, Doubles hi) const {
         // Most functions have one.
-        if (first_step_ <= 1)
-            return hn::And(hn::Le(number(lo_[0]), hi), hn::Le(lo, number(hi_[0])));
-        const NumberLanes n;
-        Numbers below = hn::Zero(n);  // ranges
-        for (std::int64_t step = first_step_; step > 0; step /= 2) {
-            const Numbers next = hn::Add(below, hn::Set(n, step));
-            const Mask further = hn::Lt(hn::GatherIndex(Lanes(), hi_ - 1, next), lo);
-            below = hn::IfThenElse(hn::RebindMask(n, further), next, below);
-        }
+        if (count_ <= 1) return hn::And(hn::Le(number(lo_[0]), hi), hn::Le(lo, number(hi_[0])));
+        const Numbers below =
+            count_first(hi_, count_, [&](Doubles end) HWY_ATTR { return hn::Lt(end, lo); });
         return hn::Le(hn::GatherIndex(Lanes(), lo_, below), hi);
     }
 
   private:
     const double *lo_, *hi_;
-    std::int64_t first_step_;
+    std::size_t count_;  // with padding
 };
 
 // The chord inside cells, in the cells' coordinates: start + t * step, 0 <= t <= 1.

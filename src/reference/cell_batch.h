@@ -22,7 +22,7 @@ struct CellBatch {
 
     alignas(64) double corners[8][capacity];  // CellSamples::fetch(): samples, at index x + 2y + 4z
     // make_segments(): each segment's cell in this batch.
-    alignas(64) std::int64_t seen[SegmentBatch::room];
+    alignas(64) std::int64_t seen[capacity];
 
     void add(const CellIndex& index, double begin, double end) {
         for (std::size_t axis = 0; axis < 3; ++axis) cell[axis][count] = index[axis];

@@ -9,22 +9,10 @@
 #include <limits>
 
 #include "lamina/grid.h"
+#include "reference/cell_block.h"
 #include "reference/chord.h"
 
 namespace lamina {
-
-using CellIndex = std::array<std::int64_t, 3>;
-
-// Neighbouring cells that a walk treats alike.
-struct CellBlock {
-    CellIndex first, last;
-    bool hidden = false;                 // nothing is to be visited there
-    const std::uint8_t* rows = nullptr;  // VisibleCells::may_show()
-
-    bool holds(std::int64_t cell, int axis) const {
-        return first[axis] <= cell && cell <= last[axis];
-    }
-};
 
 // The cells along a chord, front to back (Amanatides and Woo 1987). Cell i of an axis lies between
 // samples i and i+1. On `cell` axes the cells -1 and size-1 are the half voxels outside the
@@ -158,8 +146,8 @@ class CellWalk {
     CellIndex cell_;
     CellIndex final_;  // the last cell in the ray's direction
     CellIndex step_;   // -1 or 1
-    CellIndex
-        ahead_;  // how far the plane through which the chord leaves a cell lies from its number
+    // How far the plane through which the chord leaves a cell lies from the cell's number.
+    CellIndex ahead_;
     std::array<double, 3> crossing_;
     std::array<double, 3> inverse_;  // of the direction
 };

@@ -30,19 +30,33 @@ HWY_INLINE Doubles short_expm1_share(Doubles depth) {
     return hn::MulSub(depth, sum, number(1));
 }
 
-// How exp() is computed.
+// exp(-depth) and 1 - exp(-depth) of any depths.
 struct AnyDepth {
-    HWY_INLINE static Doubles exp(Doubles depth) { return hn::Exp(Lanes(), hn::Neg(depth)); }
-    HWY_INLINE static Doubles opacity(Doubles depth) {
+    HWY_INLINE Doubles exp(Doubles depth) const { return hn::Exp(Lanes(), hn::Neg(depth)); }
+    HWY_INLINE Doubles opacity(Doubles depth) const {
         return hn::Neg(hn::Expm1(Lanes(), hn::Neg(depth)));
     }
 };
+
+// The same of depths up to short_depth.
 struct ShortDepth {
-    HWY_INLINE static Doubles exp(Doubles depth) {
+    HWY_INLINE Doubles exp(Doubles depth) const {
         return hn::MulAdd(depth, short_expm1_share(depth), number(1));
     }
-    HWY_INLINE static Doubles opacity(Doubles depth) {
+    HWY_INLINE Doubles opacity(Doubles depth) const {
         return hn::Neg(hn::Mul(depth, short_expm1_share(depth)));
+    }
+};
+
+// The same of short depths in some lanes: each lane's result does not depend on the other lanes.
+struct MixedDepth {
+    Mask is_short;
+
+    HWY_INLINE Doubles exp(Doubles depth) const {
+        return hn::IfThenElse(is_short, ShortDepth().exp(depth), AnyDepth().exp(depth));
+    }
+    HWY_INLINE Doubles opacity(Doubles depth) const {
+        return hn::IfThenElse(is_short, ShortDepth().opacity(depth), AnyDepth().opacity(depth));
     }
 };
 

@@ -41,8 +41,9 @@ HWY_INLINE RuleSum no_sum() {
 template <typename Depth>
 class PieceLanes {
   public:
-    HWY_INLINE PieceLanes(const PieceBatch& batch, std::size_t i)
-        : position_(load_cubics(batch.position, i)),
+    HWY_INLINE PieceLanes(const PieceBatch& batch, std::size_t i, const Depth& depth)
+        : depth_(depth),
+          position_(load_cubics(batch.position, i)),
           extinction_(load_cubics(batch.extinction, i)),
           mean_depth_(extinction_) {
         for (std::size_t power = 1; power < 4; ++power)
@@ -67,9 +68,10 @@ class PieceLanes {
     HWY_INLINE Doubles weight_at(double place) const {
         const Doubles t = number(place);
         const Doubles depth = hn::Mul(t, mean_depth_.at(t));
-        return hn::Mul(extinction_.at(t), Depth::exp(depth));
+        return hn::Mul(extinction_.at(t), depth_.exp(depth));
     }
 
+    Depth depth_;
     Cubics position_, extinction_, mean_depth_;  // mean_depth_ t is the depth up to t
 };
 
@@ -83,12 +85,12 @@ HWY_INLINE Mask given(const PieceBatch& batch, std::size_t i) {
 
 // Returns the lanes that a rule has integrated.
 template <typename Depth>
-HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i) {
+HWY_INLINE Mask integrate_lanes(PieceBatch& batch, std::size_t i, const Depth& kind) {
     using namespace patterson;
     const Lanes d;
-    const PieceLanes<Depth> pieces(batch, i);
+    const PieceLanes<Depth> pieces(batch, i, kind);
     const Doubles depth = hn::LoadU(d, batch.depth.data() + i);
-    const Doubles opacity = Depth::opacity(depth);
+    const Doubles opacity = kind.opacity(depth);
     const Doubles transmittance = hn::Exp(d, hn::Neg(hn::LoadU(d, batch.before.data() + i)));
     const Doubles span = hn::LoadU(d, batch.color_span.data() + i);
     const Doubles allowed =
@@ -146,11 +148,12 @@ inline void integrate_batch(PieceBatch& batch) {
     using namespace reference;
     const std::size_t lanes = hn::Lanes(Lanes());
     for (std::size_t i = 0; i < batch.count; i += lanes) {
+        const Doubles depth = hn::LoadU(Lanes(), batch.depth.data() + i);
+        const Mask is_short = hn::Le(depth, number(short_depth));
         // Lanes behind the last piece hold anything.
-        const Mask any = hn::Gt(hn::LoadU(Lanes(), batch.depth.data() + i), number(short_depth));
-        const bool all_short = hn::AllFalse(Lanes(), hn::And(any, given(batch, i)));
-        const Mask done =
-            all_short ? integrate_lanes<ShortDepth>(batch, i) : integrate_lanes<AnyDepth>(batch, i);
+        const bool all_short = hn::AllTrue(Lanes(), hn::Or(is_short, hn::Not(given(batch, i))));
+        const Mask done = all_short ? integrate_lanes(batch, i, ShortDepth())
+                                    : integrate_lanes(batch, i, MixedDepth{is_short});
         if (hn::AllTrue(Lanes(), done)) continue;
         std::uint8_t bits[8];
         hn::StoreMaskBits(Lanes(), done, bits);

@@ -28,13 +28,35 @@ HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
     return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
 }
 
+// Counts those of `count` ascending values for which is_passed(value) holds: the first ones. Behind
+// them lies padding, at least up to a power of two.
+template <typename Passed>
+HWY_INLINE Numbers count_first(const double* values, std::size_t count, const Passed& is_passed) {
+    // Of so many a look at each is quicker than the gathers of a binary search.
+    constexpr std::size_t most_compared = 24;
+    const NumberLanes n;
+    Numbers passed = hn::Zero(n);
+    if (count <= most_compared) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Mask one = is_passed(number(values[i]));
+            passed = hn::Sub(passed, hn::VecFromMask(n, hn::RebindMask(n, one)));
+        }
+        return passed;
+    }
+    const Numbers one = hn::Set(n, 1), most = hn::Set(n, static_cast<std::int64_t>(count));
+    for (auto step = static_cast<std::int64_t>(std::bit_ceil(count + 1) / 2); step > 0; step /= 2) {
+        const Numbers next = hn::Add(passed, hn::Set(n, step));
+        const Doubles last = hn::GatherIndex(Lanes(), values, hn::Sub(next, one));
+        passed = where(is_passed(last), next, passed);
+    }
+    return hn::Min(passed, most);  // an infinite value passes padding, too
+}
+
 // Finds the intervals of values.
 class IntervalSearch {
   public:
     HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
-        : bounds_(columns.bounds.data()),
-          knot_count_(columns.knot_count),
-          first_step_(static_cast<std::int64_t>(std::bit_ceil(columns.knot_count + 1) / 2)) {}
+        : bounds_(columns.bounds.data()), knot_count_(columns.knot_count) {}
 
     HWY_INLINE Doubles lower(Numbers interval) const {
         return hn::GatherIndex(Lanes(), bounds_, interval);
@@ -63,35 +85,17 @@ class IntervalSearch {
     }
 
   private:
-    // Counts knots, of which the first ones are passed.
     template <typename Passed>
     HWY_INLINE Numbers count_passed(const Passed& is_passed) const {
-        const NumberLanes n;
-        Numbers count = hn::Zero(n);
-        if (knot_count_ <= most_compared) {
-            for (std::size_t knot = 1; knot <= knot_count_; ++knot) {
-                const Mask one = is_passed(number(bounds_[knot]));
-                count = hn::Sub(count, hn::VecFromMask(n, hn::RebindMask(n, one)));
-            }
-            return count;
-        }
-        for (std::int64_t step = first_step_; step > 0; step /= 2) {
-            const Numbers next = hn::Add(count, hn::Set(n, step));
-            count = where(is_passed(lower(next)), next, count);
-        }
-        return count;
+        return count_first(bounds_ + 1, knot_count_, is_passed);
     }
 
     HWY_INLINE static Mask passed(Doubles knot, Doubles value, Mask rises) {
         return hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
     }
 
-    // With so many knots a look at each of them is quicker than gathers of a binary search.
-    static constexpr std::size_t most_compared = 24;
-
     const double* bounds_;
     std::size_t knot_count_;
-    std::int64_t first_step_;
 };
 
 }  // namespace reference

@@ -2,8 +2,6 @@
 // Vector form of integrate_segment() (optics/segment_integral.h).
 #include "reference/linear_parts.h"
 
-#include <span>
-
 #include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 
@@ -16,6 +14,7 @@
 #include "reference/cubic_lanes-inl.h"
 #include "reference/depth_lanes-inl.h"
 #include "reference/interval_search-inl.h"
+#include "reference/rounds-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -43,6 +42,8 @@ class LinearLanes {
 
     // Goes on to the next knots or ends. The round gets the parts up to there.
     HWY_INLINE void advance(LinearRound& round) {
+        constexpr std::size_t most = LinearRound::longest_vector;
+        static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
         const Lanes d;
         const NumberLanes n;
         const Doubles knot =
@@ -74,25 +75,6 @@ class LinearLanes {
     Mask rises_, constant_;
     Numbers interval_;
 };
-
-// Appends the parts of a vector of segments, one segment after the other.
-HWY_INLINE void append_linear_rounds(std::span<const LinearRound> rounds, std::size_t first_segment,
-                                     LinearParts& parts) {
-    const std::size_t lanes = hn::Lanes(Lanes());
-    parts.make_room(parts.count + lanes * rounds.size());
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        for (const LinearRound& round : rounds) {
-            // Written over by the next where it is not kept: a branch would often be mispredicted.
-            const std::size_t i = parts.count;
-            parts.segment[i] = static_cast<std::int64_t>(first_segment + lane);
-            parts.interval[i] = round.interval[lane];
-            parts.from[i] = round.from[lane];
-            parts.to[i] = round.to[lane];
-            parts.depth[i] = round.share[lane];  // until set_depths()
-            parts.count += round.kept[0] >> lane & 1;
-        }
-    }
-}
 
 // The share of the way from an interval's lower knot to its upper one, and what is left of it.
 struct PlaceLanes {
@@ -142,7 +124,8 @@ struct WeightLanes {
 
 // Vector form of the sums in optics/segment_integral.cpp, which says why they are written so.
 template <typename Depth>
-HWY_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Doubles p, Doubles q) {
+HWY_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Doubles p, Doubles q,
+                                       const Depth& kind) {
     const Lanes d;
     WeightLanes sum{hn::Zero(d), hn::Zero(d)};
     for (std::size_t i = 0; i < rule.points; ++i) {
@@ -151,9 +134,9 @@ HWY_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Doubles p, Doubles
             hn::MulAdd(number(x * (1 - x / 2)), p, hn::Mul(number(x * x / 2), q));
         const Doubles behind =
             hn::MulAdd(number(rest * rest / 2), p, hn::Mul(number(rest * (1 + x) / 2), q));
-        const Doubles absorbed = Depth::opacity(before), weight = number(rule.weight[i]);
+        const Doubles absorbed = kind.opacity(before), weight = number(rule.weight[i]);
         sum.front = hn::MulAdd(weight, absorbed, sum.front);
-        sum.back = hn::MulAdd(hn::Mul(weight, hn::Sub(number(1), absorbed)), Depth::opacity(behind),
+        sum.back = hn::MulAdd(hn::Mul(weight, hn::Sub(number(1), absorbed)), kind.opacity(behind),
                               sum.back);
     }
     return sum;
@@ -178,8 +161,8 @@ HWY_INLINE WeightLanes weights_of(Doubles p, Doubles q, Doubles depth) {
     const double most = hn::GetLane(hn::MaxOfLanes(Lanes(), depth));
     if (!(most < largest_gauss_depth)) return closed_weights(p, q);
     const GaussRule& rule = gauss_rule(most);
-    return most <= short_depth ? weights_by_rule<ShortDepth>(rule, p, q)
-                               : weights_by_rule<AnyDepth>(rule, p, q);
+    return most <= short_depth ? weights_by_rule(rule, p, q, ShortDepth())
+                               : weights_by_rule(rule, p, q, AnyDepth());
 }
 
 HWY_INLINE void weigh(LinearParts& parts, std::size_t i) {
@@ -204,14 +187,15 @@ inline void append_parts_of(const LinearBatch& segments, const IntervalColumns& 
                             LinearParts& parts) {
     using namespace reference;
     const std::size_t lanes = hn::Lanes(Lanes()), first = parts.count;
+    const auto store = [&](std::size_t i, const LinearRound& round, std::size_t lane) HWY_ATTR {
+        parts.interval[i] = round.interval[lane];
+        parts.from[i] = round.from[lane];
+        parts.to[i] = round.to[lane];
+        parts.depth[i] = round.share[lane];  // until set_depths()
+    };
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         LinearLanes on_their_way(segments, i, columns);
-        std::size_t rounds = 0;
-        while (on_their_way.active()) {
-            if (rounds == parts.rounds.size()) parts.rounds.resize(2 * rounds + 8);
-            on_their_way.advance(parts.rounds[rounds++]);
-        }
-        append_linear_rounds(std::span(parts.rounds).first(rounds), i, parts);
+        append_rounds(on_their_way, i, parts, store);
     }
     for (std::size_t i = first; i < parts.count; i += lanes)
         set_depths(segments, columns, i, parts);

@@ -8,19 +8,9 @@
 
 #include "reference/interval_columns.h"
 #include "reference/linear_batch.h"
+#include "reference/linear_round.h"
 
 namespace lamina {
-
-// One part of each segment of a vector, where `kept` has its bit.
-struct LinearRound {
-    static constexpr std::size_t longest_vector = 8;  // doubles
-
-    alignas(64) std::int64_t interval[longest_vector];
-    alignas(64) double from[longest_vector];
-    alignas(64) double to[longest_vector];
-    alignas(64) double share[longest_vector];
-    std::uint8_t kept[8];
-};
 
 // Parts of the segments of one batch, front to back, on which extinction and colour are linear,
 // too.
@@ -55,7 +45,7 @@ struct LinearParts {
 // Appends the parts that have extinction, with their depths.
 void append_parts(const LinearBatch& segments, const IntervalColumns& intervals,
                   LinearParts& parts);
-// Sets the results. The relative error of each weight is some 1e-14 (optics/segment_integral.h).
+// Sets the results. The relative error of each weight is some 1e-13 (optics/segment_integral.h).
 void weigh_parts(LinearParts& parts);
 
 }  // namespace lamina

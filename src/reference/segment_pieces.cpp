@@ -3,9 +3,6 @@
 // segments on to their next knots, or to where their scalars turn.
 #include "reference/segment_pieces.h"
 
-#include <span>
-#include <vector>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "reference/segment_pieces.cpp"
 #include <hwy/foreach_target.h>
@@ -14,6 +11,7 @@
 // After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
 #include "reference/interval_search-inl.h"
+#include "reference/rounds-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -121,26 +119,6 @@ class SegmentLanes {
     Numbers lowest_, interval_;  // the one of lo_, and of the piece that is next
 };
 
-// Appends the pieces of a vector of segments, one segment after the other.
-HWY_INLINE void append_rounds(std::span<const CutRound> rounds, std::size_t first_segment,
-                              PieceBatch& pieces) {
-    const std::size_t lanes = hn::Lanes(Lanes());
-    pieces.make_room(pieces.count + lanes * rounds.size());
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        for (const CutRound& round : rounds) {
-            // Written over by the next where it is not kept: a branch would often be mispredicted.
-            const std::size_t i = pieces.count;
-            pieces.segment[i] = static_cast<std::int64_t>(first_segment + lane);
-            pieces.interval[i] = round.interval[lane];
-            pieces.from[i] = round.from[lane];
-            pieces.to[i] = round.to[lane];
-            pieces.start[i] = round.start[lane];
-            pieces.end[i] = round.end[lane];
-            pieces.count += round.kept[0] >> lane & 1;
-        }
-    }
-}
-
 // Sets the optics of a vector of pieces. Extinction is computed from the nearer knot, so that few
 // digits are lost where a steep interval ends at extinction 0.
 HWY_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& columns,
@@ -190,14 +168,16 @@ inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns
                              double error_per_length, PieceBatch& pieces) {
     using namespace reference;
     const std::size_t lanes = hn::Lanes(Lanes()), first = pieces.count;
+    const auto store = [&](std::size_t i, const CutRound& round, std::size_t lane) HWY_ATTR {
+        pieces.interval[i] = round.interval[lane];
+        pieces.from[i] = round.from[lane];
+        pieces.to[i] = round.to[lane];
+        pieces.start[i] = round.start[lane];
+        pieces.end[i] = round.end[lane];
+    };
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         SegmentLanes on_their_way(segments, i, columns);
-        std::size_t rounds = 0;
-        while (on_their_way.active()) {
-            if (rounds == pieces.rounds.size()) pieces.rounds.resize(2 * rounds + 8);
-            on_their_way.advance(pieces.rounds[rounds++]);
-        }
-        append_rounds(std::span(pieces.rounds).first(rounds), i, pieces);
+        append_rounds(on_their_way, i, pieces, store);
     }
     for (std::size_t i = first; i < pieces.count; i += lanes)
         set_optics(segments, columns, error_per_length, i, pieces);

@@ -15,6 +15,8 @@ namespace {
 constexpr double least_transmittance = 1e-17;
 // The relative error of a part's colour and opacity (weigh_parts()), and of its interpolations.
 constexpr double part_error = 1e-13;
+// Interpolation of scalars near the ends of double may overflow.
+constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 // So many segments are summed first: they may hide the others.
 constexpr std::size_t first_together = 8;
 
@@ -48,7 +50,8 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     ++segments_;
     const bool may_be_aside = hi - lo <= slack && slack > 0;
     side_errors_[waiting_.count] = may_be_aside ? side_error(lo - slack, hi + slack, length) : 0;
-    waiting_.add(front, back, length);
+    waiting_.add(std::clamp(front, -largest_scalar, largest_scalar),
+                 std::clamp(back, -largest_scalar, largest_scalar), length);
     if (waiting_.count < together_) return;
     finish();
     together_ = std::min(2 * together_, LinearBatch::capacity);
@@ -123,7 +126,9 @@ void SegmentSum::add_light(double front, double back, const GradientAlong& gradi
 double SegmentSum::side_error(double lo, double hi, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);
-    const double alpha = opacity_from_depth(std::max(above.extinction, below.extinction) * length);
+    const double middle = transfer_function_.at(0.5 * lo + 0.5 * hi).extinction;
+    const double alpha =
+        opacity_from_depth(std::max({above.extinction, middle, below.extinction}) * length);
     const double lit = lights_ != nullptr ? lights_->largest_factor() : 1;
     const glm::dvec3 color = lit * glm::abs(above.color - below.color);
     return brightest_ * depth + std::max({color.r, color.g, color.b}) * std::max(alpha, depth);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -36,7 +35,8 @@ class SegmentSum {
     // The same of a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,
                  double slack);
-    // Sums up what has been added. The results are those of before.
+    // To be called before color(), alpha() and error_estimate(): until then these lack the last
+    // segments.
     void finish();
 
     // Whether all that follows is lost in rounding, as far as is known.

@@ -30,7 +30,7 @@ class TransferIntervals {
 
     // Whether any interval that touches [lo, hi] has extinction.
     bool visible(double lo, double hi) const {
-        // Most functions have one, and this is asked for every cell.
+        // Most functions have one, and this is asked for every segment of a mesh.
         if (visible_.size() == 1) return visible_[0].lo <= hi && lo <= visible_[0].hi;
         const auto range =
             std::lower_bound(visible_.begin(), visible_.end(), lo,

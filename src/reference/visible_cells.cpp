@@ -61,7 +61,8 @@ class SampleRows {
     }
 
     // Sets the bits of the rows of cells, block by block: 1 where a cell may have a value of the
-    // range. A cell with a sample that is no number may have any: it is transparent.
+    // range. A sample that is no number sets none: its cells are
+    // transparent.
     void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
         for (std::int64_t z = 0; z <= edge; ++z) {
             for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);

@@ -27,6 +27,7 @@ TransferFunction visible_in(const std::vector<std::pair<double, double>>& ranges
         add((lo + hi) / 2, 1);
         add(hi, 0);
     }
+    if (knots.empty()) add(0, 0);
     return TransferFunction::linear(knots);
 }
 
@@ -95,12 +96,38 @@ void test_batches(const std::vector<std::pair<double, double>>& ranges, Random& 
 
 TEST(CellBatch, SegmentsAreThoseOfSingleCells) {
     Random random(11);
+    test_batches({}, random);
     test_batches({{-1, 1000}}, random);
     test_batches({{100, 130}}, random);
     test_batches({{5, 10}, {100, 130}}, random);
     std::vector<std::pair<double, double>> many;
     for (int i = 0; i < 41; ++i) many.push_back({10 * i, 10 * i + 1});
     test_batches(many, random);
+}
+
+// Inside the volume, and in the half voxels around it.
+template <typename Sample>
+void test_fetch(Random& random) {
+    const Grid grid = reference_test::make_grid({5, 1, 4}, Centering::cell, {1, 1, 1});
+    std::vector<Sample> samples(static_cast<std::size_t>(grid.sample_count()));
+    for (Sample& sample : samples) sample = static_cast<Sample>(random.below(200));
+    const CellSamples<const Sample*> cells(grid, samples.data());
+    CellBatch batch;
+    while (batch.count < CellBatch::capacity)
+        batch.add({random.below(6) - 1, random.below(2) - 1, random.below(5) - 1}, 0, 1);
+    cells.fetch(batch);
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const CellCorners expected =
+            cells.corners({batch.cell[0][i], batch.cell[1][i], batch.cell[2][i]});
+        for (std::size_t corner = 0; corner < 8; ++corner)
+            EXPECT_EQ(batch.corners[corner][i], expected.v[corner]);
+    }
+}
+
+TEST(CellBatch, SamplesAreThoseOfTheCells) {
+    Random random(12);
+    test_fetch<std::uint8_t>(random);
+    test_fetch<float>(random);
 }
 
 }  // namespace

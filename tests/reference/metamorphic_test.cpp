@@ -203,9 +203,14 @@ TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
 // A picture leaves out cells that show nothing, and single pixels do not: the same
 // digits.
 TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
-    const TransferFunction function = TransferFunction::linear(
+    const TransferFunction steep = TransferFunction::linear(
         {{.5, {{.2, .4, .6}, 0}}, {.8, {{.9, .5, .1}, 20}}, {1, {{.1, 1, .3}, 10}}});
-    for (const Centering centering : {Centering::node, Centering::cell}) {
+    // Short pieces and others side by side, whose exponential functions are different ones.
+    const TransferFunction mixed = TransferFunction::linear(
+        {{.3, {{.2, .4, .6}, 0}}, {.6, {{.9, .5, .1}, .1}}, {.8, {{.9, .9, .1}, 2}}});
+    for (const auto& [function, centering] :
+         {std::pair(steep, Centering::node), std::pair(steep, Centering::cell),
+          std::pair(mixed, Centering::node)}) {
         const Grid grid = make_grid({33, 27, 20}, centering, {1, .75, 1.25});
         Random random(4);
         std::vector<float> samples(static_cast<std::size_t>(grid.sample_count()));

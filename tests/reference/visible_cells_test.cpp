@@ -36,28 +36,30 @@ TransferFunction ranges(int count, double first) {
 template <typename Sample>
 void test_cells(const TransferFunction& function, bool exact, Random& random) {
     const TransferIntervals transfer(function);
-    const Grid grid = make_grid({19, 9, 17}, Centering::node, {1, 1, 1});
+    const Grid grid = make_grid({19, 9, 17}, Centering::cell, {1, 1, 1});
     std::vector<Sample> samples(static_cast<std::size_t>(grid.sample_count()));
     for (Sample& sample : samples)
         sample = static_cast<Sample>(random.below(random.below(20) == 0 ? 250 : 12));
     if constexpr (std::is_floating_point_v<Sample>) {
         samples[40] = std::numeric_limits<Sample>::infinity();
         samples[900] = -samples[40];
+        samples[1500] = std::numeric_limits<Sample>::quiet_NaN();
     }
     const Volume volume = make_volume<Sample>(grid, samples);
     const VisibleCells cells(volume, transfer);
     const auto& size = grid.size;
     for (std::int64_t z = 0; z < size[2]; ++z) {
         for (std::int64_t y = 0; y < size[1]; ++y) {
-            for (std::int64_t x = 0; x < size[0]; ++x) {
+            for (std::int64_t x = -1; x < size[0]; ++x) {
                 double lo = INFINITY, hi = -INFINITY;
                 for (int corner = 0; corner < 8; ++corner) {
-                    const std::int64_t cx = std::min(x + (corner & 1), size[0] - 1);
+                    const std::int64_t cx =
+                        std::clamp<std::int64_t>(x + (corner & 1), 0, size[0] - 1);
                     const std::int64_t cy = std::min(y + (corner >> 1 & 1), size[1] - 1);
                     const std::int64_t cz = std::min(z + (corner >> 2), size[2] - 1);
                     const auto value = static_cast<double>(
                         samples[static_cast<std::size_t>((cz * size[1] + cy) * size[0] + cx)]);
-                    lo = std::min(lo, value);
+                    lo = std::isnan(value) ? -INFINITY : std::min(lo, value);
                     hi = std::max(hi, value);
                 }
                 const CellIndex cell{x, y, z};
@@ -67,7 +69,7 @@ void test_cells(const TransferFunction& function, bool exact, Random& random) {
                 const bool shown = !block.hidden && VisibleCells::may_show(block, cell);
                 if (transfer.visible(lo, hi) && std::isfinite(lo) && std::isfinite(hi)) {
                     ASSERT_TRUE(shown) << x << ' ' << y << ' ' << z;
-                } else if (exact && std::isfinite(lo) && std::isfinite(hi)) {
+                } else if (exact && x >= 0 && std::isfinite(lo) && std::isfinite(hi)) {
                     ASSERT_FALSE(shown) << x << ' ' << y << ' ' << z;
                 }
             }
@@ -98,6 +100,58 @@ TEST(VisibleCells, AreThoseWhoseRangeMeetsTheFunctions) {
     test_type<std::int16_t>();
     test_type<std::uint16_t>();
     test_type<float>();
+}
+
+struct Visit {
+    CellIndex cell;
+    double from, to;
+    bool operator==(const Visit&) const = default;
+};
+
+// A walk that leaves out hidden blocks visits the other cells of one that does not, with the same
+// parameters.
+TEST(VisibleCells, HiddenBlocksAreLeftOutOfWalks) {
+    Random random(8);
+    for (const std::array<std::int64_t, 3>& size :
+         {std::array<std::int64_t, 3>{40, 33, 25}, {1, 30, 9}}) {
+        const Grid grid = make_grid(size, Centering::cell, {1, 1, 1});
+        std::vector<float> samples(static_cast<std::size_t>(grid.sample_count()));
+        for (int speck = 0; speck < 12; ++speck)
+            samples[static_cast<std::size_t>(random.uniform(0, double(samples.size())))] = 15;
+        const TransferIntervals transfer(ranges(1, 12));
+        const VisibleCells cells(make_volume<float>(grid, samples), transfer);
+        std::size_t visited = 0, left_out = 0;
+        for (int ray = 0; ray < 3000; ++ray) {
+            Chord chord;
+            const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+            const glm::dvec3 a = lowest + random.point(0, 1) * (highest - lowest);
+            glm::dvec3 b = lowest + random.point(0, 1) * (highest - lowest);
+            if (ray % 5 == 0) b[ray % 3] = a[ray % 3];
+            chord.entry = a;
+            chord.direction = b - a;
+            chord.length_z = 1;
+            std::vector<Visit> expected, found;
+            CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
+                if (cells.block_of(cell).hidden) {
+                    ++left_out;
+                } else {
+                    expected.push_back({cell, from, to});
+                }
+                return true;
+            });
+            CellWalk(grid, chord)
+                .run(
+                    [&](const CellIndex& cell, double from, double to, const CellBlock&) {
+                        found.push_back({cell, from, to});
+                        return true;
+                    },
+                    [&](const CellIndex& cell) { return cells.block_of(cell); });
+            ASSERT_EQ(found, expected);
+            visited += found.size();
+        }
+        EXPECT_GT(visited, 0U);
+        EXPECT_GT(left_out, 0U);
+    }
 }
 
 }  // namespace

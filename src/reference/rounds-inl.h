@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors of segments that are cut in rounds: each round has one piece of each segment.
+#if defined(LAMINA_REFERENCE_ROUNDS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef LAMINA_REFERENCE_ROUNDS_INL_H_
+#undef LAMINA_REFERENCE_ROUNDS_INL_H_
+#else
+#define LAMINA_REFERENCE_ROUNDS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "reference/cubic_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lamina::HWY_NAMESPACE {
+namespace reference {
+
+// Takes a vector of segments to their ends, and appends their pieces, one segment after the other.
+// store(i, round, lane) stores a piece at place i.
+template <typename Segments, typename Pieces, typename Store>
+HWY_INLINE void append_rounds(Segments& segments, std::size_t first_segment, Pieces& pieces,
+                              const Store& store) {
+    auto& rounds = pieces.rounds;
+    std::size_t count = 0;
+    while (segments.active()) {
+        if (count == rounds.size()) rounds.resize(2 * count + 8);
+        segments.advance(rounds[count++]);
+    }
+    const std::size_t lanes = hn::Lanes(Lanes());
+    pieces.make_room(pieces.count + lanes * count);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        for (std::size_t number = 0; number < count; ++number) {
+            // Written over by the next where it is not kept: a branch would often be mispredicted.
+            const auto& round = rounds[number];
+            pieces.segment[pieces.count] = static_cast<std::int64_t>(first_segment + lane);
+            store(pieces.count, round, lane);
+            pieces.count += round.kept[0] >> lane & 1;
+        }
+    }
+}
+
+}  // namespace reference
+}  // namespace lamina::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
