@@ -134,7 +134,7 @@ TEST(LinearParts, WeightsAreThoseOfThePiece) {
 TEST(LinearParts, InfiniteScalarsLieOutside) {
     for (const int count : {2, 24, 25, 256}) {
         std::vector<TransferKnot> knots;
-        for (int i = 0; i < count; ++i) knots.push_back({1. * i, {{1, .1 * (i % 3), 1}, 2}});
+        for (int i = 0; i < count; ++i) knots.push_back({1. * i, {{1, .1 * (i % 2), 1}, 2}});
         const TransferIntervals intervals(TransferFunction::linear(knots));
         LinearBatch segments;
         segments.add(INFINITY, INFINITY, 3);
