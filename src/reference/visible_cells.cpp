@@ -28,7 +28,7 @@ class SampleRange {
         }
         constexpr double least = std::numeric_limits<Sample>::lowest();
         constexpr double most = std::numeric_limits<Sample>::max();
-        empty_ = to < std::max(from, least) || most < from;
+        out_of_reach_ = to < least || most < from;
         lo_ = static_cast<Sample>(std::clamp(from, least, most));
         hi_ = static_cast<Sample>(std::clamp(to, least, most));
         if constexpr (std::is_floating_point_v<Sample>) {
@@ -37,7 +37,9 @@ class SampleRange {
         }
     }
 
-    bool empty() const { return empty_; }
+    // Whether all samples are on one side of it. Otherwise a cell may meet it without a sample
+    // inside, so integral ranges may end before they begin.
+    bool out_of_reach() const { return out_of_reach_; }
     // Bit 0: not below the range, bit 1: not above it.
     std::uint8_t sides(Sample value) const {
         return static_cast<std::uint8_t>((value >= lo_ ? 1 : 0) | (value <= hi_ ? 2 : 0));
@@ -45,7 +47,7 @@ class SampleRange {
 
   private:
     Sample lo_, hi_;
-    bool empty_;
+    bool out_of_reach_;
 };
 
 // The rows of samples at the corners of a line of blocks along x.
@@ -117,7 +119,7 @@ template <typename Sample>
 std::vector<SampleRange<Sample>> sample_ranges(const IntervalColumns& columns) {
     std::vector<SampleRange<Sample>> ranges;
     const auto add = [&](double lo, double hi) {
-        if (const SampleRange<Sample> range(lo, hi); !range.empty()) ranges.push_back(range);
+        if (const SampleRange<Sample> range(lo, hi); !range.out_of_reach()) ranges.push_back(range);
     };
     const auto beyond = std::ranges::find(columns.visible_lo, INFINITY);
     const auto count = static_cast<std::size_t>(beyond - columns.visible_lo.begin());

@@ -87,6 +87,10 @@ void test_type() {
     test_cells<Sample>(ranges(1, -1e9), true, random);
     test_cells<Sample>(ranges(1, 1e9), true, random);
     test_cells<Sample>(ranges(20, 5.5), false, random);
+    // Between two integers, of which neither shows anything.
+    test_cells<Sample>(TransferFunction::linear(
+                           {{6.25, {{1, 1, 1}, 0}}, {6.5, {{1, 1, 1}, 1}}, {6.75, {{1, 1, 1}, 0}}}),
+                       true, random);
     // Both ends have extinction: the ranges have no end.
     test_cells<Sample>(TransferFunction::linear({{4, {{1, 1, 1}, 2}},
                                                  {5.25, {{1, 1, 1}, 0}},
