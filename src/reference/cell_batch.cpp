@@ -47,7 +47,7 @@ class VisibleRanges {
     HWY_INLINE explicit VisibleRanges(const IntervalColumns& columns)
         : lo_(columns.visible_lo.data()),
           hi_(columns.visible_hi.data()),
-          count_(columns.visible_lo.size() - 1) {}
+          count_(columns.visible_count) {}
 
     HWY_INLINE Mask meet(Doubles lo, Doubles hi) const {
         // Most functions have one.
@@ -59,7 +59,7 @@ class VisibleRanges {
 
   private:
     const double *lo_, *hi_;
-    std::size_t count_;  // with padding
+    std::size_t count_;
 };
 
 // The chord inside cells, in the cells' coordinates: start + t * step, 0 <= t <= 1.

@@ -116,7 +116,7 @@ class CellWalk {
                           : std::clamp(there, cell_[axis], std::min(last[axis], final_[axis]));
                 // Cells are told apart by their planes' crossings, not by rounded places.
                 while (cell_[axis] != before && crossing_into(axis) > to)
-                    cell_[axis] += d < 0 ? 1 : -1;
+                    cell_[axis] -= step_[axis];
             }
             crossing_[axis] = next_crossing(axis);
         }

@@ -35,7 +35,7 @@ LAMINA_IN_CLONES PlanePair meet(const Coordinate& ray, double first, double seco
     const DoubleDouble to_first = DoubleDouble{first, 0} - ray.position;
     const DoubleDouble to_second = DoubleDouble{second, 0} - ray.position;
     const DoubleDouble inverse = DoubleDouble{1, 0} / ray.slope;
-    // Of a subnormal inverse the low part is lost.
+    // A subnormal inverse has lost its low part.
     if (!inverse.finite() || std::abs(inverse.hi) < 1e-290)
         return {to_first / ray.slope, to_second / ray.slope};
     return {to_first * inverse, to_second * inverse};

@@ -22,6 +22,7 @@ struct IntervalColumns {
     // The ranges of values with extinction, as in TransferIntervals::visible(): ascending, then
     // infinity, at least as often as to make them and one more a power of two.
     std::vector<double> visible_lo, visible_hi;
+    std::size_t visible_count = 0;
 };
 
 }  // namespace lamina

@@ -32,7 +32,7 @@ HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
 // them lies padding, at least up to a power of two.
 template <typename Passed>
 HWY_INLINE Numbers count_first(const double* values, std::size_t count, const Passed& is_passed) {
-    // Of so many a look at each is quicker than the gathers of a binary search.
+    // Up to this count a look at each value is quicker than the gathers of a binary search.
     constexpr std::size_t most_compared = 24;
     const NumberLanes n;
     Numbers passed = hn::Zero(n);
@@ -56,13 +56,25 @@ HWY_INLINE Numbers count_first(const double* values, std::size_t count, const Pa
 class IntervalSearch {
   public:
     HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
-        : bounds_(columns.bounds.data()), knot_count_(columns.knot_count) {}
+        : columns_(columns), bounds_(columns.bounds.data()) {}
 
     HWY_INLINE Doubles lower(Numbers interval) const {
         return hn::GatherIndex(Lanes(), bounds_, interval);
     }
     HWY_INLINE Doubles upper(Numbers interval) const {
         return hn::GatherIndex(Lanes(), bounds_ + 1, interval);
+    }
+    HWY_INLINE Mask shows(Numbers interval) const {
+        return hn::Eq(gather(columns_.transparent, interval), hn::Zero(Lanes()));
+    }
+    // The knot at which a scalar that rises, or falls, leaves the interval.
+    HWY_INLINE Doubles knot_ahead(Numbers interval, Mask rises) const {
+        return hn::IfThenElse(rises, upper(interval), lower(interval));
+    }
+    // The interval behind that knot.
+    HWY_INLINE Numbers beyond(Numbers interval, Mask rises) const {
+        const Numbers one = hn::Set(NumberLanes(), 1);
+        return where(rises, hn::Add(interval, one), hn::Sub(interval, one));
     }
     // The interval for values at and above each value.
     HWY_INLINE Numbers above(Doubles value) const {
@@ -87,15 +99,15 @@ class IntervalSearch {
   private:
     template <typename Passed>
     HWY_INLINE Numbers count_passed(const Passed& is_passed) const {
-        return count_first(bounds_ + 1, knot_count_, is_passed);
+        return count_first(bounds_ + 1, columns_.knot_count, is_passed);
     }
 
     HWY_INLINE static Mask passed(Doubles knot, Doubles value, Mask rises) {
         return hn::Or(hn::Lt(knot, value), hn::And(rises, hn::Eq(knot, value)));
     }
 
+    const IntervalColumns& columns_;
     const double* bounds_;
-    std::size_t knot_count_;
 };
 
 }  // namespace reference

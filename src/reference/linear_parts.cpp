@@ -28,8 +28,7 @@ class LinearLanes {
   public:
     HWY_INLINE LinearLanes(const LinearBatch& segments, std::size_t first,
                            const IntervalColumns& columns)
-        : columns_(columns),
-          search_(columns),
+        : search_(columns),
           active_(hn::FirstN(Lanes(), segments.count - first)),
           front_(hn::MaskedLoad(active_, Lanes(), segments.front + first)),
           back_(hn::MaskedLoad(active_, Lanes(), segments.back + first)),
@@ -42,33 +41,25 @@ class LinearLanes {
 
     // Goes on to the next knots or ends. The round gets the parts up to there.
     HWY_INLINE void advance(LinearRound& round) {
-        constexpr std::size_t most = LinearRound::longest_vector;
-        static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
         const Lanes d;
-        const NumberLanes n;
-        const Doubles knot =
-            hn::IfThenElse(rises_, search_.upper(interval_), search_.lower(interval_));
+        const Doubles knot = search_.knot_ahead(interval_, rises_);
         const Doubles to = hn::IfThenElse(rises_, hn::Min(knot, back_), hn::Max(knot, back_));
         // Both differences are of the given doubles, so the share is accurate however close front
         // and back are.
         const Doubles share = hn::Div(hn::Sub(to, at_), hn::Sub(back_, front_));
-        const Mask shows = hn::Eq(gather(columns_.transparent, interval_), hn::Zero(d));
         const Mask has_length = hn::Or(constant_, hn::Ne(to, at_));
-        const Mask kept = hn::And(hn::And(active_, shows), has_length);
+        const Mask kept = hn::And(hn::And(active_, search_.shows(interval_)), has_length);
         hn::StoreMaskBits(d, kept, round.kept);
-        hn::Store(interval_, n, round.interval);
+        hn::Store(interval_, NumberLanes(), round.interval);
         hn::Store(at_, d, round.from);
         hn::Store(hn::IfThenElse(constant_, back_, to), d, round.to);
         hn::Store(hn::IfThenElse(constant_, number(1), share), d, round.share);
         at_ = to;
         active_ = hn::AndNot(hn::Or(constant_, hn::Eq(at_, back_)), active_);
-        const Numbers one = hn::Set(n, 1);
-        const Numbers next = where(rises_, hn::Add(interval_, one), hn::Sub(interval_, one));
-        interval_ = where(active_, next, interval_);
+        interval_ = where(active_, search_.beyond(interval_, rises_), interval_);
     }
 
   private:
-    const IntervalColumns& columns_;
     IntervalSearch search_;
     Mask active_;
     Doubles front_, back_, at_;

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "reference/cubic_lanes-inl.h"
 
@@ -24,6 +25,8 @@ template <typename Segments, typename Pieces, typename Store>
 HWY_INLINE void append_rounds(Segments& segments, std::size_t first_segment, Pieces& pieces,
                               const Store& store) {
     auto& rounds = pieces.rounds;
+    constexpr std::size_t most = std::remove_cvref_t<decltype(rounds[0])>::longest_vector;
+    static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
     std::size_t count = 0;
     while (segments.active()) {
         if (count == rounds.size()) rounds.resize(2 * count + 8);

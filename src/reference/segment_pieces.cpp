@@ -23,8 +23,7 @@ class SegmentLanes {
   public:
     HWY_INLINE SegmentLanes(const SegmentBatch& segments, std::size_t first,
                             const IntervalColumns& columns)
-        : columns_(columns),
-          search_(columns),
+        : search_(columns),
           active_(hn::FirstN(Lanes(), segments.count - first)),
           lo_(load(segments.lo + first)),
           hi_(load(segments.hi + first)),
@@ -48,8 +47,7 @@ class SegmentLanes {
 
     // Goes on to the next knots or ends of parts. The round gets the pieces up to there.
     HWY_INLINE void advance(CutRound& round) {
-        const Doubles knot =
-            hn::IfThenElse(rises_, search_.upper(interval_), search_.lower(interval_));
+        const Doubles knot = search_.knot_ahead(interval_, rises_);
         const Mask before_end = hn::Or(hn::And(rises_, hn::Lt(knot, part_value_)),
                                        hn::AndNot(rises_, hn::Gt(knot, part_value_)));
         const Mask crosses = hn::And(active_, before_end);
@@ -63,9 +61,7 @@ class SegmentLanes {
         fill(round, to, end);
         at_ = to;
         value_ = end;
-        const Numbers one = hn::Set(NumberLanes(), 1);
-        const Numbers beyond = where(rises_, hn::Add(interval_, one), hn::Sub(interval_, one));
-        interval_ = where(crosses, beyond, interval_);
+        interval_ = where(crosses, search_.beyond(interval_, rises_), interval_);
         const Mask ended = hn::AndNot(crosses, active_);
         active_ = hn::And(active_, hn::Or(crosses, hn::Lt(at_, number(1))));
         if (!hn::AllFalse(Lanes(), hn::And(ended, active_))) next_part(ended);
@@ -95,11 +91,8 @@ class SegmentLanes {
     }
 
     HWY_INLINE void fill(CutRound& round, Doubles to, Doubles end) const {
-        constexpr std::size_t most = PieceBatch::longest_vector;
-        static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
         const Lanes d;
-        const Mask shows = hn::Eq(gather(columns_.transparent, interval_), hn::Zero(d));
-        const Mask kept = hn::And(hn::And(active_, shows), hn::Lt(at_, to));
+        const Mask kept = hn::And(hn::And(active_, search_.shows(interval_)), hn::Lt(at_, to));
         hn::StoreMaskBits(d, kept, round.kept);
         hn::Store(interval_, NumberLanes(), round.interval);
         hn::Store(at_, d, round.from);
@@ -108,7 +101,6 @@ class SegmentLanes {
         hn::Store(end, d, round.end);
     }
 
-    const IntervalColumns& columns_;
     IntervalSearch search_;
     Mask active_;
     Doubles lo_, hi_;

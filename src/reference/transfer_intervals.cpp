@@ -60,22 +60,21 @@ void TransferIntervals::add_constant(const TransferKnot& knot) {
 }
 
 void TransferIntervals::find_visible() {
+    std::vector<double>&lows = columns_.visible_lo, &highs = columns_.visible_hi;
     for (std::size_t i = 0; i < colors_.size(); ++i) {
         if (columns_.transparent[i] != 0) continue;
         const double lo = columns_.bounds[i], hi = columns_.bounds[i + 1];
-        if (!visible_.empty() && visible_.back().hi == lo) {
-            visible_.back().hi = hi;
+        if (!highs.empty() && highs.back() == lo) {
+            highs.back() = hi;
         } else {
-            visible_.push_back({lo, hi});
+            lows.push_back(lo);
+            highs.push_back(hi);
         }
     }
-    for (const Range& range : visible_) {
-        columns_.visible_lo.push_back(range.lo);
-        columns_.visible_hi.push_back(range.hi);
-    }
-    const std::size_t room = std::bit_ceil(visible_.size() + 1);
-    columns_.visible_lo.resize(room, std::numeric_limits<double>::infinity());
-    columns_.visible_hi.resize(room, std::numeric_limits<double>::infinity());
+    columns_.visible_count = lows.size();
+    const std::size_t room = std::bit_ceil(lows.size() + 1);
+    lows.resize(room, std::numeric_limits<double>::infinity());
+    highs.resize(room, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace lamina

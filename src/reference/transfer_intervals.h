@@ -30,12 +30,12 @@ class TransferIntervals {
 
     // Whether any interval that touches [lo, hi] has extinction.
     bool visible(double lo, double hi) const {
+        const std::vector<double>&lows = columns_.visible_lo, &highs = columns_.visible_hi;
         // Most functions have one, and this is asked for every segment of a mesh.
-        if (visible_.size() == 1) return visible_[0].lo <= hi && lo <= visible_[0].hi;
-        const auto range =
-            std::lower_bound(visible_.begin(), visible_.end(), lo,
-                             [](const Range& r, double value) { return r.hi < value; });
-        return range != visible_.end() && range->lo <= hi;
+        if (columns_.visible_count == 1) return lows[0] <= hi && lo <= highs[0];
+        const auto end = highs.begin() + static_cast<std::ptrdiff_t>(columns_.visible_count);
+        const auto range = std::lower_bound(highs.begin(), end, lo);
+        return range != end && lows[static_cast<std::size_t>(range - highs.begin())] <= hi;
     }
     double brightest() const { return brightest_; }  // largest colour component of all
 
@@ -44,11 +44,7 @@ class TransferIntervals {
     void add_constant(const TransferKnot& knot);
     void find_visible();
 
-    struct Range {
-        double lo, hi;
-    };
     std::vector<IntervalColor> colors_;
-    std::vector<Range> visible_;  // sorted, disjoint
     IntervalColumns columns_;
     double brightest_ = 0;
 };

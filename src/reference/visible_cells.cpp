@@ -63,8 +63,7 @@ class SampleRows {
     }
 
     // Sets the bits of the rows of cells, block by block: 1 where a cell may have a value of the
-    // range. A sample that is no number sets none: its cells are
-    // transparent.
+    // range. A sample that is no number sets none: its cells are transparent.
     void mark(const SampleRange<Sample>& range, std::uint8_t* rows) {
         for (std::int64_t z = 0; z <= edge; ++z) {
             for (std::int64_t y = 0; y <= edge; ++y) find_sides(range, y, z);
@@ -82,12 +81,11 @@ class SampleRows {
     std::uint8_t* at(std::int64_t y, std::int64_t z) {
         return sides_.data() + (z * (edge + 1) + y) * (width_ + 1);
     }
-    static void join(std::uint8_t* sides, const std::uint8_t* others, std::int64_t count) {
-        for (std::int64_t x = 0; x < count; ++x) sides[x] |= others[x];
+    void join(std::uint8_t* sides, const std::uint8_t* others) const {
+        for (std::int64_t x = 0; x < width_; ++x) sides[x] |= others[x];
     }
-    void join(std::uint8_t* sides, const std::uint8_t* others) { join(sides, others, width_); }
 
-    // Of the pairs of samples along x.
+    // Sets the sides of each pair of samples along x.
     void find_sides(const SampleRange<Sample>& range, std::int64_t y, std::int64_t z) {
         const std::int64_t row = std::min(y_ + y, size_[1] - 1);
         const std::int64_t slice = std::min(z_ + z, size_[2] - 1);
@@ -121,8 +119,7 @@ std::vector<SampleRange<Sample>> sample_ranges(const IntervalColumns& columns) {
     const auto add = [&](double lo, double hi) {
         if (const SampleRange<Sample> range(lo, hi); !range.out_of_reach()) ranges.push_back(range);
     };
-    const auto beyond = std::ranges::find(columns.visible_lo, INFINITY);
-    const auto count = static_cast<std::size_t>(beyond - columns.visible_lo.begin());
+    const std::size_t count = columns.visible_count;
     if (count > most_ranges) {
         add(columns.visible_lo[0], columns.visible_hi[count - 1]);
     } else {
