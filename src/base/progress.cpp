@@ -44,12 +44,18 @@ bool Progress::is_quiet() {
 void Progress::advance(std::int64_t steps) {
     const std::int64_t done = done_ += steps;
     if (!visible_) return;
-    const std::unique_lock lock(drawing_, std::try_to_lock);
-    const double pause = listener_ != nullptr ? report_seconds : redraw_seconds;
+    // The end is always heard: its thread waits for one that is about to report an earlier share.
     const bool last = listener_ != nullptr && done >= total_;
-    if (!lock || (!last && watch_.seconds() - last_drawn_ < pause)) return;
+    std::unique_lock lock(drawing_, std::defer_lock);
+    if (last) {
+        lock.lock();
+    } else if (!lock.try_lock()) {
+        return;
+    }
+    const double pause = listener_ != nullptr ? report_seconds : redraw_seconds;
+    if (!last && watch_.seconds() - last_drawn_ < pause) return;
     last_drawn_ = watch_.seconds();
-    draw(done);
+    draw(done_);  // what is done now: shares of several threads never fall
 }
 
 void Progress::draw(std::int64_t done) {

@@ -7,11 +7,14 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "base/parallel.h"
 #include "support/temporary_folder.h"
 
 namespace lamina {
@@ -89,6 +92,26 @@ TEST(Progress, IsSilentWhenQuiet) {
     Progress::set_quiet(true);
     EXPECT_EQ(seen_on_terminal(), ".");
     Progress::set_quiet(false);
+}
+
+// Work shorter than the pause between two reports has its end to report alone. Two cores reach it
+// together in some of the many pieces of work.
+TEST(Progress, ItsEndIsHeardHoweverShortTheWork) {
+    for (int i = 0; i < 5000; ++i) {
+        std::vector<double> shares;
+        ProgressListener listener;
+        listener.report = [&](const std::string&, double share) { shares.push_back(share); };
+        Client client;
+        client.progress = &listener;
+        const ClientScope scope(client);
+        {
+            Progress progress("tracing", 64);
+            parallel_for(64, 1, [&](std::int64_t) { progress.advance(); });
+        }
+        ASSERT_FALSE(shares.empty()) << i;
+        ASSERT_EQ(shares.back(), 1) << i;
+        ASSERT_TRUE(std::is_sorted(shares.begin(), shares.end())) << i;
+    }
 }
 
 }  // namespace
