@@ -15,11 +15,6 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// x and y of a point at distance P (1-norm) from the ray's origin are off by less than 8 epsilon P:
-// half an ulp from each difference, three products and two sums, and axes that are across the ray
-// to 4 ulps.
-constexpr double place_error = 8 * epsilon;
-
 // An open face that is met by this share of the scale before the last exit still counts as met
 // after it, because crossings are good to some epsilon of the distance, and meshes may touch
 // themselves.
@@ -47,29 +42,48 @@ Nearest nearest(double ax, double ay, double bx, double by) {
 }  // namespace
 
 void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction) {
-    origin_ = origin;
-    direction_ = direction;
-    direction_square_ = glm::dot(direction, direction);
-    const glm::dvec3 d = direction / std::sqrt(direction_square_);
+    set_line(origin, direction);
+    tree_.visit([&](const FaceTree::Box& box) { return meets(box); },
+                [&](std::int32_t index) { test_open_face(index); });
+    sort_crossings();
+}
+
+void RayWalk::aim(const glm::dvec3& origin, const glm::dvec3& direction,
+                  std::span<const std::int32_t> faces) {
+    set_line(origin, direction);
+    for (const std::int32_t index : faces) test_open_face(index);
+    sort_crossings();
+}
+
+void RayWalk::set_line(const glm::dvec3& origin, const glm::dvec3& direction) {
+    line_.origin = origin;
+    line_.direction = direction;
+    line_.direction_square = glm::dot(direction, direction);
+    const glm::dvec3 d = direction / std::sqrt(line_.direction_square);
     const glm::dvec3 a = glm::abs(d);
     const glm::dvec3 axis = a.x <= a.y && a.x <= a.z ? glm::dvec3(1, 0, 0)
                             : a.y <= a.z             ? glm::dvec3(0, 1, 0)
                                                      : glm::dvec3(0, 0, 1);
-    across_x_ = glm::normalize(glm::cross(axis, d));
-    across_y_ = glm::cross(d, across_x_);
-    extent_x_ = glm::abs(across_x_);
-    extent_y_ = glm::abs(across_y_);
+    line_.across_x = glm::normalize(glm::cross(axis, d));
+    line_.across_y = glm::cross(d, line_.across_x);
+    extent_x_ = glm::abs(line_.across_x);
+    extent_y_ = glm::abs(line_.across_y);
     origin_norm_ = norm1(origin);
-    find_crossings();
+    entries_.clear();
+    exits_.clear();
 }
 
-LAMINA_IN_CLONES RayWalk::Seen RayWalk::see(std::int32_t point) const {
-    const glm::dvec3 p = mesh_.points()[static_cast<std::size_t>(point)] - origin_;
-    return {point, glm::dot(p, across_x_), glm::dot(p, across_y_),
-            glm::dot(p, direction_) / direction_square_, place_error * norm1(p)};
+void RayWalk::test_open_face(std::int32_t index) {
+    test_face(mesh_.open_faces()[static_cast<std::size_t>(index)]);
 }
 
-LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const {
+LAMINA_IN_CLONES RayWalk::Corner RayWalk::see(std::int32_t point) const {
+    const glm::dvec3 p = mesh_.points()[static_cast<std::size_t>(point)] - line_.origin;
+    return {point, glm::dot(p, line_.across_x), glm::dot(p, line_.across_y),
+            glm::dot(p, line_.direction) / line_.direction_square, place_error * norm1(p)};
+}
+
+LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Corner& a, const Corner& b) const {
     const double area = difference_of_products(a.x, b.y, a.y, b.x);
     const double error = (std::abs(a.x) + std::abs(a.y) + a.reach) * b.reach +
                          (std::abs(b.x) + std::abs(b.y)) * a.reach + epsilon * std::abs(area);
@@ -86,16 +100,17 @@ LAMINA_IN_CLONES RayWalk::Side RayWalk::side(const Seen& a, const Seen& b) const
 // points p != q one of them is not 0.
 int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     const glm::dvec3 none(0);
-    if (const int sign = sign_of_determinant(direction_, none, p, origin_, q, origin_)) return sign;
+    const glm::dvec3 &origin = line_.origin, &direction = line_.direction;
+    if (const int sign = sign_of_determinant(direction, none, p, origin, q, origin)) return sign;
     const std::array<glm::dvec3, 3> axes{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0),
                                          glm::dvec3(0, 0, 1)};
     for (const glm::dvec3& axis : axes) {  // e_i . (d x E)
-        if (const int sign = sign_of_determinant(axis, none, direction_, none, q, p)) return sign;
+        if (const int sign = sign_of_determinant(axis, none, direction, none, q, p)) return sign;
     }
     const auto sign_of = [](double a, double b) { return a > b ? 1 : a < b ? -1 : 0; };
     for (int i = 0; i < 3; ++i) {  // f^(i+1) times (P x Q)_i - (e x E)_i
         const auto axis = static_cast<std::size_t>(i);
-        if (const int sign = sign_of_determinant(axes[axis], none, p, origin_, q, origin_))
+        if (const int sign = sign_of_determinant(axes[axis], none, p, origin, q, origin))
             return sign;
         // -(e x E)_i = e_k E_j - e_j E_k with j, k after i: the lower power of e first.
         const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -106,13 +121,13 @@ int RayWalk::exact_side(const glm::dvec3& p, const glm::dvec3& q) const {
     return 1;  // one point in two places of the mesh: an edge without length
 }
 
-FaceCrossing RayWalk::crossing(const Front& front) {
-    const auto& [corners, sides] = front;
+FaceCrossing RayWalk::crossing(const RayFront& front) {
+    const auto& [corners, areas] = front;
     FaceCrossing result;
     for (std::size_t i = 0; i < 3; ++i) result.corners[i] = corners[i].point;
-    if (sides[0].area > 0 && sides[1].area > 0 && sides[2].area > 0) {
-        const double sum = sides[0].area + sides[1].area + sides[2].area;
-        result.weights = {sides[1].area / sum, sides[2].area / sum, sides[0].area / sum};
+    if (areas[0] > 0 && areas[1] > 0 && areas[2] > 0) {
+        const double sum = areas[0] + areas[1] + areas[2];
+        result.weights = {areas[1] / sum, areas[2] / sum, areas[0] / sum};
     } else {  // the line is within rounding of an edge or a corner, and that is the place
         double best = INFINITY;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -132,22 +147,25 @@ FaceCrossing RayWalk::crossing(const Front& front) {
 }
 
 // The corners are counter-clockwise for a line that comes in.
-LAMINA_IN_CLONES std::array<RayWalk::Seen, 3> RayWalk::see_face(const TetFace& face) const {
+LAMINA_IN_CLONES std::array<RayWalk::Corner, 3> RayWalk::see_face(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(mesh_.tets()[static_cast<std::size_t>(face.tet)],
                                            static_cast<std::size_t>(face.face));
     return {see(a), see(c), see(b)};
 }
 
-LAMINA_IN_CLONES RayWalk::Front RayWalk::front_of(const std::array<Seen, 3>& p) const {
-    return {p, {side(p[0], p[1]), side(p[1], p[2]), side(p[2], p[0])}};
+LAMINA_IN_CLONES std::array<RayWalk::Side, 3> RayWalk::sides_of(
+    const std::array<Corner, 3>& p) const {
+    return {side(p[0], p[1]), side(p[1], p[2]), side(p[2], p[0])};
 }
 
-LAMINA_CLONE_FOR_FMA RayWalk::Front RayWalk::front_of(const TetFace& face) const {
-    return front_of(see_face(face));
+LAMINA_CLONE_FOR_FMA RayFront RayWalk::front_of(const TetFace& face) const {
+    const std::array<Corner, 3> corners = see_face(face);
+    const auto [first, second, third] = sides_of(corners);
+    return {corners, {first.area, second.area, third.area}};
 }
 
 // Whether the line passes the corners on one side of an axis across it, whatever their rounding.
-LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Seen, 3>& p) {
+LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Corner, 3>& p) {
     const double reach = std::max({p[0].reach, p[1].reach, p[2].reach});
     const auto aside = [&](double a, double b, double c) {
         return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
@@ -156,34 +174,30 @@ LAMINA_IN_CLONES bool RayWalk::passes(const std::array<Seen, 3>& p) {
 }
 
 LAMINA_CLONE_FOR_FMA void RayWalk::test_face(const TetFace& face) {
-    const std::array<Seen, 3> corners = see_face(face);
+    const std::array<Corner, 3> corners = see_face(face);
     if (passes(corners)) return;
-    Front front = front_of(corners);
-    const int sign = front.sides[0].sign;
-    if (front.sides[1].sign != sign || front.sides[2].sign != sign) return;
-    if (sign > 0) {
-        entries_.push_back({face, crossing(front).at});
+    const auto [first, second, third] = sides_of(corners);
+    if (second.sign != first.sign || third.sign != first.sign) return;
+    const bool enters = first.sign > 0;
+    const double sign = enters ? 1 : -1;
+    const double at =
+        crossing({corners, {sign * first.area, sign * second.area, sign * third.area}}).at;
+    if (enters) {
+        entries_.push_back({face, at});
     } else {
-        for (Side& side : front.sides) side = side.turned();
-        exits_.push_back(crossing(front).at);
+        exits_.push_back(at);
     }
 }
 
 bool RayWalk::meets(const FaceTree::Box& box) const {
-    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max - origin_;
+    const glm::dvec3 center = 0.5 * box.min + 0.5 * box.max - line_.origin;
     const glm::dvec3 half = 0.5 * box.max - 0.5 * box.min;
     const double margin = 2 * place_error * (norm1(center) + norm1(half) + origin_norm_);
-    return std::abs(glm::dot(center, across_x_)) <= glm::dot(half, extent_x_) + margin &&
-           std::abs(glm::dot(center, across_y_)) <= glm::dot(half, extent_y_) + margin;
+    return std::abs(glm::dot(center, line_.across_x)) <= glm::dot(half, extent_x_) + margin &&
+           std::abs(glm::dot(center, line_.across_y)) <= glm::dot(half, extent_y_) + margin;
 }
 
-void RayWalk::find_crossings() {
-    entries_.clear();
-    exits_.clear();
-    const auto test = [&](std::int32_t index) {
-        test_face(mesh_.open_faces()[static_cast<std::size_t>(index)]);
-    };
-    tree_.visit([&](const FaceTree::Box& box) { return meets(box); }, test);
+void RayWalk::sort_crossings() {
     std::sort(entries_.begin(), entries_.end(),
               [](const Entry& a, const Entry& b) { return a.at < b.at; });
     std::sort(exits_.begin(), exits_.end());
@@ -195,27 +209,26 @@ void RayWalk::find_crossings() {
     }
 }
 
-// Fills in where the line leaves segment.tet, and moves the front there; returns the tet behind.
 // The line passes inside the front's three edges. Turning about the line from corner to corner, the
 // edges to the fourth corner change from one side of the line to the other and back: the line
-// leaves through the face of the two corners i, j where they change from negative to positive.
-LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, Front& front) const {
+// leaves through the face of the two corners i, j where they change from negative to positive. The
+// fourth corner takes the place of the one that is left behind.
+LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
     const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
-    const auto& entered = segment.in.corners;
-    std::size_t apex = 0;
-    while (tet[apex] == entered[0] || tet[apex] == entered[1] || tet[apex] == entered[2]) ++apex;
-    const Seen top = see(tet[apex]);
-    const auto& p = front.corners;
+    auto& [p, areas] = front;
+    // Of the tet's corners the front has all but one, and these cancel.
+    const Corner top =
+        see(tet[0] ^ tet[1] ^ tet[2] ^ tet[3] ^ p[0].point ^ p[1].point ^ p[2].point);
     const std::array<Side, 3> to_top{side(p[0], top), side(p[1], top), side(p[2], top)};
     std::size_t i = 0;
     while (i < 2 && !(to_top[i].sign < 0 && to_top[(i + 1) % 3].sign > 0)) ++i;
-    const std::size_t j = (i + 1) % 3;
-    const std::int32_t left_behind = entered[(j + 1) % 3];
-    front = {{p[i], p[j], top}, {front.sides[i], to_top[j], to_top[i].turned()}};
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const auto face = static_cast<std::size_t>(std::ranges::find(tet, p[k].point) - tet.begin());
+    p[k] = top;
+    areas[j] = to_top[j].area;
+    areas[k] = -to_top[i].area;
     segment.out = crossing(front);
     segment.out.at = std::max(segment.out.at, segment.in.at);
-    const auto face =
-        static_cast<std::size_t>(std::find(tet.begin(), tet.end(), left_behind) - tet.begin());
     return mesh_.neighbors()[static_cast<std::size_t>(segment.tet)][face];
 }
 

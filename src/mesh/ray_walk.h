@@ -7,10 +7,13 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "mesh/face_tree.h"
+#include "mesh/line_frame.h"
+#include "mesh/ray_front.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
@@ -35,16 +38,24 @@ struct TetSegment {
     FaceCrossing in, out;  // in.at <= out.at
 };
 
-// A line origin + t * direction for all real t, taken as exact. Where it meets an edge or a point,
-// it is displaced by an infinitesimal amount that is the same for all tets (simulation of
-// simplicity, Edelsbrunner and Muecke 1990). Each thread needs its own object, which keeps its
-// memory from line to line.
+// A line. Where it meets an edge or a point, it is displaced by an infinitesimal amount that is the
+// same for all tets (simulation of simplicity, Edelsbrunner and Muecke 1990). Each thread needs its
+// own object, which keeps its memory from line to line.
 class RayWalk {
   public:
     RayWalk(const TetMesh& mesh, const FaceTree& open_faces) : mesh_(mesh), tree_(open_faces) {}
 
+    // A corner's position across the line is off by less than this times its distance from the
+    // origin (1-norm): 8 epsilon, half an ulp from each difference, three products and two sums,
+    // and axes that are across the line to 4 ulps.
+    static constexpr double place_error = 8 * std::numeric_limits<double>::epsilon();
+
     // Sets the line and finds where it enters and leaves the mesh.
     void aim(const glm::dvec3& origin, const glm::dvec3& direction);
+    // The same. `faces`: open faces by their indices, among them all that the line meets.
+    void aim(const glm::dvec3& origin, const glm::dvec3& direction,
+             std::span<const std::int32_t> faces);
+    const LineFrame& line() const { return line_; }
 
     struct Entry {
         TetFace face;
@@ -58,7 +69,7 @@ class RayWalk {
     // returns false.
     template <typename Visit>
     void follow(const Entry& entry, const Visit& visit) const {
-        Front front = front_of(entry.face);
+        RayFront front = front_of(entry.face);
         TetSegment segment{entry.face.tet, crossing(front), {}};
         // Each tet is passed at most once. The limit ends walks in meshes that are not valid.
         for (std::size_t steps = 0; steps < mesh_.tets().size(); ++steps) {
@@ -69,49 +80,42 @@ class RayWalk {
         }
     }
 
+    // The steps of follow(): the face where the line enters, ...
+    RayFront front_of(const TetFace& face) const;
+    static FaceCrossing crossing(const RayFront& front);
+    // ... and one tet. Fills in where the line leaves segment.tet, and moves the front there;
+    // returns the tet behind, or TetMesh::no_neighbor.
+    std::int32_t step(TetSegment& segment, RayFront& front) const;
+
     // Lists all segments of all entries, in ascending order of their entry.
     void list(std::vector<TetSegment>& segments) const;
 
   private:
-    // A point seen along the line: its position in the plane across the line, and its parameter.
-    struct Seen {
-        std::int32_t point;
-        double x, y, at;
-        double reach;  // bounds the rounding of x and y
-    };
+    using Corner = RayFront::Corner;
     // The side of the line on which the edge from a to b passes, and twice the area of the triangle
     // of the line, a and b.
     struct Side {
         double area;  // has the sign below, or is 0 where rounding gave the other sign
         int sign;     // exact, never 0
-        Side turned() const { return {-area, -sign}; }
-    };
-    // A face through which the line enters a tet. The sides of its edges 01, 12, 20 are all
-    // positive.
-    struct Front {
-        std::array<Seen, 3> corners;
-        std::array<Side, 3> sides;
     };
 
-    Seen see(std::int32_t point) const;
-    Side side(const Seen& a, const Seen& b) const;
+    Corner see(std::int32_t point) const;
+    Side side(const Corner& a, const Corner& b) const;
     int exact_side(const glm::dvec3& p, const glm::dvec3& q) const;
-    std::array<Seen, 3> see_face(const TetFace& face) const;
-    static bool passes(const std::array<Seen, 3>& corners);
-    Front front_of(const std::array<Seen, 3>& corners) const;
-    Front front_of(const TetFace& face) const;
+    std::array<Corner, 3> see_face(const TetFace& face) const;
+    std::array<Side, 3> sides_of(const std::array<Corner, 3>& corners) const;
+    static bool passes(const std::array<Corner, 3>& corners);
     void test_face(const TetFace& face);
-    static FaceCrossing crossing(const Front& front);
     bool meets(const FaceTree::Box& box) const;
-    void find_crossings();
-    std::int32_t step(TetSegment& segment, Front& front) const;
+    void set_line(const glm::dvec3& origin, const glm::dvec3& direction);
+    void test_open_face(std::int32_t index);
+    void sort_crossings();
 
     const TetMesh& mesh_;
     const FaceTree& tree_;
-    glm::dvec3 origin_{0}, direction_{0};
-    glm::dvec3 across_x_{0}, across_y_{0};  // unit vectors; x, y, direction are right-handed
-    glm::dvec3 extent_x_{0}, extent_y_{0};  // how far a unit along each axis reaches along them
-    double direction_square_ = 1;
+    LineFrame line_;
+    glm::dvec3 extent_x_{0},
+        extent_y_{0};  // how far a unit along each axis reaches across the line
     double origin_norm_ = 0;
     std::vector<Entry> entries_;
     std::vector<double> exits_;

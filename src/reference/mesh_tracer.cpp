@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -13,8 +14,10 @@
 #include "mesh/point_gradients.h"
 #include "mesh/ray_walk.h"
 #include "optics/ray_lights.h"
+#include "reference/packet_walk.h"
 #include "reference/seen_segment.h"
 #include "reference/segment_sum.h"
+#include "reference/tile_faces.h"
 #include "reference/transfer_intervals.h"
 
 namespace lamina {
@@ -52,60 +55,127 @@ class MeshTileTracer {
 
     MeshTileTotals trace(const PictureTile& tile, PreciseImage& image) const {
         MeshTileTotals totals;
-        RayWalk walk(mesh_, open_faces_);
-        SegmentSum sum(transfer_function_, intervals_,
-                       place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
-                       options_.tolerance);
-        for (int row = tile.row; row < tile.row + tile.height; ++row) {
-            check_interrupt();
-            trace_row(tile, row, walk, sum, image, totals);
+        PacketWalk walk(mesh_, open_faces_, scalar_);
+        std::vector<MeshRay> rays;
+        rays.reserve(PacketWalk::width);  // sums point to the lights beside them
+        for (std::size_t lane = 0; lane < PacketWalk::width; ++lane) rays.emplace_back(new_sum());
+        TileFaces faces(mesh_, open_faces_, view_);
+        const TileFaces* const listed = faces.list(tile) ? &faces : nullptr;
+        PixelsLeft pixels(tile);
+        while (true) {
+            for (std::size_t lane = 0; lane < PacketWalk::width; ++lane) {
+                while (!walk.walks(lane) && !pixels.none()) {
+                    begin(pixels.next(), listed, rays[lane], walk.ray(lane));
+                    go_on(lane, rays[lane], walk, image, totals);
+                }
+            }
+            if (!walk.any_walks()) return totals;
+            walk.step();
+            walk.for_each([&](std::size_t lane) {
+                MeshRay& ray = rays[lane];
+                add_segment(walk, lane, ray);
+                if (!walk.left(lane) && !ray.sum.opaque()) return;
+                walk.stop(lane);
+                go_on(lane, ray, walk, image, totals);
+            });
         }
-        return totals;
     }
 
   private:
-    void trace_row(const PictureTile& tile, int row, RayWalk& walk, SegmentSum& sum,
-                   PreciseImage& image, MeshTileTotals& totals) const {
-        std::vector<TetSegment> listed;
-        for (int column = tile.column; column < tile.column + tile.width; ++column) {
-            const View::Ray ray = view_.ray(column, row);
-            const double world_per_z = glm::length(ray.direction);
-            std::optional<RayLights> lights;
-            if (options_.lighting) lights.emplace(*options_.lighting, -ray.direction);
-            sum.begin(lights ? &*lights : nullptr);
-            walk.aim(ray.origin, ray.direction);
-            const SeenRange seen = seen_range(options_.clip, ray);
-            const auto add = [&](const TetSegment& segment) {
-                add_segment(segment, seen, world_per_z, sum);
-                return !sum.opaque();
-            };
-            if (walk.overlapping()) {
-                ++totals.overlapping;
-                walk.list(listed);
-                for (const TetSegment& segment : listed) add(segment);
-            } else {
-                for (const RayWalk::Entry& entry : walk.entries()) {
-                    if (!sum.opaque()) walk.follow(entry, add);
-                }
-            }
-            sum.finish();
-            double* const pixel = image.pixel(column, row);
-            for (int channel = 0; channel < 3; ++channel) pixel[channel] = color_of(sum)[channel];
-            pixel[3] = sum.alpha();
-            totals.error_estimate = std::max(totals.error_estimate, sum.error_estimate());
-            totals.segments += sum.segments();
+    // The pixels of a tile, row by row.
+    class PixelsLeft {
+      public:
+        explicit PixelsLeft(const PictureTile& tile) : tile_(tile) {}
+        bool none() const { return row_ == tile_.height; }
+        glm::ivec2 next() {
+            const glm::ivec2 pixel(tile_.column + column_, tile_.row + row_);
+            if (++column_ < tile_.width) return pixel;
+            check_interrupt();
+            column_ = 0;
+            ++row_;
+            return pixel;
+        }
+
+      private:
+        const PictureTile& tile_;
+        int column_ = 0, row_ = 0;
+    };
+
+    struct MeshRay {
+        explicit MeshRay(const SegmentSum& empty) : sum(empty) {}
+
+        glm::ivec2 pixel{0};
+        SeenRange seen{};
+        double world_per_z = 1;
+        std::size_t entered = 0;  // number of entries that are done
+        std::optional<RayLights> lights;
+        SegmentSum sum;
+    };
+
+    SegmentSum new_sum() const {
+        return {transfer_function_, intervals_,
+                place_epsilons * std::numeric_limits<double>::epsilon() * reach_,
+                options_.tolerance};
+    }
+
+    void begin(const glm::ivec2& pixel, const TileFaces* faces, MeshRay& ray, RayWalk& walk) const {
+        const View::Ray seen = view_.ray(pixel.x, pixel.y);
+        ray.pixel = pixel;
+        ray.world_per_z = glm::length(seen.direction);
+        ray.seen = seen_range(options_.clip, seen);
+        ray.entered = 0;
+        if (options_.lighting) ray.lights.emplace(*options_.lighting, -seen.direction);
+        ray.sum.begin(ray.lights ? &*ray.lights : nullptr);
+        if (faces != nullptr) return walk.aim(seen.origin, seen.direction, faces->of(pixel));
+        walk.aim(seen.origin, seen.direction);
+    }
+
+    // Enters the mesh once more, or ends the ray.
+    void go_on(std::size_t lane, MeshRay& ray, PacketWalk& packet, PreciseImage& image,
+               MeshTileTotals& totals) const {
+        const RayWalk& walk = packet.ray(lane);
+        if (walk.overlapping()) {
+            ++totals.overlapping;
+            add_overlapping(walk, ray);
+        } else if (ray.entered < walk.entries().size() && !ray.sum.opaque()) {
+            return packet.enter(lane, walk.entries()[ray.entered++]);
+        }
+        ray.sum.finish();
+        double* const pixel = image.pixel(ray.pixel.x, ray.pixel.y);
+        for (int channel = 0; channel < 3; ++channel) pixel[channel] = color_of(ray.sum)[channel];
+        pixel[3] = ray.sum.alpha();
+        totals.error_estimate = std::max(totals.error_estimate, ray.sum.error_estimate());
+        totals.segments += ray.sum.segments();
+    }
+
+    void add_overlapping(const RayWalk& walk, MeshRay& ray) const {
+        std::vector<TetSegment> segments;
+        walk.list(segments);
+        for (const TetSegment& segment : segments) {
+            const auto [least, most] = value_range(segment.tet);
+            add_seen(segment.tet, seen_segment(segment, ray.seen, scalar_), least, most, ray,
+                     [&] { return segment; });
         }
     }
 
-    // Adds the part of the segment that is seen.
-    void add_segment(const TetSegment& segment, const SeenRange& seen, double world_per_z,
-                     SegmentSum& sum) const {
-        if (!no_value_.empty() && no_value_[static_cast<std::size_t>(segment.tet)] != 0) return;
-        const auto [from, to, front, back] = seen_segment(segment, seen, scalar_);
-        if (from == to) return;
-        const double length = (to - from) * world_per_z;
-        if (gradients_.empty()) return sum.add(front, back, length, slack_of(segment.tet));
-        sum.add_lit(front, back, gradient_along(segment, from, to), length, slack_of(segment.tet));
+    void add_segment(const PacketWalk& walk, std::size_t lane, MeshRay& ray) const {
+        const SeenSegment whole{walk.from(lane), walk.to(lane), walk.front(lane), walk.back(lane)};
+        add_seen(walk.tet(lane), seen_segment(whole, ray.seen), walk.least(lane), walk.most(lane),
+                 ray, [&] { return walk.segment(lane); });
+    }
+
+    // Adds the part of a segment that is seen. `least`, `most`: values at the tet's corners.
+    // `segment`() returns the whole one.
+    template <typename Segment>
+    void add_seen(std::int32_t tet, const SeenSegment& part, double least, double most,
+                  MeshRay& ray, const Segment& segment) const {
+        if (!no_value_.empty() && no_value_[static_cast<std::size_t>(tet)] != 0) return;
+        if (part.from == part.to) return;
+        const double length = (part.to - part.from) * ray.world_per_z;
+        const double slack = slack_of(least, most);
+        if (gradients_.empty()) return ray.sum.add(part.front, part.back, length, slack);
+        ray.sum.add_lit(part.front, part.back, gradient_along(segment(), part.from, part.to),
+                        length, slack);
     }
 
     // Between two parameters of the ray: linear.
@@ -134,17 +204,23 @@ class MeshTileTracer {
         return gradients_.empty() ? sum.color() : glm::max(sum.color(), glm::dvec3(0));
     }
 
-    // Returns how far interpolation may be off inside a tet. Constant values are exact.
-    double slack_of(std::int32_t tet) const {
-        double lo = INFINITY, hi = -INFINITY;
+    struct Range {
+        double least, most;
+    };
+    Range value_range(std::int32_t tet) const {
+        Range range{INFINITY, -INFINITY};
         for (const std::int32_t corner : mesh_.tets()[static_cast<std::size_t>(tet)]) {
             const double value = scalar_[static_cast<std::size_t>(corner)];
-            lo = std::min(lo, value);
-            hi = std::max(hi, value);
+            range = {std::min(range.least, value), std::max(range.most, value)};
         }
-        if (lo == hi) return 0;
+        return range;
+    }
+
+    // Returns how far interpolation may be off inside a tet. Constant values are exact.
+    static double slack_of(double least, double most) {
+        if (least == most) return 0;
         return value_epsilons * std::numeric_limits<double>::epsilon() *
-               std::max(std::abs(lo), std::abs(hi));
+               std::max(std::abs(least), std::abs(most));
     }
 
     const TetMesh& mesh_;

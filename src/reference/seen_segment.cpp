@@ -13,13 +13,10 @@ SeenRange seen_range(std::span<const HalfSpace> clip, const View::Ray& ray) {
     return {span.from.rounded(), span.to.hi == INFINITY ? INFINITY : span.to.rounded()};
 }
 
-SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
-                         std::span<const double> scalar) {
-    if (segment.out.at <= seen.from || segment.in.at >= seen.to || seen.from >= seen.to)
-        return {0, 0, 0, 0};
-    SeenSegment part{segment.in.at, segment.out.at, segment.in.interpolate(scalar),
-                     segment.out.interpolate(scalar)};
-    if (part.to <= seen.to && part.from >= seen.from) return part;
+SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen) {
+    if (whole.from >= seen.from && whole.to <= seen.to) return whole;
+    if (whole.to <= seen.from || whole.from >= seen.to || seen.from >= seen.to) return {0, 0, 0, 0};
+    SeenSegment part = whole;
     const double slope = (part.back - part.front) / (part.to - part.from);
     if (part.to > seen.to) {
         part.back -= slope * (part.to - seen.to);
@@ -30,6 +27,13 @@ SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
         part.from = seen.from;
     }
     return part;
+}
+
+SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
+                         std::span<const double> scalar) {
+    return seen_segment({segment.in.at, segment.out.at, segment.in.interpolate(scalar),
+                         segment.out.interpolate(scalar)},
+                        seen);
 }
 
 }  // namespace lamina

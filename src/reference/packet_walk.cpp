@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/packet_walk.h"
+
+#include <algorithm>
+
+namespace lamina {
+namespace {
+
+void set_vector(std::array<WalkLanes::Row, 3>& rows, std::size_t lane, const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) rows[static_cast<std::size_t>(axis)][lane] = v[axis];
+}
+
+}  // namespace
+
+PacketWalk::PacketWalk(const TetMesh& mesh, const FaceTree& open_faces,
+                       std::span<const double> values)
+    : mesh_(mesh), values_(values), rays_(width, RayWalk(mesh, open_faces)) {}
+
+void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
+    const LineFrame& line = rays_[lane].line();
+    set_vector(lanes_.origin, lane, line.origin);
+    set_vector(lanes_.direction, lane, line.direction);
+    set_vector(lanes_.across_x, lane, line.across_x);
+    set_vector(lanes_.across_y, lane, line.across_y);
+    lanes_.direction_square[lane] = line.direction_square;
+    const RayFront front = rays_[lane].front_of(entry.face);
+    set_front(lane, front);
+    set_crossing(lane, RayWalk::crossing(front));
+    next_[lane] = entry.face.tet;
+    steps_[lane] = 0;
+    walking_ |= 1u << lane;
+}
+
+void PacketWalk::step() {
+    lanes_.in = lanes_.out;
+    for_each([&](std::size_t lane) { fetch(lane); });
+    step_lanes(lanes_);
+    for_each([&](std::size_t lane) {
+        if (lanes_.settled[lane] == 0) return step_alone(lane);
+        const auto number = static_cast<std::size_t>(tets_[lane]);
+        const Tet& tet = mesh_.tets()[number];
+        const auto point = static_cast<std::int32_t>(lanes_.left_behind[lane]);
+        const int face = (tet[1] == point) + 2 * (tet[2] == point) + 3 * (tet[3] == point);
+        set_next(lane, mesh_.neighbors()[number][static_cast<std::size_t>(face)]);
+    });
+}
+
+// Of the tet's corners the front has all but one, and these cancel.
+void PacketWalk::fetch(std::size_t lane) {
+    tets_[lane] = next_[lane];
+    const auto& [first, second, third, fourth] =
+        mesh_.tets()[static_cast<std::size_t>(tets_[lane])];
+    const std::int64_t top = std::int64_t{first ^ second ^ third ^ fourth} ^
+                             lanes_.front[0].point[lane] ^ lanes_.front[1].point[lane] ^
+                             lanes_.front[2].point[lane];
+    const auto point = static_cast<std::size_t>(top);
+    set_vector(lanes_.top, lane, mesh_.points()[point]);
+    lanes_.top_value[lane] = values_[point];
+    lanes_.top_point[lane] = top;
+}
+
+// Each tet is passed at most once. The limit ends walks in meshes that are not valid.
+void PacketWalk::set_next(std::size_t lane, std::int32_t tet) {
+    next_[lane] = ++steps_[lane] < mesh_.tets().size() ? tet : TetMesh::no_neighbor;
+}
+
+// Takes a step that vectors of floats did not decide.
+void PacketWalk::step_alone(std::size_t lane) {
+    const auto value = [&](std::int32_t point) { return values_[static_cast<std::size_t>(point)]; };
+    const auto [least, most] =
+        std::ranges::minmax(mesh_.tets()[static_cast<std::size_t>(tets_[lane])], {}, value);
+    lanes_.least[lane] = value(least);
+    lanes_.most[lane] = value(most);
+    TetSegment segment{tets_[lane], crossing(lanes_.in, lane), {}};
+    RayFront front = front_of(lane);
+    set_next(lane, rays_[lane].step(segment, front));
+    set_front(lane, front);
+    set_crossing(lane, segment.out);
+}
+
+TetSegment PacketWalk::segment(std::size_t lane) const {
+    return {tets_[lane], crossing(lanes_.in, lane), crossing(lanes_.out, lane)};
+}
+
+FaceCrossing PacketWalk::crossing(const WalkLanes::Crossing& rows, std::size_t lane) {
+    FaceCrossing result;
+    for (std::size_t i = 0; i < 3; ++i) {
+        result.corners[i] = static_cast<std::int32_t>(rows.corners[i][lane]);
+        result.weights[i] = rows.weights[i][lane];
+    }
+    result.at = rows.at[lane];
+    return result;
+}
+
+void PacketWalk::set_crossing(std::size_t lane, const FaceCrossing& crossing) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        lanes_.out.corners[i][lane] = crossing.corners[i];
+        lanes_.out.weights[i][lane] = crossing.weights[i];
+    }
+    lanes_.out.at[lane] = crossing.at;
+    lanes_.out.value[lane] = crossing.interpolate(values_);
+}
+
+RayFront PacketWalk::front_of(std::size_t lane) const {
+    RayFront front;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const WalkLanes::Corner& rows = lanes_.front[i];
+        front.corners[i] = {static_cast<std::int32_t>(rows.point[lane]), rows.x[lane], rows.y[lane],
+                            rows.at[lane], rows.reach[lane]};
+        front.areas[i] = lanes_.areas[i][lane];
+    }
+    return front;
+}
+
+void PacketWalk::set_front(std::size_t lane, const RayFront& front) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const RayFront::Corner& corner = front.corners[i];
+        WalkLanes::Corner& rows = lanes_.front[i];
+        rows.point[lane] = corner.point;
+        rows.x[lane] = corner.x;
+        rows.y[lane] = corner.y;
+        rows.at[lane] = corner.at;
+        rows.reach[lane] = corner.reach;
+        rows.value[lane] = values_[static_cast<std::size_t>(corner.point)];
+        lanes_.areas[i][lane] = front.areas[i];
+    }
+}
+
+}  // namespace lamina
