@@ -8,7 +8,7 @@
 
 // After highway.h, which it needs for each target.
 #include "reference/cubic_lanes-inl.h"
-#include "reference/interval_search-inl.h"
+#include "reference/visible_ranges-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -39,27 +39,6 @@ struct CornerLanes {
         return hn::IsFinite(hn::Add(hn::Add(hn::Add(v[0], v[1]), hn::Add(v[2], v[3])),
                                     hn::Add(hn::Add(v[4], v[5]), hn::Add(v[6], v[7]))));
     }
-};
-
-// As TransferIntervals::visible().
-class VisibleRanges {
-  public:
-    HWY_INLINE explicit VisibleRanges(const IntervalColumns& columns)
-        : lo_(columns.visible_lo.data()),
-          hi_(columns.visible_hi.data()),
-          count_(columns.visible_count) {}
-
-    HWY_INLINE Mask meet(Doubles lo, Doubles hi) const {
-        // Most functions have one.
-        if (count_ <= 1) return hn::And(hn::Le(number(lo_[0]), hi), hn::Le(lo, number(hi_[0])));
-        const Numbers below =
-            count_first(hi_, count_, [&](Doubles end) HWY_ATTR { return hn::Lt(end, lo); });
-        return hn::Le(hn::GatherIndex(Lanes(), lo_, below), hi);
-    }
-
-  private:
-    const double *lo_, *hi_;
-    std::size_t count_;
 };
 
 // The chord inside cells, in the cells' coordinates: start + t * step, 0 <= t <= 1.

@@ -26,60 +26,64 @@ void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
     const RayFront front = rays_[lane].front_of(entry.face);
     set_front(lane, front);
     set_crossing(lane, RayWalk::crossing(front));
-    next_[lane] = entry.face.tet;
+    walking_ |= bit(lane);
     steps_[lane] = 0;
-    walking_ |= 1u << lane;
+    move(lane, entry.face.tet);
 }
 
 void PacketWalk::step() {
-    lanes_.in = lanes_.out;
-    for_each([&](std::size_t lane) { fetch(lane); });
+    left_ = 0;
+    lanes_.entry = 1 - lanes_.entry;
     step_lanes(lanes_);
-    for_each([&](std::size_t lane) {
-        if (lanes_.settled[lane] == 0) return step_alone(lane);
-        const auto number = static_cast<std::size_t>(tets_[lane]);
-        const Tet& tet = mesh_.tets()[number];
-        const auto point = static_cast<std::int32_t>(lanes_.left_behind[lane]);
-        const int face = (tet[1] == point) + 2 * (tet[2] == point) + 3 * (tet[3] == point);
-        set_next(lane, mesh_.neighbors()[number][static_cast<std::size_t>(face)]);
+    for_each(walking_, [&](std::size_t lane) {
+        passed_[lane] = tets_[lane];
+        move(lane, lanes_.settled[lane] != 0 ? tet_behind(lane) : step_alone(lane));
     });
 }
 
-// Of the tet's corners the front has all but one, and these cancel.
-void PacketWalk::fetch(std::size_t lane) {
-    tets_[lane] = next_[lane];
-    const auto& [first, second, third, fourth] =
-        mesh_.tets()[static_cast<std::size_t>(tets_[lane])];
-    const std::int64_t top = std::int64_t{first ^ second ^ third ^ fourth} ^
-                             lanes_.front[0].point[lane] ^ lanes_.front[1].point[lane] ^
-                             lanes_.front[2].point[lane];
+std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
+    const auto number = static_cast<std::size_t>(tets_[lane]);
+    const Tet& tet = mesh_.tets()[number];
+    const auto left = static_cast<std::int32_t>(lanes_.left_behind[lane]);
+    const int face = (tet[1] == left) + 2 * (tet[2] == left) + 3 * (tet[3] == left);
+    return mesh_.neighbors()[number][static_cast<std::size_t>(face)];
+}
+
+// Each tet is passed at most once. The limit ends walks in meshes that are not valid.
+void PacketWalk::move(std::size_t lane, std::int32_t tet) {
+    if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) {
+        walking_ &= ~bit(lane);
+        left_ |= bit(lane);
+        return;
+    }
+    tets_[lane] = tet;
+    const auto& [a, b, c, d] = mesh_.tets()[static_cast<std::size_t>(tet)];
+    // Of the tet's corners the front has all but one, and these cancel.
+    const std::int64_t top = std::int64_t{a ^ b ^ c ^ d} ^ lanes_.front[0].point[lane] ^
+                             lanes_.front[1].point[lane] ^ lanes_.front[2].point[lane];
     const auto point = static_cast<std::size_t>(top);
     set_vector(lanes_.top, lane, mesh_.points()[point]);
     lanes_.top_value[lane] = values_[point];
     lanes_.top_point[lane] = top;
 }
 
-// Each tet is passed at most once. The limit ends walks in meshes that are not valid.
-void PacketWalk::set_next(std::size_t lane, std::int32_t tet) {
-    next_[lane] = ++steps_[lane] < mesh_.tets().size() ? tet : TetMesh::no_neighbor;
-}
-
 // Takes a step that vectors of floats did not decide.
-void PacketWalk::step_alone(std::size_t lane) {
+std::int32_t PacketWalk::step_alone(std::size_t lane) {
     const auto value = [&](std::int32_t point) { return values_[static_cast<std::size_t>(point)]; };
     const auto [least, most] =
         std::ranges::minmax(mesh_.tets()[static_cast<std::size_t>(tets_[lane])], {}, value);
     lanes_.least[lane] = value(least);
     lanes_.most[lane] = value(most);
-    TetSegment segment{tets_[lane], crossing(lanes_.in, lane), {}};
+    TetSegment segment{tets_[lane], crossing(lanes_.in(), lane), {}};
     RayFront front = front_of(lane);
-    set_next(lane, rays_[lane].step(segment, front));
+    const std::int32_t behind = rays_[lane].step(segment, front);
     set_front(lane, front);
     set_crossing(lane, segment.out);
+    return behind;
 }
 
 TetSegment PacketWalk::segment(std::size_t lane) const {
-    return {tets_[lane], crossing(lanes_.in, lane), crossing(lanes_.out, lane)};
+    return {passed_[lane], crossing(lanes_.in(), lane), crossing(lanes_.out(), lane)};
 }
 
 FaceCrossing PacketWalk::crossing(const WalkLanes::Crossing& rows, std::size_t lane) {
@@ -94,11 +98,11 @@ FaceCrossing PacketWalk::crossing(const WalkLanes::Crossing& rows, std::size_t l
 
 void PacketWalk::set_crossing(std::size_t lane, const FaceCrossing& crossing) {
     for (std::size_t i = 0; i < 3; ++i) {
-        lanes_.out.corners[i][lane] = crossing.corners[i];
-        lanes_.out.weights[i][lane] = crossing.weights[i];
+        lanes_.out().corners[i][lane] = crossing.corners[i];
+        lanes_.out().weights[i][lane] = crossing.weights[i];
     }
-    lanes_.out.at[lane] = crossing.at;
-    lanes_.out.value[lane] = crossing.interpolate(values_);
+    lanes_.out().at[lane] = crossing.at;
+    lanes_.out().value[lane] = crossing.interpolate(values_);
 }
 
 RayFront PacketWalk::front_of(std::size_t lane) const {

@@ -27,36 +27,30 @@ class PacketWalk {
     RayWalk& ray(std::size_t lane) { return rays_[lane]; }
     // The lane's line enters the mesh, and takes part in step() until it leaves or stops.
     void enter(std::size_t lane, const RayWalk::Entry& entry);
-    void stop(std::size_t lane) { walking_ &= ~(1u << lane); }
-    bool walks(std::size_t lane) const { return (walking_ >> lane & 1) != 0; }
-    bool any_walks() const { return walking_ != 0; }
-    // Calls visit(lane) for each that walks. Lanes may stop, and enter again, meanwhile.
+    void stop(std::size_t lane) { walking_ &= ~bit(lane); }
+    // Sets have one bit a lane.
+    std::uint32_t walking() const { return walking_; }
+    static std::uint32_t bit(std::size_t lane) { return 1u << lane; }
     template <typename Visit>
-    void for_each(const Visit& visit) {
-        for (std::uint32_t left = walking_; left != 0; left &= left - 1)
+    static void for_each(std::uint32_t lanes, const Visit& visit) {
+        for (std::uint32_t left = lanes; left != 0; left &= left - 1)
             visit(static_cast<std::size_t>(std::countr_zero(left)));
     }
 
     // Takes every line that walks through one more tet.
     void step();
 
-    // Of the last step: the tet, the parameters and the values where the line entered and left it,
-    // and the range of the values at its corners.
-    std::int32_t tet(std::size_t lane) const { return tets_[lane]; }
-    double from(std::size_t lane) const { return lanes_.in.at[lane]; }
-    double to(std::size_t lane) const { return lanes_.out.at[lane]; }
-    double front(std::size_t lane) const { return lanes_.in.value[lane]; }
-    double back(std::size_t lane) const { return lanes_.out.value[lane]; }
-    double least(std::size_t lane) const { return lanes_.least[lane]; }
-    double most(std::size_t lane) const { return lanes_.most[lane]; }
+    // Of the last step: the lines that left the mesh, the tets, and where the lines entered and
+    // left these.
+    std::uint32_t left() const { return left_; }
+    std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
+    const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;
-    // Whether there is no tet behind that one.
-    bool left(std::size_t lane) const { return next_[lane] == TetMesh::no_neighbor; }
 
   private:
-    void fetch(std::size_t lane);
-    void step_alone(std::size_t lane);
-    void set_next(std::size_t lane, std::int32_t tet);
+    std::int32_t tet_behind(std::size_t lane) const;
+    std::int32_t step_alone(std::size_t lane);
+    void move(std::size_t lane, std::int32_t tet);
     static FaceCrossing crossing(const WalkLanes::Crossing& rows, std::size_t lane);
     void set_crossing(std::size_t lane, const FaceCrossing& crossing);
     RayFront front_of(std::size_t lane) const;
@@ -65,9 +59,9 @@ class PacketWalk {
     const TetMesh& mesh_;
     std::span<const double> values_;
     std::vector<RayWalk> rays_;
-    std::array<std::int32_t, width> tets_{}, next_{};
+    std::array<std::int32_t, width> passed_{}, tets_{};  // by the last step, and by the next one
     std::array<std::size_t, width> steps_{};
-    std::uint32_t walking_ = 0;
+    std::uint32_t walking_ = 0, left_ = 0;
     WalkLanes lanes_{};
 };
 

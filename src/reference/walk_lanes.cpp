@@ -125,7 +125,7 @@ class WalkStep {
 
     // As RayWalk::crossing().
     HWY_INLINE void cross(const Doubles (&areas)[3]) const {
-        WalkLanes::Crossing& out = lanes_.out;
+        WalkLanes::Crossing& out = lanes_.out();
         const Doubles sum = hn::Add(hn::Add(areas[0], areas[1]), areas[2]);
         const Doubles weights[3] = {hn::Div(areas[1], sum), hn::Div(areas[2], sum),
                                     hn::Div(areas[0], sum)};
@@ -135,7 +135,7 @@ class WalkStep {
                 first, hn::Add(hn::Mul(weights[1], hn::Sub(load(lanes_.front[1].*row), first)),
                                hn::Mul(weights[2], hn::Sub(load(lanes_.front[2].*row), first))));
         };
-        store(out.at, hn::Max(interpolated(&WalkLanes::Corner::at), load(lanes_.in.at)));
+        store(out.at, hn::Max(interpolated(&WalkLanes::Corner::at), load(lanes_.in().at)));
         store(out.value, interpolated(&WalkLanes::Corner::value));
         for (std::size_t corner = 0; corner < 3; ++corner) {
             store(out.weights[corner], weights[corner]);

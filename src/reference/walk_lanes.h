@@ -34,14 +34,19 @@ struct WalkLanes {
 
     std::array<Corner, 3> front;
     std::array<Row, 3> areas;
-    Crossing in, out;
+    std::array<Crossing, 2> crossings;  // of the tet that is passed: in() and out()
+    std::size_t entry = 0;              // the number of in(): what was out() becomes in()
+    Crossing& in() { return crossings[entry]; }
+    Crossing& out() { return crossings[1 - entry]; }
+    const Crossing& in() const { return crossings[entry]; }
+    const Crossing& out() const { return crossings[1 - entry]; }
     Row least, most;  // values at the tet's corners
 
     Numbers left_behind;  // the point of the face of entry that is not in the face of exit
     Numbers settled;      // whether the step is done; 0: floats do not decide it
 };
 
-// Takes every line through its tet: from `front`, `top` and `in` to `out`, and to `front` behind.
+// Takes every line through its tet: from `front`, `top` and in() to out(), and to `front` behind.
 // Where floats do not decide the face, these stay as they are.
 void step_lanes(WalkLanes& lanes);
 

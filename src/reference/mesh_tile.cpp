@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/mesh_tile.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "base/interrupt.h"
+
+namespace lamina {
+namespace {
+
+// Ends of segments are accurate to this many epsilons of the largest distance and coordinate on the
+// ray (mesh/ray_walk.h: 8 for a corner's place, as much for weights and parameter).
+constexpr double place_epsilons = 16;
+
+SegmentSum empty_sum(const MeshTile::Picture& picture) {
+    return {picture.transfer_function, picture.intervals,
+            place_epsilons * std::numeric_limits<double>::epsilon() * picture.reach,
+            picture.options.tolerance};
+}
+
+}  // namespace
+
+MeshTile::MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image)
+    : picture_(picture),
+      tile_(tile),
+      image_(image),
+      faces_(picture.mesh, picture.open_faces, picture.view),
+      listed_(faces_.list(tile)),
+      walk_(picture.mesh, picture.open_faces, picture.scalar),
+      rays_(PacketWalk::width, {{0, 0}, 0, std::nullopt, empty_sum(picture)}) {}
+
+MeshTile::Totals MeshTile::trace() {
+    constexpr std::uint32_t all = (1u << PacketWalk::width) - 1;
+    while (true) {
+        PacketWalk::for_each(all & ~walk_.walking(), [&](std::size_t lane) { begin(lane); });
+        if (walk_.walking() == 0) return totals_;
+        const std::uint32_t walked = walk_.walking();
+        walk_.step();
+        find_seen(walk_.lanes(), picture_.intervals.columns(), seen_);
+        PacketWalk::for_each(walked & seen_.shown, [&](std::size_t lane) {
+            add_shown(lane);
+            if (rays_[lane].sum.opaque()) walk_.stop(lane);
+        });
+        PacketWalk::for_each(walked & ~walk_.walking(), [&](std::size_t lane) { go_on(lane); });
+    }
+}
+
+// Row by row.
+glm::ivec2 MeshTile::next_pixel() {
+    const glm::ivec2 pixel(tile_.column + column_, tile_.row + row_);
+    if (column_ == 0) check_interrupt();
+    if (++column_ == tile_.width) {
+        column_ = 0;
+        ++row_;
+    }
+    return pixel;
+}
+
+// Begins rays until one walks, or no pixel is left.
+void MeshTile::begin(std::size_t lane) {
+    MeshRay& ray = rays_[lane];
+    const TraceOptions& options = picture_.options;
+    while (has_pixels() && (walk_.walking() & PacketWalk::bit(lane)) == 0) {
+        ray.pixel = next_pixel();
+        ray.entered = 0;
+        const View::Ray line = picture_.view.ray(ray.pixel.x, ray.pixel.y);
+        const SeenRange range = seen_range(options.clip, line);
+        seen_.first[lane] = range.from;
+        seen_.last[lane] = range.to;
+        seen_.world_per_z[lane] = glm::length(line.direction);
+        if (options.lighting) ray.lights.emplace(*options.lighting, -line.direction);
+        ray.sum.begin(ray.lights ? &*ray.lights : nullptr);
+        if (listed_) {
+            walk_.ray(lane).aim(line.origin, line.direction, faces_.of(ray.pixel));
+        } else {
+            walk_.ray(lane).aim(line.origin, line.direction);
+        }
+        if (walk_.ray(lane).overlapping()) add_overlapping(lane);
+        go_on(lane);
+    }
+}
+
+// Enters the mesh once more, or ends the ray.
+void MeshTile::go_on(std::size_t lane) {
+    MeshRay& ray = rays_[lane];
+    const RayWalk& line = walk_.ray(lane);
+    if (!line.overlapping() && !ray.sum.opaque() && ray.entered < line.entries().size())
+        return walk_.enter(lane, line.entries()[ray.entered++]);
+    ray.sum.finish();
+    // Light is added to what is there: rounding may leave -1e-17 of a colour that it takes away.
+    const glm::dvec3 color =
+        ray.lights ? glm::max(ray.sum.color(), glm::dvec3(0)) : ray.sum.color();
+    double* const pixel = image_.pixel(ray.pixel.x, ray.pixel.y);
+    for (int channel = 0; channel < 3; ++channel) pixel[channel] = color[channel];
+    pixel[3] = ray.sum.alpha();
+    totals_.error_estimate = std::max(totals_.error_estimate, ray.sum.error_estimate());
+    totals_.segments += ray.sum.segments();
+}
+
+void MeshTile::add_overlapping(std::size_t lane) {
+    ++totals_.overlapping;
+    const SeenRange range{seen_.first[lane], seen_.last[lane]};
+    std::vector<TetSegment> segments;
+    walk_.ray(lane).list(segments);
+    for (const TetSegment& segment : segments) {
+        const auto value = [&](std::int32_t corner) {
+            return picture_.scalar[static_cast<std::size_t>(corner)];
+        };
+        const auto [least, most] = std::ranges::minmax(
+            picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)], {}, value);
+        add(lane, segment.tet, seen_segment(segment, range, picture_.scalar),
+            scalar_slack(value(least), value(most)), [&] { return segment; });
+    }
+}
+
+void MeshTile::add_shown(std::size_t lane) {
+    const SeenSegment part{seen_.from[lane], seen_.to[lane], seen_.front[lane], seen_.back[lane]};
+    add(lane, walk_.tet(lane), part, seen_.slack[lane], [&] { return walk_.segment(lane); });
+}
+
+// Adds a part of segment(), which is in that tet.
+template <typename Segment>
+void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double slack,
+                   const Segment& segment) {
+    const auto& no_value = picture_.no_value;
+    if (!no_value.empty() && no_value[static_cast<std::size_t>(tet)] != 0) return;
+    const double length = (part.to - part.from) * seen_.world_per_z[lane];
+    MeshRay& ray = rays_[lane];
+    if (!ray.lights) return ray.sum.add(part.front, part.back, length, slack);
+    const GradientAlong gradient = gradient_along(segment(), part.from, part.to);
+    ray.sum.add_lit(part.front, part.back, gradient, length, slack);
+}
+
+// Between two parameters of the ray: linear.
+GradientAlong MeshTile::gradient_along(const TetSegment& segment, double from, double to) const {
+    const glm::dvec3 in = gradient_at(segment.in), out = gradient_at(segment.out);
+    const double length = segment.out.at - segment.in.at;
+    const glm::dvec3 slope = length > 0 ? (out - in) / length : glm::dvec3(0);
+    const glm::dvec3 front = in + (from - segment.in.at) * slope;
+    GradientAlong along;
+    for (int c = 0; c < 3; ++c)
+        along[static_cast<std::size_t>(c)] = {{front[c], (to - from) * slope[c]}};
+    return along;
+}
+
+glm::dvec3 MeshTile::gradient_at(const FaceCrossing& crossing) const {
+    const auto at = [&](std::size_t i) {
+        return picture_.gradients[static_cast<std::size_t>(crossing.corners[i])];
+    };
+    const glm::dvec3 first = at(0);
+    return first + (crossing.weights[1] * (at(1) - first) + crossing.weights[2] * (at(2) - first));
+}
+
+}  // namespace lamina

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "reference/interval_columns.h"
+#include "reference/seen_segment.h"
+#include "reference/walk_lanes.h"
+
+namespace lamina {
+
+// The parts that are seen of a packet's segments (SeenSegment), one a lane.
+struct SeenLanes {
+    using Row = WalkLanes::Row;
+
+    // Of the lines.
+    Row first, last;  // SeenRange
+    Row world_per_z;  // world length per unit of the parameter
+
+    // Of the segments.
+    Row from, to, front, back;  // SeenSegment
+    Row length;                 // in world units
+    Row slack;                  // scalar_slack()
+    std::uint32_t shown = 0;    // one bit a lane: the part is not empty and may show something
+};
+
+// How far the interpolation of scalars inside a tet may be off, by the range of the scalars at its
+// corners: 64 epsilons of the larger. Constant scalars are exact.
+inline constexpr double scalar_epsilons = 64;
+inline double scalar_slack(double least, double most) {
+    if (least == most) return 0;
+    return scalar_epsilons * std::numeric_limits<double>::epsilon() *
+           std::max(std::abs(least), std::abs(most));
+}
+
+// Sets what `seen` has of the segments of a step.
+void find_seen(const WalkLanes& walk, const IntervalColumns& intervals, SeenLanes& seen);
+
+}  // namespace lamina
