@@ -67,6 +67,23 @@ class LinearLanes {
     Numbers interval_;
 };
 
+// Appends a single round: most vectors of segments have no more.
+HWY_INLINE void append_round(const LinearRound& round, std::size_t first_segment,
+                             LinearParts& parts) {
+    const Lanes d;
+    const NumberLanes n;
+    const Mask kept = hn::LoadMaskBits(d, round.kept);
+    const std::size_t end = parts.count;
+    parts.make_room(end + hn::Lanes(d));
+    store_kept(hn::Iota(n, static_cast<std::int64_t>(first_segment)), kept,
+               parts.segment.data() + end);
+    store_kept(hn::Load(n, round.interval), kept, parts.interval.data() + end);
+    store_kept(hn::Load(d, round.from), kept, parts.from.data() + end);
+    store_kept(hn::Load(d, round.to), kept, parts.to.data() + end);
+    store_kept(hn::Load(d, round.share), kept, parts.depth.data() + end);  // until set_depths()
+    parts.count += hn::CountTrue(d, kept);
+}
+
 // The share of the way from an interval's lower knot to its upper one, and what is left of it.
 struct PlaceLanes {
     Doubles from_lo, from_hi;
@@ -186,7 +203,12 @@ inline void append_parts_of(const LinearBatch& segments, const IntervalColumns& 
     };
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         LinearLanes on_their_way(segments, i, columns);
-        append_rounds(on_their_way, i, parts, store);
+        const std::size_t rounds = take_rounds(on_their_way, parts.rounds);
+        if (rounds == 1) {
+            append_round(parts.rounds[0], i, parts);
+        } else {
+            append_rounds(rounds, i, parts, store);
+        }
     }
     for (std::size_t i = first; i < parts.count; i += lanes)
         set_depths(segments, columns, i, parts);

@@ -19,19 +19,25 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
-// Takes a vector of segments to their ends, and appends their pieces, one segment after the other.
-// store(i, round, lane) stores a piece at place i.
-template <typename Segments, typename Pieces, typename Store>
-HWY_INLINE void append_rounds(Segments& segments, std::size_t first_segment, Pieces& pieces,
-                              const Store& store) {
-    auto& rounds = pieces.rounds;
-    constexpr std::size_t most = std::remove_cvref_t<decltype(rounds[0])>::longest_vector;
-    static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
+// Takes a vector of segments to their ends. Returns the number of rounds.
+template <typename Segments, typename Rounds>
+HWY_INLINE std::size_t take_rounds(Segments& segments, Rounds& rounds) {
     std::size_t count = 0;
     while (segments.active()) {
         if (count == rounds.size()) rounds.resize(2 * count + 8);
         segments.advance(rounds[count++]);
     }
+    return count;
+}
+
+// Appends the pieces of some rounds, one segment after the other. store(i, round, lane) stores a
+// piece at place i.
+template <typename Pieces, typename Store>
+HWY_INLINE void append_rounds(std::size_t count, std::size_t first_segment, Pieces& pieces,
+                              const Store& store) {
+    auto& rounds = pieces.rounds;
+    constexpr std::size_t most = std::remove_cvref_t<decltype(rounds[0])>::longest_vector;
+    static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
     const std::size_t lanes = hn::Lanes(Lanes());
     pieces.make_room(pieces.count + lanes * count);
     for (std::size_t lane = 0; lane < lanes; ++lane) {

@@ -169,7 +169,7 @@ inline void append_pieces_of(const SegmentBatch& segments, const IntervalColumns
     };
     for (std::size_t i = 0; i < segments.count; i += lanes) {
         SegmentLanes on_their_way(segments, i, columns);
-        append_rounds(on_their_way, i, pieces, store);
+        append_rounds(take_rounds(on_their_way, pieces.rounds), i, pieces, store);
     }
     for (std::size_t i = first; i < pieces.count; i += lanes)
         set_optics(segments, columns, error_per_length, i, pieces);

@@ -38,6 +38,7 @@ void SegmentSum::begin(const RayLights* lights) {
     depth_limit_ = std::log(brightest_ / least_transmittance);
     together_ = first_together;
     waiting_.count = 0;
+    has_side_errors_ = false;
     depth_ = {};
     color_ = glm::dvec3(0);
     error_ = 0;
@@ -50,6 +51,7 @@ void SegmentSum::add(double front, double back, double length, double slack) {
     ++segments_;
     const bool may_be_aside = hi - lo <= slack && slack > 0;
     side_errors_[waiting_.count] = may_be_aside ? side_error(lo - slack, hi + slack, length) : 0;
+    has_side_errors_ = has_side_errors_ || may_be_aside;
     waiting_.add(std::clamp(front, -largest_scalar, largest_scalar),
                  std::clamp(back, -largest_scalar, largest_scalar), length);
     if (waiting_.count < together_) return;
@@ -64,38 +66,47 @@ void SegmentSum::finish() {
     weigh_parts(parts_);
     add_colors();
     waiting_.count = 0;
+    has_side_errors_ = false;
 }
 
+// Sums are kept in local variables: members would be written to memory with every part.
 void SegmentSum::sum_depths() {
+    CompensatedSum depth = depth_;
     std::size_t segment = 0;  // the first whose side error is not added
     for (std::size_t i = 0; i < parts_.count; ++i) {
-        add_side_errors(segment, static_cast<std::size_t>(parts_.segment[i]) + 1);
-        parts_.before[i] = depth_.value();
-        depth_.add(parts_.depth[i]);
+        const auto end = static_cast<std::size_t>(parts_.segment[i]) + 1;
+        if (has_side_errors_) add_side_errors(depth.value(), segment, end);
+        parts_.before[i] = depth.value();
+        depth.add(parts_.depth[i]);
     }
-    add_side_errors(segment, waiting_.count);
+    if (has_side_errors_) add_side_errors(depth.value(), segment, waiting_.count);
+    depth_ = depth;
 }
 
-void SegmentSum::add_side_errors(std::size_t& segment, std::size_t end) {
+void SegmentSum::add_side_errors(double depth, std::size_t& segment, std::size_t end) {
     for (; segment < end; ++segment) {
-        if (side_errors_[segment] > 0) error_ += std::exp(-depth_.value()) * side_errors_[segment];
+        if (side_errors_[segment] > 0) error_ += std::exp(-depth) * side_errors_[segment];
     }
 }
 
 void SegmentSum::add_colors() {
+    glm::dvec3 sum = color_;
+    double error = 0;
     for (std::size_t i = 0; i < parts_.count; ++i) {
         const double transmittance = parts_.transmittance[i];
         if (!(transmittance > 0)) continue;
         const auto interval = static_cast<std::size_t>(parts_.interval[i]);
         const auto& [color, change] = intervals_.color(interval);
-        color_ += transmittance * parts_.opacity[i] * color;
+        sum += transmittance * parts_.opacity[i] * color;
         if (intervals_.columns().color_span[interval] > 0)
-            color_ += transmittance * parts_.change[i] * change;
+            sum += transmittance * parts_.change[i] * change;
         // Where an end is off, this much depth moves from one side of it to the other.
         const double length = waiting_.length[static_cast<std::size_t>(parts_.segment[i])];
         const double moved = std::min(1.0, 2 * place_error_ * parts_.depth[i] / length);
-        error_ += transmittance * brightest_ * (part_error * parts_.opacity[i] + moved);
+        error += transmittance * (part_error * parts_.opacity[i] + moved);
     }
+    color_ = sum;
+    error_ += brightest_ * error;
 }
 
 // The unlit segment stays what it is, in closed form: light is added to it.

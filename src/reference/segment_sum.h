@@ -50,7 +50,7 @@ class SegmentSum {
   private:
     void sum_depths();
     void add_colors();
-    void add_side_errors(std::size_t& segment, std::size_t end);
+    void add_side_errors(double depth, std::size_t& segment, std::size_t end);
     void add_light(double front, double back, const GradientAlong& gradient, double length);
     double side_error(double lo, double hi, double length) const;
 
@@ -63,6 +63,7 @@ class SegmentSum {
     double depth_limit_ = 0;
     LinearBatch waiting_;                          // segments that are not in the results
     double side_errors_[LinearBatch::capacity]{};  // theirs, if nothing lay in front of them
+    bool has_side_errors_ = false;                 // whether one of them may not be 0
     std::size_t together_ = 0;
     LinearParts parts_;
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits
