@@ -18,6 +18,21 @@ inline constexpr double gauss4_weight[] = {0.1739274225687269287, 0.326072577431
                                            0.3260725774312730713, 0.1739274225687269287};
 inline constexpr GaussRule gauss4{4, gauss4_x, gauss4_weight};
 
+inline constexpr double gauss5_x[] = {0.046910077030668003601, 0.23076534494715845448, 0.5,
+                                      0.76923465505284154552, 0.9530899229693319964};
+inline constexpr double gauss5_weight[] = {0.11846344252809454376, 0.23931433524968323402,
+                                           0.28444444444444444444, 0.23931433524968323402,
+                                           0.11846344252809454376};
+inline constexpr GaussRule gauss5{5, gauss5_x, gauss5_weight};
+
+inline constexpr double gauss6_x[] = {0.033765242898423986094, 0.16939530676686774317,
+                                      0.38069040695840154568,  0.61930959304159845432,
+                                      0.83060469323313225683,  0.96623475710157601391};
+inline constexpr double gauss6_weight[] = {0.08566224618958517252, 0.18038078652406930378,
+                                           0.23395696728634552369, 0.23395696728634552369,
+                                           0.18038078652406930378, 0.08566224618958517252};
+inline constexpr GaussRule gauss6{6, gauss6_x, gauss6_weight};
+
 inline constexpr double gauss8_x[] = {
     0.01985507175123188416, 0.1016667612931866302, 0.2372337950418355071, 0.4082826787521750975,
     0.5917173212478249025,  0.7627662049581644929, 0.8983332387068133698, 0.9801449282487681158};
@@ -45,7 +60,9 @@ inline constexpr double largest_gauss_depth = 4;
 // are off by about (n!)^3 / ((2n+1) (2n)!^2) |k|^n (from the k^n x^2n term), |k| <= D: relative to
 // D, below 1e-15 at each of the limits.
 inline const GaussRule& gauss_rule(double depth) {
-    return depth < 1e-3 ? gauss4 : depth < 0.5 ? gauss8 : gauss16;
+    if (depth < 0.016) return depth < 1e-3 ? gauss4 : gauss5;
+    if (depth < 0.5) return depth < 0.09 ? gauss6 : gauss8;
+    return gauss16;
 }
 
 }  // namespace lamina

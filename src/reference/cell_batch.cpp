@@ -97,15 +97,15 @@ inline void make_segments_of(CellBatch& cells, const Chord& chord, const Interva
         if (hn::AllFalse(d, seen)) continue;
         const PathLanes path(cells, chord, i);
         const Cubics field = field_along(corners, path);
+        const KeptLanes kept(seen);
         const std::size_t first = segments.count;
         for (std::size_t power = 0; power < 4; ++power)
-            store_kept(field.c[power], seen, segments.scalar[power] + first);
-        store_kept(lo, seen, segments.lo + first);
-        store_kept(hi, seen, segments.hi + first);
-        store_kept(hn::Mul(path.along, number(chord.world_per_z)), seen, segments.length + first);
-        const Numbers numbers = hn::Iota(NumberLanes(), static_cast<std::int64_t>(i));
-        store_kept(numbers, seen, cells.seen + first);
-        segments.count += hn::CountTrue(d, seen);
+            kept.store(field.c[power], segments.scalar[power] + first);
+        kept.store(lo, segments.lo + first);
+        kept.store(hi, segments.hi + first);
+        kept.store(hn::Mul(path.along, number(chord.world_per_z)), segments.length + first);
+        kept.store(hn::Iota(NumberLanes(), static_cast<std::int64_t>(i)), cells.seen + first);
+        segments.count += kept.count();
     }
 }
 

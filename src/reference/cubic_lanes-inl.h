@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/set_members.h"
 #include "reference/cubic.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,17 +30,37 @@ HWY_INLINE Doubles number(double value) {
     return hn::Set(Lanes(), value);
 }
 
-// Stores the lanes in `kept` one after the other. Writes a whole vector. (CompressStore is slow on
-// Zen 4.)
-HWY_INLINE void store_kept(Doubles values, Mask kept, double* to) {
-    const Lanes d;
-    hn::StoreU(hn::AllTrue(d, kept) ? values : hn::Compress(values, kept), d, to);
-}
-HWY_INLINE void store_kept(Numbers values, Mask kept, std::int64_t* to) {
-    const NumberLanes n;
-    const bool all = hn::AllTrue(Lanes(), kept);
-    hn::StoreU(all ? values : hn::Compress(values, hn::RebindMask(n, kept)), n, to);
-}
+// Stores some lanes of vectors one after the other, for which it writes whole vectors.
+class KeptLanes {
+  public:
+    HWY_INLINE explicit KeptLanes(Mask kept)
+        : kept_(places(kept)), count_(hn::CountTrue(Lanes(), kept)) {}
+
+    HWY_INLINE std::size_t count() const { return count_; }
+    HWY_INLINE void store(Doubles values, double* to) const {
+        hn::StoreU(hn::TableLookupLanes(values, kept_), Lanes(), to);
+    }
+    HWY_INLINE void store(Numbers values, std::int64_t* to) const {
+        const Doubles bits = hn::TableLookupLanes(hn::BitCast(Lanes(), values), kept_);
+        hn::StoreU(hn::BitCast(NumberLanes(), bits), NumberLanes(), to);
+    }
+
+  private:
+    using Places = decltype(hn::IndicesFromVec(Lanes(), Numbers()));
+
+    static HWY_INLINE Places places(Mask kept) {
+        const NumberLanes n;
+        const hn::RebindToUnsigned<NumberLanes> u;
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(Lanes(), kept, bits);
+        const auto shift = hn::ShiftLeft<3>(hn::Iota(u, 0));
+        const auto places = hn::And(hn::Shr(hn::Set(u, members_of[bits[0]]), shift), hn::Set(u, 7));
+        return hn::IndicesFromVec(Lanes(), hn::BitCast(n, places));
+    }
+
+    Places kept_;
+    std::size_t count_;
+};
 
 struct Cubics {
     Doubles c[4];

@@ -16,17 +16,26 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
-// Up to this depth exp(-depth) is summed by Taylor's series.
-constexpr double short_depth = 0.25;
+// Up to this depth so many terms of Taylor's series give exp(-depth): the remainder is below
+// depth^(terms + 1) / (terms + 2)! = 5e-16, 1e-16 and 7e-18.
+template <std::size_t terms>
+constexpr double series_limit = 0;
+template <>
+constexpr double series_limit<10> = 0.25;
+template <>
+constexpr double series_limit<8> = 0.09;
+template <>
+constexpr double series_limit<6> = 0.016;
 
-// (exp(-depth) - 1) / depth, short_depth at most. The series' remainder is below depth^11 / 12! =
-// 5e-16.
+// (exp(-depth) - 1) / depth.
+template <std::size_t terms>
 HWY_INLINE Doubles short_expm1_share(Doubles depth) {
     constexpr double inverse_factorials[] = {1. / 2,       1. / 6,       1. / 24,    1. / 120,
                                              1. / 720,     1. / 5040,    1. / 40320, 1. / 362880,
                                              1. / 3628800, 1. / 39916800};
-    Doubles sum = number(inverse_factorials[9]);
-    for (int i = 9; i-- > 0;) sum = hn::NegMulAdd(depth, sum, number(inverse_factorials[i]));
+    Doubles sum = number(inverse_factorials[terms - 1]);
+    for (std::size_t i = terms - 1; i-- > 0;)
+        sum = hn::NegMulAdd(depth, sum, number(inverse_factorials[i]));
     return hn::MulSub(depth, sum, number(1));
 }
 
@@ -38,25 +47,31 @@ struct AnyDepth {
     }
 };
 
-// The same of depths up to short_depth.
+// The same of depths up to series_limit<terms>.
+template <std::size_t terms>
 struct ShortDepth {
     HWY_INLINE Doubles exp(Doubles depth) const {
-        return hn::MulAdd(depth, short_expm1_share(depth), number(1));
+        return hn::MulAdd(depth, short_expm1_share<terms>(depth), number(1));
     }
     HWY_INLINE Doubles opacity(Doubles depth) const {
-        return hn::Neg(hn::Mul(depth, short_expm1_share(depth)));
+        return hn::Neg(hn::Mul(depth, short_expm1_share<terms>(depth)));
     }
 };
+
+// Depths up to this are short.
+constexpr std::size_t most_terms = 10;
+constexpr double short_depth = series_limit<most_terms>;
 
 // The same of short depths in some lanes: each lane's result does not depend on the other lanes.
 struct MixedDepth {
     Mask is_short;
 
     HWY_INLINE Doubles exp(Doubles depth) const {
-        return hn::IfThenElse(is_short, ShortDepth().exp(depth), AnyDepth().exp(depth));
+        return hn::IfThenElse(is_short, ShortDepth<most_terms>().exp(depth), AnyDepth().exp(depth));
     }
     HWY_INLINE Doubles opacity(Doubles depth) const {
-        return hn::IfThenElse(is_short, ShortDepth().opacity(depth), AnyDepth().opacity(depth));
+        return hn::IfThenElse(is_short, ShortDepth<most_terms>().opacity(depth),
+                              AnyDepth().opacity(depth));
     }
 };
 

@@ -152,7 +152,7 @@ inline void integrate_batch(PieceBatch& batch) {
         const Mask is_short = hn::Le(depth, number(short_depth));
         // Lanes behind the last piece hold anything.
         const bool all_short = hn::AllTrue(Lanes(), hn::Or(is_short, hn::Not(given(batch, i))));
-        const Mask done = all_short ? integrate_lanes(batch, i, ShortDepth())
+        const Mask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
                                     : integrate_lanes(batch, i, MixedDepth{is_short});
         if (hn::AllTrue(Lanes(), done)) continue;
         std::uint8_t bits[8];

@@ -72,16 +72,15 @@ HWY_INLINE void append_round(const LinearRound& round, std::size_t first_segment
                              LinearParts& parts) {
     const Lanes d;
     const NumberLanes n;
-    const Mask kept = hn::LoadMaskBits(d, round.kept);
+    const KeptLanes kept(hn::LoadMaskBits(d, round.kept));
     const std::size_t end = parts.count;
     parts.make_room(end + hn::Lanes(d));
-    store_kept(hn::Iota(n, static_cast<std::int64_t>(first_segment)), kept,
-               parts.segment.data() + end);
-    store_kept(hn::Load(n, round.interval), kept, parts.interval.data() + end);
-    store_kept(hn::Load(d, round.from), kept, parts.from.data() + end);
-    store_kept(hn::Load(d, round.to), kept, parts.to.data() + end);
-    store_kept(hn::Load(d, round.share), kept, parts.depth.data() + end);  // until set_depths()
-    parts.count += hn::CountTrue(d, kept);
+    kept.store(hn::Iota(n, static_cast<std::int64_t>(first_segment)), parts.segment.data() + end);
+    kept.store(hn::Load(n, round.interval), parts.interval.data() + end);
+    kept.store(hn::Load(d, round.from), parts.from.data() + end);
+    kept.store(hn::Load(d, round.to), parts.to.data() + end);
+    kept.store(hn::Load(d, round.share), parts.depth.data() + end);  // until set_depths()
+    parts.count += kept.count();
 }
 
 // The share of the way from an interval's lower knot to its upper one, and what is left of it.
@@ -169,8 +168,10 @@ HWY_INLINE WeightLanes weights_of(Doubles p, Doubles q, Doubles depth) {
     const double most = hn::GetLane(hn::MaxOfLanes(Lanes(), depth));
     if (!(most < largest_gauss_depth)) return closed_weights(p, q);
     const GaussRule& rule = gauss_rule(most);
-    return most <= short_depth ? weights_by_rule(rule, p, q, ShortDepth())
-                               : weights_by_rule(rule, p, q, AnyDepth());
+    if (most <= series_limit<6>) return weights_by_rule(rule, p, q, ShortDepth<6>());
+    if (most <= series_limit<8>) return weights_by_rule(rule, p, q, ShortDepth<8>());
+    if (most <= series_limit<10>) return weights_by_rule(rule, p, q, ShortDepth<10>());
+    return weights_by_rule(rule, p, q, AnyDepth());
 }
 
 HWY_INLINE void weigh(LinearParts& parts, std::size_t i) {

@@ -111,8 +111,11 @@ void MeshTile::add_overlapping(std::size_t lane) {
         };
         const auto [least, most] = std::ranges::minmax(
             picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)], {}, value);
-        add(lane, segment.tet, seen_segment(segment, range, picture_.scalar),
-            scalar_slack(value(least), value(most)), [&] { return segment; });
+        const SeenSegment part = seen_segment(segment, range, picture_.scalar);
+        const double slack = scalar_slack(value(least), value(most));
+        const auto [lo, hi] = std::minmax(part.front, part.back);
+        if (part.from < part.to && picture_.intervals.visible(lo - slack, hi + slack))
+            add(lane, segment.tet, part, slack, [&] { return segment; });
     }
 }
 

@@ -47,7 +47,6 @@ void SegmentSum::begin(const RayLights* lights) {
 
 void SegmentSum::add(double front, double back, double length, double slack) {
     const auto [lo, hi] = std::minmax(front, back);
-    if (!(length > 0) || !intervals_.visible(lo - slack, hi + slack)) return;
     ++segments_;
     const bool may_be_aside = hi - lo <= slack && slack > 0;
     side_errors_[waiting_.count] = may_be_aside ? side_error(lo - slack, hi + slack, length) : 0;
@@ -112,7 +111,6 @@ void SegmentSum::add_colors() {
 // The unlit segment stays what it is, in closed form: light is added to it.
 void SegmentSum::add_lit(double front, double back, const GradientAlong& gradient, double length,
                          double slack) {
-    if (!(length > 0)) return;
     const auto [lo, hi] = std::minmax(front, back);
     if (intervals_.visible(lo, hi)) add_light(front, back, gradient, length);
     add(front, back, length, slack);

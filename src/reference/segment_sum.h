@@ -30,7 +30,8 @@ class SegmentSum {
     void begin(const RayLights* lights = nullptr);
 
     // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
-    // Both scalars may have errors up to `slack`.
+    // Both scalars may have errors up to `slack`. Only segments that may then be visible
+    // (TransferIntervals) and have a length make a difference.
     void add(double front, double back, double length, double slack);
     // The same of a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,

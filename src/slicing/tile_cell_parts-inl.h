@@ -14,6 +14,7 @@
 #include <bit>
 #include <cstring>
 
+#include "base/set_members.h"
 #include "executors/tile_number-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,19 +45,8 @@ HWY_INLINE void for_each_lane(std::uint32_t set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-// For each set of eight lanes its members, a byte each, the first lowest.
-inline constexpr std::array<std::uint64_t, 256> members_of = [] {
-    std::array<std::uint64_t, 256> table{};
-    for (unsigned set = 0; set < 256; ++set) {
-        unsigned count = 0;
-        for (unsigned lane = 0; lane < 8; ++lane)
-            if ((set >> lane & 1) != 0) table[set] |= std::uint64_t{lane} << (8 * count++);
-    }
-    return table;
-}();
-
 // The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with a table
-// that lies in memory once: Highway 1.0.3 copies its own to the stack at every call.
+// that is not copied at every call.
 HWY_INLINE Floats members_first(Floats v, FloatMask members) {
     if constexpr (hn::MaxLanes(FloatTag()) > 8) {
         return hn::Compress(v, members);
