@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/tile_faces.h"
 
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <limits>
-
-#include "mesh/norm1.h"
+#include <array>
 
 namespace lamina {
 namespace {
 
 // More are not listed: searching the tree is then better.
 constexpr std::size_t most_listed = 1 << 16;
-
-// Points whose tangent from the middle of the view is larger than this may be anywhere.
-constexpr double widest = 1e3;
-
-// A coordinate of a point, or of a line's place and direction, is off by at most some 8 epsilon of
-// the distances (1-norm). The rest is to spare.
-constexpr double place_error = 64 * std::numeric_limits<double>::epsilon(), spare_pixels = 1e-6;
 
 std::array<glm::dvec3, 8> corners_of(const FaceTree::Box& box) {
     std::array<glm::dvec3, 8> corners;
@@ -31,42 +19,6 @@ std::array<glm::dvec3, 8> corners_of(const FaceTree::Box& box) {
 }
 
 }  // namespace
-
-TileFaces::Pixels TileFaces::all() const {
-    return {{0, 0}, {tile_.width - 1, tile_.height - 1}};
-}
-
-// Lines go on behind the eye. Points there are seen mirrored, so what lies on both sides of it may
-// be anywhere.
-template <std::size_t count>
-TileFaces::Pixels TileFaces::pixels_around(const std::array<glm::dvec3, count>& points) const {
-    const bool perspective = view_.projection == Projection::perspective;
-    const glm::dvec2 origin(0.5 * view_.width - 0.5 - tile_.column,
-                            0.5 * view_.height - 0.5 - tile_.row);
-    glm::dvec2 least(INFINITY), most(-INFINITY);
-    int behind = 0;
-    for (const glm::dvec3& point : points) {
-        const glm::dvec3 from = point - view_.eye;
-        const double distance = norm1(from), depth = glm::dot(from, view_.forward);
-        glm::dvec2 place(glm::dot(from, view_.right), -glm::dot(from, view_.up));
-        double slack = place_error * (distance + norm1(view_.eye));
-        if (perspective) {
-            if (!(std::abs(depth) * widest > distance)) return all();
-            behind += depth < 0;
-            const double share = distance / std::abs(depth);
-            place /= depth;
-            slack = place_error * share * (1 + share);
-        }
-        place = place / view_.pixel + origin;
-        slack = slack / view_.pixel + spare_pixels;
-        least = glm::min(least, place - slack);
-        most = glm::max(most, place + slack);
-    }
-    if (behind != 0 && behind != static_cast<int>(count)) return all();
-    const glm::dvec2 end(tile_.width, tile_.height);
-    return {glm::ivec2(glm::ceil(glm::clamp(least, glm::dvec2(0), end))),
-            glm::ivec2(glm::floor(glm::clamp(most, glm::dvec2(-1), end - 1.0)))};
-}
 
 template <typename Visit>
 void TileFaces::for_each_pixel(const Visit& visit) const {
@@ -83,11 +35,11 @@ bool TileFaces::list(const PictureTile& tile) {
     faces_.clear();
     std::size_t count = 0;
     const auto meets = [&](const FaceTree::Box& box) {
-        return count <= most_listed && !pixels_around(corners_of(box)).empty();
+        return count <= most_listed && !pixels_around(view_, tile, corners_of(box)).empty();
     };
     const auto add = [&](std::int32_t face) {
-        const Pixels pixels =
-            pixels_around(mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
+        const SeenPixels pixels = pixels_around(
+            view_, tile, mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
         if (pixels.empty()) return;
         faces_.push_back({face, pixels});
         const glm::ivec2 size = pixels.last - pixels.first + 1;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/face_tree.h"
+#include "reference/seen_pixels.h"
 #include "reference/trace_tiles.h"
 #include "scene/camera.h"
 
@@ -28,18 +27,10 @@ class TileFaces {
     std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
 
   private:
-    // The pixels of the tile, counted from its first, whose lines may meet something.
-    struct Pixels {
-        glm::ivec2 first, last;
-        bool empty() const { return first.x > last.x || first.y > last.y; }
-    };
     struct ListedFace {
         std::int32_t face;
-        Pixels pixels;
+        SeenPixels pixels;
     };
-    Pixels all() const;
-    template <std::size_t count>
-    Pixels pixels_around(const std::array<glm::dvec3, count>& points) const;
     template <typename Visit>
     void for_each_pixel(const Visit& visit) const;
 

@@ -2,6 +2,7 @@
 #include "reference/volume_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/common.hpp>
 #include <optional>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "reference/chord.h"
 #include "reference/gradient_samples.h"
 #include "reference/ray_integrator.h"
+#include "reference/seen_pixels.h"
 #include "reference/transfer_intervals.h"
 #include "reference/trilinear.h"
 #include "reference/visible_cells.h"
@@ -33,10 +35,17 @@ struct Traced {
           gradients(grid, first_sample),
           transfer(intervals),
           cells(visible_cells),
-          options(how) {}
+          options(how) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            corners[i] = grid.to_world({i & 1 ? axes.highest.x : axes.lowest.x,
+                                        i & 2 ? axes.highest.y : axes.lowest.y,
+                                        i & 4 ? axes.highest.z : axes.lowest.z});
+        }
+    }
 
     const Grid& grid;
     GridAxes axes;
+    std::array<glm::dvec3, 8> corners;  // of the box, in the world
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;
@@ -127,9 +136,11 @@ TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const Pic
                       PreciseImage& image) {
     TileTotals totals;
     RayIntegrator integrator(traced.transfer, traced.options.tolerance);
-    for (int row = tile.row; row < tile.row + tile.height; ++row) {
+    const SeenPixels around = pixels_around(view, tile, traced.corners);
+    for (int row = tile.row + around.first.y; row <= tile.row + around.last.y; ++row) {
         check_interrupt();
-        for (int column = tile.column; column < tile.column + tile.width; ++column) {
+        for (int column = tile.column + around.first.x; column <= tile.column + around.last.x;
+             ++column) {
             const TracedRay ray = trace_ray(traced, view.ray(column, row), integrator);
             double* const pixel = image.pixel(column, row);
             for (int channel = 0; channel < 4; ++channel) pixel[channel] = ray.rgba[channel];
