@@ -20,10 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
-HWY_INLINE Doubles gather(const std::vector<double>& column, Numbers place) {
-    return hn::GatherIndex(Lanes(), column.data(), place);
-}
-
 HWY_INLINE Numbers where(Mask mask, Numbers yes, Numbers no) {
     return hn::IfThenElse(hn::RebindMask(NumberLanes(), mask), yes, no);
 }
@@ -52,20 +48,21 @@ HWY_INLINE Numbers count_first(const double* values, std::size_t count, const Pa
     return hn::Min(passed, most);  // an infinite value passes padding, too
 }
 
-// Finds the intervals of values.
+// Finds the intervals of values, and what columns have of intervals.
 class IntervalSearch {
   public:
     HWY_INLINE explicit IntervalSearch(const IntervalColumns& columns)
-        : columns_(columns), bounds_(columns.bounds.data()) {}
+        : columns_(columns),
+          bounds_(columns.bounds.data()),
+          in_a_vector_(columns.knot_count + 1 <= hn::Lanes(Lanes())) {}
 
-    HWY_INLINE Doubles lower(Numbers interval) const {
-        return hn::GatherIndex(Lanes(), bounds_, interval);
+    HWY_INLINE Doubles of(const std::vector<double>& column, Numbers interval) const {
+        return look_up(column.data(), interval);
     }
-    HWY_INLINE Doubles upper(Numbers interval) const {
-        return hn::GatherIndex(Lanes(), bounds_ + 1, interval);
-    }
+    HWY_INLINE Doubles lower(Numbers interval) const { return look_up(bounds_, interval); }
+    HWY_INLINE Doubles upper(Numbers interval) const { return look_up(bounds_ + 1, interval); }
     HWY_INLINE Mask shows(Numbers interval) const {
-        return hn::Eq(gather(columns_.transparent, interval), hn::Zero(Lanes()));
+        return hn::Eq(of(columns_.transparent, interval), hn::Zero(Lanes()));
     }
     // The knot at which a scalar that rises, or falls, leaves the interval.
     HWY_INLINE Doubles knot_ahead(Numbers interval, Mask rises) const {
@@ -97,6 +94,14 @@ class IntervalSearch {
     }
 
   private:
+    // A column that fits into a vector is looked up there, which is quicker than a gather.
+    HWY_INLINE Doubles look_up(const double* column, Numbers interval) const {
+        if (in_a_vector_)
+            return hn::TableLookupLanes(hn::LoadU(Lanes(), column),
+                                        hn::IndicesFromVec(Lanes(), interval));
+        return hn::GatherIndex(Lanes(), column, interval);
+    }
+
     template <typename Passed>
     HWY_INLINE Numbers count_passed(const Passed& is_passed) const {
         return count_first(bounds_ + 1, columns_.knot_count, is_passed);
@@ -108,6 +113,7 @@ class IntervalSearch {
 
     const IntervalColumns& columns_;
     const double* bounds_;
+    bool in_a_vector_;
 };
 
 }  // namespace reference

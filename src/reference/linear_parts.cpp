@@ -22,6 +22,7 @@ namespace reference {
 
 // Optical depths of a part are limited to this, so that sums of them stay finite.
 constexpr double largest_part_depth = 1e300;
+constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 
 // A vector of segments on their way from front to back. `at` is the scalar where they are.
 class LinearLanes {
@@ -30,8 +31,8 @@ class LinearLanes {
                            const IntervalColumns& columns)
         : search_(columns),
           active_(hn::FirstN(Lanes(), segments.count - first)),
-          front_(hn::MaskedLoad(active_, Lanes(), segments.front + first)),
-          back_(hn::MaskedLoad(active_, Lanes(), segments.back + first)),
+          front_(load(segments.front + first)),
+          back_(load(segments.back + first)),
           at_(front_),
           rises_(hn::Le(front_, back_)),
           constant_(hn::Eq(front_, back_)),
@@ -60,6 +61,13 @@ class LinearLanes {
     }
 
   private:
+    // Differences of larger scalars might overflow.
+    HWY_INLINE Doubles load(const double* from) const {
+        const Doubles limit = number(largest_scalar);
+        const Doubles values = hn::MaskedLoad(active_, Lanes(), from);
+        return hn::Min(hn::Max(values, hn::Neg(limit)), limit);
+    }
+
     IntervalSearch search_;
     Mask active_;
     Doubles front_, back_, at_;
@@ -102,13 +110,14 @@ HWY_INLINE void set_depths(const LinearBatch& segments, const IntervalColumns& c
                            std::size_t i, LinearParts& parts) {
     const Lanes d;
     const NumberLanes n;
+    const IntervalSearch search(columns);
     const Numbers interval = hn::LoadU(n, parts.interval.data() + i);
     const Doubles length =
         hn::Mul(hn::GatherIndex(d, segments.length, hn::LoadU(n, parts.segment.data() + i)),
                 hn::LoadU(d, parts.depth.data() + i));
-    const Doubles lo = gather(columns.lo, interval), hi = gather(columns.hi, interval);
-    const Doubles at_lo = gather(columns.extinction, interval);
-    const Doubles at_hi = gather(columns.extinction_end, interval);
+    const Doubles lo = search.of(columns.lo, interval), hi = search.of(columns.hi, interval);
+    const Doubles at_lo = search.of(columns.extinction, interval);
+    const Doubles at_hi = search.of(columns.extinction_end, interval);
     // No term is negative, so nothing cancels.
     const auto depth = [&](const PlaceLanes& place) HWY_ATTR {
         const Doubles mixed = hn::MulAdd(at_lo, place.from_hi, hn::Mul(at_hi, place.from_lo));

@@ -116,6 +116,7 @@ class SegmentLanes {
 HWY_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& columns,
                            double error_per_length, std::size_t i, PieceBatch& pieces) {
     const Lanes d;
+    const IntervalSearch search(columns);
     const Numbers segment = hn::LoadU(NumberLanes(), pieces.segment.data() + i);
     const Numbers interval = hn::LoadU(NumberLanes(), pieces.interval.data() + i);
     const Doubles from = hn::LoadU(d, pieces.from.data() + i);
@@ -126,11 +127,11 @@ HWY_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& 
     const Cubics scalar = part_of(whole, from, to, hn::LoadU(d, pieces.start.data() + i),
                                   hn::LoadU(d, pieces.end.data() + i));
     const Doubles length = hn::Mul(hn::GatherIndex(d, segments.length, segment), hn::Sub(to, from));
-    const Doubles inverse = gather(columns.inverse_width, interval);
-    const Doubles at_lo = gather(columns.extinction, interval);
-    const Doubles change = gather(columns.extinction_change, interval);
-    const Doubles from_lo = hn::Mul(hn::Sub(scalar.c[0], gather(columns.lo, interval)), inverse);
-    const Doubles from_hi = hn::Mul(hn::Sub(gather(columns.hi, interval), scalar.c[0]), inverse);
+    const Doubles inverse = search.of(columns.inverse_width, interval);
+    const Doubles at_lo = search.of(columns.extinction, interval);
+    const Doubles change = search.of(columns.extinction_change, interval);
+    const Doubles from_lo = hn::Mul(hn::Sub(scalar.c[0], search.of(columns.lo, interval)), inverse);
+    const Doubles from_hi = hn::Mul(hn::Sub(search.of(columns.hi, interval), scalar.c[0]), inverse);
     const Doubles first =
         hn::IfThenElse(hn::Lt(from_lo, from_hi), hn::MulAdd(change, from_lo, at_lo),
                        hn::NegMulAdd(change, from_hi, hn::Add(at_lo, change)));
@@ -150,7 +151,7 @@ HWY_INLINE void set_optics(const SegmentBatch& segments, const IntervalColumns& 
     }
     hn::StoreU(hn::Max(depth, hn::Zero(d)), d, pieces.depth.data() + i);
     hn::StoreU(hn::Mul(number(error_per_length), length), d, pieces.error_of_length.data() + i);
-    hn::StoreU(gather(columns.color_span, interval), d, pieces.color_span.data() + i);
+    hn::StoreU(search.of(columns.color_span, interval), d, pieces.color_span.data() + i);
 }
 
 }  // namespace reference

@@ -15,8 +15,6 @@ namespace {
 constexpr double least_transmittance = 1e-17;
 // The relative error of a part's colour and opacity (weigh_parts()), and of its interpolations.
 constexpr double part_error = 1e-13;
-// Interpolation of scalars near the ends of double may overflow.
-constexpr double largest_scalar = std::numeric_limits<double>::max() / 4;
 // So many segments are summed first: they may hide the others.
 constexpr std::size_t first_together = 8;
 
@@ -37,25 +35,18 @@ void SegmentSum::begin(const RayLights* lights) {
                                                  : intervals_.brightest());
     depth_limit_ = std::log(brightest_ / least_transmittance);
     together_ = first_together;
-    waiting_.count = 0;
-    has_side_errors_ = false;
+    forget_waiting();
     depth_ = {};
     color_ = glm::dvec3(0);
     error_ = 0;
     segments_ = 0;
 }
 
-void SegmentSum::add(double front, double back, double length, double slack) {
-    const auto [lo, hi] = std::minmax(front, back);
-    ++segments_;
-    const bool may_be_aside = hi - lo <= slack && slack > 0;
-    side_errors_[waiting_.count] = may_be_aside ? side_error(lo - slack, hi + slack, length) : 0;
-    has_side_errors_ = has_side_errors_ || may_be_aside;
-    waiting_.add(std::clamp(front, -largest_scalar, largest_scalar),
-                 std::clamp(back, -largest_scalar, largest_scalar), length);
-    if (waiting_.count < together_) return;
-    finish();
-    together_ = std::min(2 * together_, LinearBatch::capacity);
+// What the result would change by if the scalar of a segment that is all but constant were
+// elsewhere in [lo, hi]: its rounding may choose the side of a step of the transfer function.
+void SegmentSum::note_side_error(double lo, double hi, double length) {
+    side_errors_[waiting_.count] = side_error(lo, hi, length);
+    has_side_errors_ = true;
 }
 
 void SegmentSum::finish() {
@@ -64,7 +55,12 @@ void SegmentSum::finish() {
     sum_depths();
     weigh_parts(parts_);
     add_colors();
+    forget_waiting();
+}
+
+void SegmentSum::forget_waiting() {
     waiting_.count = 0;
+    if (has_side_errors_) std::ranges::fill(side_errors_, 0);
     has_side_errors_ = false;
 }
 
@@ -130,8 +126,6 @@ void SegmentSum::add_light(double front, double back, const GradientAlong& gradi
     error_ += transmittance * light_.light_error();
 }
 
-// Returns what would change if the scalar of a segment that is all but constant were elsewhere in
-// [lo, hi]: its rounding may choose the side of a step of the transfer function.
 double SegmentSum::side_error(double lo, double hi, double length) const {
     const OpticalProperties below = transfer_function_.at(lo), above = transfer_function_.at(hi);
     const double depth = std::min(1.0, std::abs(above.extinction - below.extinction) * length);

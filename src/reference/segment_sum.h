@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -32,7 +34,15 @@ class SegmentSum {
     // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
     // Both scalars may have errors up to `slack`. Only segments that may then be visible
     // (TransferIntervals) and have a length make a difference.
-    void add(double front, double back, double length, double slack);
+    void add(double front, double back, double length, double slack) {
+        ++segments_;
+        if (slack > 0 && std::abs(back - front) <= slack)
+            note_side_error(std::min(front, back) - slack, std::max(front, back) + slack, length);
+        waiting_.add(front, back, length);
+        if (waiting_.count < together_) return;
+        finish();
+        together_ = std::min(2 * together_, LinearBatch::capacity);
+    }
     // The same of a segment that is lit, with its gradient from front to back in world space.
     void add_lit(double front, double back, const GradientAlong& gradient, double length,
                  double slack);
@@ -49,10 +59,12 @@ class SegmentSum {
     std::int64_t segments() const { return segments_; }
 
   private:
+    void forget_waiting();
     void sum_depths();
     void add_colors();
     void add_side_errors(double depth, std::size_t& segment, std::size_t end);
     void add_light(double front, double back, const GradientAlong& gradient, double length);
+    void note_side_error(double lo, double hi, double length);
     double side_error(double lo, double hi, double length) const;
 
     const TransferFunction& transfer_function_;
@@ -64,7 +76,7 @@ class SegmentSum {
     double depth_limit_ = 0;
     LinearBatch waiting_;                          // segments that are not in the results
     double side_errors_[LinearBatch::capacity]{};  // theirs, if nothing lay in front of them
-    bool has_side_errors_ = false;                 // whether one of them may not be 0
+    bool has_side_errors_ = false;                 // whether one of them is not 0
     std::size_t together_ = 0;
     LinearParts parts_;
     CompensatedSum depth_;  // compensated, because thousands of pieces must not lose digits

@@ -34,6 +34,7 @@ TransferIntervals::TransferIntervals(const TransferFunction& transfer_function) 
     }
     add_constant(knots.back());
     find_visible();
+    make_room();
 }
 
 void TransferIntervals::add(const TransferKnot& from, const TransferKnot& to) {
@@ -57,6 +58,18 @@ void TransferIntervals::add_constant(const TransferKnot& knot) {
     add(knot, knot);
     columns_.hi.back() = knot.value + 1;
     columns_.inverse_width.back() = 1;
+}
+
+void TransferIntervals::make_room() {
+    constexpr std::size_t room = IntervalColumns::longest_vector;
+    for (std::vector<double>* const column :
+         {&columns_.lo, &columns_.hi, &columns_.inverse_width, &columns_.extinction,
+          &columns_.extinction_change, &columns_.extinction_end, &columns_.color_span,
+          &columns_.transparent}) {
+        column->resize(std::max(column->size(), room));
+    }
+    columns_.bounds.resize(std::max(columns_.bounds.size(), room + 1),
+                           std::numeric_limits<double>::infinity());
 }
 
 void TransferIntervals::find_visible() {

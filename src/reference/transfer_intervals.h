@@ -43,6 +43,7 @@ class TransferIntervals {
     void add(const TransferKnot& from, const TransferKnot& to);
     void add_constant(const TransferKnot& knot);
     void find_visible();
+    void make_room();
 
     std::vector<IntervalColor> colors_;
     IntervalColumns columns_;
