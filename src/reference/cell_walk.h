@@ -71,16 +71,27 @@ class CellWalk {
     template <typename Visit>
     bool cross(const CellBlock& block, const Visit& visit, double& from) {
         while (true) {
-            const int axis = nearest_axis();
-            const bool last = !(crossing_[axis] < chord_.length_z);
-            const double to = last ? chord_.length_z : crossing_[axis];
-            if (from < to && !visit(cell_, from, to, block)) return false;
-            if (last) return false;
-            from = std::max(from, to);
-            cell_[axis] += step_[axis];
-            crossing_[axis] = next_crossing(axis);
-            if (!block.holds(cell_[axis], axis)) return true;
+            const auto& [x, y, z] = crossing_;
+            const Step step =
+                x <= y ? (x <= z ? cross<0>(block, visit, from) : cross<2>(block, visit, from))
+                       : (y <= z ? cross<1>(block, visit, from) : cross<2>(block, visit, from));
+            if (step != Step::inside) return step == Step::behind;
         }
+    }
+
+    enum class Step { inside, behind, ended };
+
+    // Visits a cell that the chord leaves along an axis.
+    template <int axis, typename Visit>
+    Step cross(const CellBlock& block, const Visit& visit, double& from) {
+        const bool last = !(crossing_[axis] < chord_.length_z);
+        const double to = last ? chord_.length_z : crossing_[axis];
+        if (from < to && !visit(cell_, from, to, block)) return Step::ended;
+        if (last) return Step::ended;
+        from = std::max(from, to);
+        cell_[axis] += step_[axis];
+        crossing_[axis] = next_crossing(axis);
+        return block.holds(cell_[axis], axis) ? Step::inside : Step::behind;
     }
 
     // Goes on from `from` to where the chord leaves a block; false where it ends before.
@@ -121,11 +132,6 @@ class CellWalk {
             crossing_[axis] = next_crossing(axis);
         }
         return true;
-    }
-
-    int nearest_axis() const {
-        if (crossing_[0] <= crossing_[1]) return crossing_[0] <= crossing_[2] ? 0 : 2;
-        return crossing_[1] <= crossing_[2] ? 1 : 2;
     }
 
     double crossing_of(std::int64_t plane, int axis) const {

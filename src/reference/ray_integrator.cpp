@@ -57,9 +57,13 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient
     std::int64_t lit_segment = -1;
     GradientAlong gradient;
     append_pieces(segments, transfer_, error_per_length_, batch_);
+    // A local sum: a member would be written to memory with every piece.
+    CompensatedSum depth = depth_;
     for (std::size_t piece = first; piece < batch_.count; ++piece) {
-        batch_.before[piece] = opaque() ? hidden_depth : depth_.value();
-        if (opaque()) continue;
+        const double before = depth.value();
+        const bool hidden = before >= depth_limit_;
+        batch_.before[piece] = hidden ? hidden_depth : before;
+        if (hidden) continue;
         ++pieces_;
         if (gradient_of != nullptr) {
             const std::int64_t segment = batch_.segment[piece];
@@ -68,28 +72,33 @@ void RayIntegrator::add(const SegmentBatch& segments, const GradientOf* gradient
             lit_segment = segment;
             add_light(piece, gradient);
         }
-        depth_.add(batch_.depth[piece]);
+        depth.add(batch_.depth[piece]);
     }
+    depth_ = depth;
     if (batch_.count >= pieces_together) finish_batch();
 }
 
 void RayIntegrator::finish_batch() {
     integrate_emission(batch_);
+    glm::dvec3 sum = color_;
+    double error = error_;
     for (std::size_t i = 0; i < batch_.count; ++i) {
         const double transmittance = batch_.transmittance[i];
         if (!(transmittance > 0)) continue;
         const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[i]));
-        color_ += transmittance * batch_.opacity[i] * color;
+        sum += transmittance * batch_.opacity[i] * color;
         if (!(batch_.color_span[i] > 0)) continue;
-        color_ += transmittance * batch_.value[i] * change;
-        error_ += transmittance * batch_.color_span[i] * batch_.error[i];
+        sum += transmittance * batch_.value[i] * change;
+        error += transmittance * batch_.color_span[i] * batch_.error[i];
     }
+    color_ = sum;
+    error_ = error;
     batch_.count = 0;
 }
 
 void RayIntegrator::add_light(std::size_t piece, const GradientAlong& gradient) {
     const auto& [color, change] = transfer_.color(static_cast<std::size_t>(batch_.interval[piece]));
-    const double transmittance = std::exp(-depth_.value());
+    const double transmittance = std::exp(-batch_.before[piece]);
     const LightIntegral light = integrate_light(
         {batch_.piece(piece), color, change,
          part_of(gradient, batch_.from[piece], batch_.to[piece])},
