@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/packet_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support/split_box.h"
+#include "tiles/instruction_set.h"
+
+namespace lamina {
+namespace {
+
+double value_at(const glm::dvec3& p) {
+    return 3 * p.x - 2 * p.y + p.z;
+}
+
+struct TestLine {
+    glm::dvec3 origin, direction;
+};
+
+struct Passed {
+    std::int32_t tet;
+    double from, to, front, back, least, most;
+    std::array<std::int32_t, 3> corners;  // of the face behind
+    std::array<double, 3> weights;
+    bool operator==(const Passed&) const = default;
+};
+using Passage = std::vector<Passed>;
+
+Passed passed(const TetSegment& segment, const TetMesh& mesh, std::span<const double> values) {
+    Passed result{segment.tet,
+                  segment.in.at,
+                  segment.out.at,
+                  segment.in.interpolate(values),
+                  segment.out.interpolate(values),
+                  INFINITY,
+                  -INFINITY,
+                  segment.out.corners,
+                  segment.out.weights};
+    for (const std::int32_t corner : mesh.tets()[static_cast<std::size_t>(segment.tet)]) {
+        const double value = values[static_cast<std::size_t>(corner)];
+        result.least = std::min(result.least, value);
+        result.most = std::max(result.most, value);
+    }
+    return result;
+}
+
+std::vector<Passage> walk_alone(const TetMesh& mesh, const FaceTree& tree,
+                                const std::vector<TestLine>& lines,
+                                std::span<const double> values) {
+    RayWalk walk(mesh, tree);
+    std::vector<Passage> passages;
+    for (const TestLine& line : lines) {
+        Passage passage;
+        walk.aim(line.origin, line.direction);
+        for (const RayWalk::Entry& entry : walk.entries()) {
+            walk.follow(entry, [&](const TetSegment& segment) {
+                passage.push_back(passed(segment, mesh, values));
+                return true;
+            });
+        }
+        passages.push_back(passage);
+    }
+    return passages;
+}
+
+// Lines begin where others have ended, so that lanes are never in step.
+std::vector<Passage> walk_together(const TetMesh& mesh, const FaceTree& tree,
+                                   const std::vector<TestLine>& lines,
+                                   std::span<const double> values) {
+    PacketWalk walk(mesh, tree, values);
+    std::vector<Passage> passages(lines.size());
+    std::array<std::size_t, PacketWalk::width> line{}, entry{};
+    std::size_t begun = 0;
+    const auto go_on = [&](std::size_t lane) {
+        while (true) {
+            const auto entries = walk.ray(lane).entries();
+            if (entry[lane] < entries.size()) return walk.enter(lane, entries[entry[lane]++]);
+            if (begun == lines.size()) return;
+            line[lane] = begun++;
+            entry[lane] = 0;
+            walk.ray(lane).aim(lines[line[lane]].origin, lines[line[lane]].direction);
+        }
+    };
+    for (std::size_t lane = 0; lane < PacketWalk::width; ++lane) go_on(lane);
+    while (walk.walking() != 0) {
+        const std::uint32_t walked = walk.walking();
+        walk.step();
+        PacketWalk::for_each(walked, [&](std::size_t lane) {
+            const WalkLanes& lanes = walk.lanes();
+            const TetSegment segment = walk.segment(lane);
+            EXPECT_EQ(segment.tet, walk.tet(lane));
+            EXPECT_EQ(segment.in.at, lanes.in().at[lane]);
+            passages[line[lane]].push_back({segment.tet, lanes.in().at[lane], lanes.out().at[lane],
+                                            lanes.in().value[lane], lanes.out().value[lane],
+                                            lanes.least[lane], lanes.most[lane],
+                                            segment.out.corners, segment.out.weights});
+        });
+        PacketWalk::for_each(walked & walk.left(), go_on);
+    }
+    return passages;
+}
+
+void expect_same(const MeshData& data, const std::vector<TestLine>& lines) {
+    const TetMesh mesh(data, "mesh");
+    const FaceTree tree(mesh, mesh.open_faces());
+    const auto& values = mesh.point_scalars()[0].values;
+    const std::vector<Passage> alone = walk_alone(mesh, tree, lines, values);
+    std::size_t steps = 0;
+    for (const Passage& passage : alone) steps += passage.size();
+    EXPECT_GT(steps, 1000u);
+    const std::vector<std::string> names = instruction_sets();
+    for (const std::string& name : names) {
+        restrict_instructions(name);
+        const std::vector<Passage> together = walk_together(mesh, tree, lines, values);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            ASSERT_EQ(together[i], alone[i]) << name << ", line " << i;
+    }
+    restrict_instructions(names.front());
+}
+
+TEST(PacketWalk, PassesWhatLinesAlonePass) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const auto point = [&](double least, double most) {
+        return glm::dvec3(uniform(random), uniform(random), uniform(random)) * (most - least) +
+               least;
+    };
+    std::vector<TestLine> lines;
+    for (int i = 0; i < 500; ++i) {
+        const glm::dvec3 origin = point(-3, 4);
+        lines.push_back({origin, point(-.2, 1.2) - origin});
+    }
+    for (const double least : {.1, 1e-6})
+        expect_same(test::split_box(3, 3000, least, value_at), lines);
+}
+
+// Floats decide none of these steps.
+TEST(PacketWalk, LeavesTiesToLinesAlone) {
+    std::vector<TestLine> lines;
+    for (const glm::dvec3& direction :
+         {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 1), glm::dvec3(1, 1, 1), glm::dvec3(-1, 0, 2)}) {
+        for (int x = 0; x <= 4; ++x)
+            for (int y = 0; y <= 4; ++y)
+                for (int z = 0; z <= 4; ++z)
+                    lines.push_back({glm::dvec3(x, y, z) - 8.0 * direction, direction});
+    }
+    expect_same(test::kuhn_box({4, 4, 4}, value_at), lines);
+}
+
+}  // namespace
+}  // namespace lamina
