@@ -74,6 +74,7 @@ void run_waiting(const StoppableWork& work, const py::object& progress) {
     }  // waits for the worker
     if (raised) std::rethrow_exception(raised);
     if (news.failure) std::rethrow_exception(news.failure);
+    look_after_python(progress, news.progress);  // what was said after the last look
 }
 
 }  // namespace lamina::python

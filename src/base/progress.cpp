@@ -14,6 +14,12 @@ constexpr double redraw_seconds = 0.5, report_seconds = 0.05;
 bool quiet_process = false;
 std::atomic<bool> one_is_shown{false};
 
+// Clears a flag at the end of its scope.
+struct FlagRelease {
+    std::atomic_flag& flag;
+    ~FlagRelease() { flag.clear(); }
+};
+
 }  // namespace
 
 Progress::Progress(std::string label, std::int64_t total)
@@ -41,21 +47,22 @@ bool Progress::is_quiet() {
     return quiet_process;
 }
 
+// One thread draws at a time and the others go on: a listener may run tasks that come back here.
+// Whoever has drawn looks whether the end has come meanwhile, which a listener always hears.
 void Progress::advance(std::int64_t steps) {
-    const std::int64_t done = done_ += steps;
+    done_ += steps;
     if (!visible_) return;
-    // The end is always heard: its thread waits for one that is about to report an earlier share.
-    const bool last = listener_ != nullptr && done >= total_;
-    std::unique_lock lock(drawing_, std::defer_lock);
-    if (last) {
-        lock.lock();
-    } else if (!lock.try_lock()) {
-        return;
-    }
     const double pause = listener_ != nullptr ? report_seconds : redraw_seconds;
-    if (!last && watch_.seconds() - last_drawn_ < pause) return;
-    last_drawn_ = watch_.seconds();
-    draw(done_);  // what is done now: shares of several threads never fall
+    const auto ends = [&] { return listener_ != nullptr && done_ >= total_ && !ended_; };
+    do {
+        if (drawing_.test_and_set()) return;
+        const FlagRelease release{drawing_};
+        const bool last = ends();
+        if (ended_ || (!last && watch_.seconds() - last_drawn_ < pause)) continue;
+        ended_ = last;
+        last_drawn_ = watch_.seconds();
+        draw(done_);
+    } while (ends());
 }
 
 void Progress::draw(std::int64_t done) {

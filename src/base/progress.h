@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <mutex>
 #include <string>
 
 #include "base/client.h"
@@ -36,7 +35,8 @@ class Progress {
     std::int64_t total_;
     bool visible_;
     std::atomic<std::int64_t> done_{0};
-    std::mutex drawing_;
+    std::atomic_flag drawing_;        // whether a thread draws
+    std::atomic<bool> ended_{false};  // whether a listener has heard the end
     double last_drawn_ = 0;
     bool drawn_ = false;
     Stopwatch watch_;

@@ -216,9 +216,7 @@ void RayWalk::sort_crossings() {
 LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& front) const {
     const Tet& tet = mesh_.tets()[static_cast<std::size_t>(segment.tet)];
     auto& [p, areas] = front;
-    // Of the tet's corners the front has all but one, and these cancel.
-    const Corner top =
-        see(tet[0] ^ tet[1] ^ tet[2] ^ tet[3] ^ p[0].point ^ p[1].point ^ p[2].point);
+    const Corner top = see(corner_opposite(tet, p[0].point, p[1].point, p[2].point));
     const std::array<Side, 3> to_top{side(p[0], top), side(p[1], top), side(p[2], top)};
     std::size_t i = 0;
     while (i < 2 && !(to_top[i].sign < 0 && to_top[(i + 1) % 3].sign > 0)) ++i;

@@ -16,20 +16,17 @@ HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
-// Up to this depth so many terms of Taylor's series give exp(-depth): the remainder is below
-// depth^(terms + 1) / (terms + 2)! = 5e-16, 1e-16 and 7e-18.
+// With so many terms, Taylor's series of (exp(-depth) - 1) / depth is good up to this depth: the
+// remainder is below depth^(terms + 1) / (terms + 2)! = 7e-18, 1e-16 and 5e-16.
 template <std::size_t terms>
-constexpr double series_limit = 0;
-template <>
-constexpr double series_limit<10> = 0.25;
-template <>
-constexpr double series_limit<8> = 0.09;
-template <>
-constexpr double series_limit<6> = 0.016;
+inline constexpr double series_limit = terms == 6   ? 0.016
+                                       : terms == 8 ? 0.09
+                                                    : 0.25;
 
 // (exp(-depth) - 1) / depth.
 template <std::size_t terms>
 HWY_INLINE Doubles short_expm1_share(Doubles depth) {
+    static_assert(terms == 6 || terms == 8 || terms == 10, "series_limit");
     constexpr double inverse_factorials[] = {1. / 2,       1. / 6,       1. / 24,    1. / 120,
                                              1. / 720,     1. / 5040,    1. / 40320, 1. / 362880,
                                              1. / 3628800, 1. / 39916800};

@@ -2,6 +2,8 @@
 // Vector form of integrate_segment() (optics/segment_integral.h).
 #include "reference/linear_parts.h"
 
+#include <limits>
+
 #include "optics/gauss_rules.h"
 #include "optics/segment_integral.h"
 

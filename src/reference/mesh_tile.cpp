@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/interrupt.h"
+#include "reference/tet_range.h"
 
 namespace lamina {
 namespace {
@@ -103,34 +104,31 @@ void MeshTile::go_on(std::size_t lane) {
 void MeshTile::add_overlapping(std::size_t lane) {
     ++totals_.overlapping;
     const SeenRange range{seen_.first[lane], seen_.last[lane]};
-    std::vector<TetSegment> segments;
-    walk_.ray(lane).list(segments);
-    for (const TetSegment& segment : segments) {
-        const auto value = [&](std::int32_t corner) {
-            return picture_.scalar[static_cast<std::size_t>(corner)];
-        };
-        const auto [least, most] = std::ranges::minmax(
-            picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)], {}, value);
+    walk_.ray(lane).list(overlapping_);
+    for (const TetSegment& segment : overlapping_) {
+        const Tet& tet = picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)];
+        const auto [least, most] = range_of(tet, picture_.scalar);
         const SeenSegment part = seen_segment(segment, range, picture_.scalar);
-        const double slack = scalar_slack(value(least), value(most));
+        const double slack = scalar_slack(least, most);
         const auto [lo, hi] = std::minmax(part.front, part.back);
         if (part.from < part.to && picture_.intervals.visible(lo - slack, hi + slack))
-            add(lane, segment.tet, part, slack, [&] { return segment; });
+            add(lane, segment.tet, part, (part.to - part.from) * seen_.world_per_z[lane], slack,
+                [&] { return segment; });
     }
 }
 
 void MeshTile::add_shown(std::size_t lane) {
     const SeenSegment part{seen_.from[lane], seen_.to[lane], seen_.front[lane], seen_.back[lane]};
-    add(lane, walk_.tet(lane), part, seen_.slack[lane], [&] { return walk_.segment(lane); });
+    add(lane, walk_.tet(lane), part, seen_.length[lane], seen_.slack[lane],
+        [&] { return walk_.segment(lane); });
 }
 
 // Adds a part of segment(), which is in that tet.
 template <typename Segment>
-void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double slack,
-                   const Segment& segment) {
+void MeshTile::add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double length,
+                   double slack, const Segment& segment) {
     const auto& no_value = picture_.no_value;
     if (!no_value.empty() && no_value[static_cast<std::size_t>(tet)] != 0) return;
-    const double length = (part.to - part.from) * seen_.world_per_z[lane];
     MeshRay& ray = rays_[lane];
     if (!ray.lights) return ray.sum.add(part.front, part.back, length, slack);
     const GradientAlong gradient = gradient_along(segment(), part.from, part.to);

@@ -66,8 +66,8 @@ class MeshTile {
     void add_overlapping(std::size_t lane);
     void add_shown(std::size_t lane);
     template <typename Segment>
-    void add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double slack,
-             const Segment& segment);
+    void add(std::size_t lane, std::int32_t tet, const SeenSegment& part, double length,
+             double slack, const Segment& segment);
     GradientAlong gradient_along(const TetSegment& segment, double from, double to) const;
     glm::dvec3 gradient_at(const FaceCrossing& crossing) const;
 
@@ -78,8 +78,9 @@ class MeshTile {
     bool listed_ = false;       // whether faces_ has the tile's faces
     int column_ = 0, row_ = 0;  // the next pixel
     PacketWalk walk_;
-    SeenLanes seen_;
-    std::vector<MeshRay> rays_;  // one a lane
+    SeenLanes seen_{};
+    std::vector<MeshRay> rays_;            // one a lane
+    std::vector<TetSegment> overlapping_;  // memory of add_overlapping()
     Totals totals_;
 };
 

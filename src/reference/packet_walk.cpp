@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/packet_walk.h"
 
-#include <algorithm>
+#include "reference/tet_range.h"
 
 namespace lamina {
 namespace {
@@ -32,7 +32,6 @@ void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
 }
 
 void PacketWalk::step() {
-    left_ = 0;
     lanes_.entry = 1 - lanes_.entry;
     step_lanes(lanes_);
     for_each(walking_, [&](std::size_t lane) {
@@ -51,16 +50,13 @@ std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
 
 // Each tet is passed at most once. The limit ends walks in meshes that are not valid.
 void PacketWalk::move(std::size_t lane, std::int32_t tet) {
-    if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) {
-        walking_ &= ~bit(lane);
-        left_ |= bit(lane);
-        return;
-    }
+    if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) return stop(lane);
     tets_[lane] = tet;
-    const auto& [a, b, c, d] = mesh_.tets()[static_cast<std::size_t>(tet)];
-    // Of the tet's corners the front has all but one, and these cancel.
-    const std::int64_t top = std::int64_t{a ^ b ^ c ^ d} ^ lanes_.front[0].point[lane] ^
-                             lanes_.front[1].point[lane] ^ lanes_.front[2].point[lane];
+    const auto in_front = [&](std::size_t i) {
+        return static_cast<std::int32_t>(lanes_.front[i].point[lane]);
+    };
+    const std::int32_t top = corner_opposite(mesh_.tets()[static_cast<std::size_t>(tet)],
+                                             in_front(0), in_front(1), in_front(2));
     const auto point = static_cast<std::size_t>(top);
     set_vector(lanes_.top, lane, mesh_.points()[point]);
     lanes_.top_value[lane] = values_[point];
@@ -69,11 +65,10 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
 
 // Takes a step that vectors of floats did not decide.
 std::int32_t PacketWalk::step_alone(std::size_t lane) {
-    const auto value = [&](std::int32_t point) { return values_[static_cast<std::size_t>(point)]; };
     const auto [least, most] =
-        std::ranges::minmax(mesh_.tets()[static_cast<std::size_t>(tets_[lane])], {}, value);
-    lanes_.least[lane] = value(least);
-    lanes_.most[lane] = value(most);
+        range_of(mesh_.tets()[static_cast<std::size_t>(tets_[lane])], values_);
+    lanes_.least[lane] = least;
+    lanes_.most[lane] = most;
     TetSegment segment{tets_[lane], crossing(lanes_.in(), lane), {}};
     RayFront front = front_of(lane);
     const std::int32_t behind = rays_[lane].step(segment, front);

@@ -13,9 +13,9 @@
 
 namespace lamina {
 
-// Walks some lines through a mesh side by side, so that no step waits for the memory of another.
-// Each passes the same tets as RayWalk::follow() takes it through, with the same crossings. Each
-// thread needs its own object.
+// Walks some lines through a mesh side by side, so that one is read for from memory while others
+// are computed. Each passes the same tets as RayWalk::follow() takes it through, with the same
+// crossings. Each thread needs its own object.
 class PacketWalk {
   public:
     static constexpr std::size_t width = WalkLanes::width;
@@ -40,9 +40,7 @@ class PacketWalk {
     // Takes every line that walks through one more tet.
     void step();
 
-    // Of the last step: the lines that left the mesh, the tets, and where the lines entered and
-    // left these.
-    std::uint32_t left() const { return left_; }
+    // Of the last step: the tets, and where the lines entered and left these.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;
@@ -61,7 +59,7 @@ class PacketWalk {
     std::vector<RayWalk> rays_;
     std::array<std::int32_t, width> passed_{}, tets_{};  // by the last step, and by the next one
     std::array<std::size_t, width> steps_{};
-    std::uint32_t walking_ = 0, left_ = 0;
+    std::uint32_t walking_ = 0;
     WalkLanes lanes_{};
 };
 

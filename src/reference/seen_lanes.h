@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "reference/interval_columns.h"
-#include "reference/seen_segment.h"
 #include "reference/walk_lanes.h"
 
 namespace lamina {

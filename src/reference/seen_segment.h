@@ -21,6 +21,7 @@ struct SeenSegment {
     double from, to;
     double front, back;
 };
+// `whole`: the segment from where the ray enters the tet to where it leaves.
 SeenSegment seen_segment(const SeenSegment& whole, const SeenRange& seen);
 SeenSegment seen_segment(const TetSegment& segment, const SeenRange& seen,
                          std::span<const double> scalar);

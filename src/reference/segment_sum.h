@@ -32,8 +32,8 @@ class SegmentSum {
     void begin(const RayLights* lights = nullptr);
 
     // Adds the next segment: the scalar is linear from `front` to `back` over `length` world units.
-    // Both scalars may have errors up to `slack`. Only segments that may then be visible
-    // (TransferIntervals) and have a length make a difference.
+    // Both scalars may have errors up to `slack`. `length` > 0. The caller leaves out segments that
+    // are not visible (TransferIntervals::visible()): they would only be counted.
     void add(double front, double back, double length, double slack) {
         ++segments_;
         if (slack > 0 && std::abs(back - front) <= slack)

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/tile_faces.h"
 
-#include <array>
+#include "mesh/box_corners.h"
 
 namespace lamina {
 namespace {
 
 // More are not listed: searching the tree is then better.
 constexpr std::size_t most_listed = 1 << 16;
-
-std::array<glm::dvec3, 8> corners_of(const FaceTree::Box& box) {
-    std::array<glm::dvec3, 8> corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        corners[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                      i & 4 ? box.max.z : box.min.z};
-    }
-    return corners;
-}
 
 }  // namespace
 
@@ -35,7 +26,8 @@ bool TileFaces::list(const PictureTile& tile) {
     faces_.clear();
     std::size_t count = 0;
     const auto meets = [&](const FaceTree::Box& box) {
-        return count <= most_listed && !pixels_around(view_, tile, corners_of(box)).empty();
+        return count <= most_listed &&
+               !pixels_around(view_, tile, box_corners(box.min, box.max)).empty();
     };
     const auto add = [&](std::int32_t face) {
         const SeenPixels pixels = pixels_around(

@@ -23,7 +23,7 @@ class TileFaces {
     // Lists the faces of a tile. Returns false where there are too many to be listed.
     bool list(const PictureTile& tile);
 
-    // Indices into the mesh's open faces, of a pixel of the picture in that tile.
+    // Indices into the mesh's open faces, of a pixel of the picture in the tile that was listed.
     std::span<const std::int32_t> of(const glm::ivec2& pixel) const;
 
   private:

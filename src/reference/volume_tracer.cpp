@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "mesh/box_corners.h"
 #include "reference/cell_batch.h"
 #include "reference/cell_walk.h"
 #include "reference/chord.h"
@@ -36,16 +38,20 @@ struct Traced {
           transfer(intervals),
           cells(visible_cells),
           options(how) {
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            corners[i] = grid.to_world({i & 1 ? axes.highest.x : axes.lowest.x,
-                                        i & 2 ? axes.highest.y : axes.lowest.y,
-                                        i & 4 ? axes.highest.z : axes.lowest.z});
-        }
+        // A share of the diagonal to spare, for axes that are not quite orthogonal (by 1e-5 at
+        // most, volume_files/grid_check.cpp), and for rounding.
+        const double spare =
+            1e-4 * glm::distance(grid.to_world(axes.lowest), grid.to_world(axes.highest));
+        glm::dvec3 steps;
+        for (int axis = 0; axis < 3; ++axis)
+            steps[axis] = spare / glm::length(grid.step[static_cast<std::size_t>(axis)]);
+        corners = box_corners(axes.lowest - steps, axes.highest + steps);
+        for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
     }
 
     const Grid& grid;
     GridAxes axes;
-    std::array<glm::dvec3, 8> corners;  // of the box, in the world
+    std::array<glm::dvec3, 8> corners;  // around the box, in the world
     CellSamples<Samples> samples;
     GradientSamples<Samples> gradients;
     const TransferIntervals& transfer;

@@ -2,6 +2,8 @@
 // Vector form of RayWalk::step() (mesh/ray_walk.cpp): the same numbers, rounded in the same way.
 #include "reference/walk_lanes.h"
 
+#include <limits>
+
 #include "mesh/ray_walk.h"
 
 #undef HWY_TARGET_INCLUDE

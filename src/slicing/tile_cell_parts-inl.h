@@ -45,8 +45,8 @@ HWY_INLINE void for_each_lane(std::uint32_t set, const Body& body) {
     for (; set != 0; set &= set - 1) body(static_cast<std::size_t>(std::countr_zero(set)));
 }
 
-// The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with a table
-// that is not copied at every call.
+// The members of a set in its first lanes. Up to eight lanes this is hn::Compress() with the table
+// of base/set_members.h, which gives the reason.
 HWY_INLINE Floats members_first(Floats v, FloatMask members) {
     if constexpr (hn::MaxLanes(FloatTag()) > 8) {
         return hn::Compress(v, members);

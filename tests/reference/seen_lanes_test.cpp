@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "fixtures.h"
+#include "reference/seen_segment.h"
 #include "reference/transfer_intervals.h"
+#include "support/each_instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -22,9 +26,8 @@ TransferFunction two_peaks() {
         {knot(1, 0), knot(2, 1), knot(3, 0), knot(5, 0), knot(6, 1), knot(7, 0)});
 }
 
-// The differences are those of fused and separate operations in the two: some epsilons of scalars
-// that are below 10, and of slopes that are below 200 where segments are as long as .1.
-TEST(SeenLanes, AreTheSegmentsThatShow) {
+// The numbers are those of seen_segment(), bit by bit.
+void test_segments() {
     Random random(9);
     const TransferFunction function = two_peaks();
     const TransferIntervals intervals(function);
@@ -60,14 +63,19 @@ TEST(SeenLanes, AreTheSegmentsThatShow) {
             cut += part.from != whole.from || part.to != whole.to;
             EXPECT_EQ(seen.from[lane], part.from);
             EXPECT_EQ(seen.to[lane], part.to);
-            EXPECT_NEAR(seen.front[lane], part.front, 1e-13);
-            EXPECT_NEAR(seen.back[lane], part.back, 1e-13);
+            EXPECT_EQ(seen.front[lane], part.front);
+            EXPECT_EQ(seen.back[lane], part.back);
+            EXPECT_EQ(seen.length[lane], 2 * (part.to - part.from));
             EXPECT_EQ(seen.slack[lane], slack);
         }
     }
     EXPECT_GT(shown, 500u);
     EXPECT_GT(hidden, 500u);
     EXPECT_GT(cut, 100u);
+}
+
+TEST(SeenLanes, AreTheSegmentsThatShow) {
+    test::for_each_instruction_set([](const std::string&) { test_segments(); });
 }
 
 }  // namespace

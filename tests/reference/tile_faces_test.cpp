@@ -3,17 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "fixtures.h"
+#include "mesh/box_corners.h"
 #include "mesh/ray_walk.h"
 #include "reference/chord.h"
+#include "reference/seen_pixels.h"
 #include "support/split_box.h"
 
 namespace lamina {
 namespace {
 
-using reference_test::camera_at;
 using reference_test::make_grid;
 using reference_test::Random;
 
@@ -21,49 +25,73 @@ double value_at(const glm::dvec3& p) {
     return p.x;
 }
 
-// Cameras outside, inside and at the surface of a box from `origin` on, as large as `size`.
+// Cameras outside, inside and at the surface of a box from `origin` on, as large as `size`. The up
+// vector of some is nearly parallel to the view direction, so that the view's axes are skewed.
 std::vector<Camera> cameras_around(Random& random, const glm::dvec3& origin, double size) {
     std::vector<Camera> cameras;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 90; ++i) {
         Camera camera;
         camera.projection = i % 2 == 0 ? Projection::perspective : Projection::orthographic;
         camera.eye = origin + size * (i % 3 == 0 ? random.point(0, 1) : random.point(-5, 6));
         camera.center = origin + size * random.point(0, 1);
         camera.up = random.point(-1, 1);
-        camera.fov_y = random.uniform(1, 150);
+        if (i % 5 == 0)
+            camera.up = glm::normalize(camera.center - camera.eye) + 1e-7 * random.point(-1, 1);
+        camera.fov_y = i % 4 == 0 ? 1 : random.uniform(1, 150);
         camera.height = size * std::pow(10, random.uniform(-1, 2));
         cameras.push_back(camera);
     }
+    // Pixel centres on edges and points of whole-numbered meshes.
+    Camera straight;
+    straight.projection = Projection::orthographic;
+    straight.eye = {4, 4, 20};
+    straight.center = {4, 4, 0};
+    straight.height = 8;
+    cameras.push_back(straight);
     return cameras;
 }
 
-TEST(TileFaces, ListThoseThatLinesMeet) {
-    const TetMesh mesh(test::split_box(7, 1000, .01, value_at), "box");
+void expect_faces_listed(const TetMesh& mesh, const Camera& camera, std::size_t& entries,
+                         std::size_t& listed, std::size_t& pixels) {
     const FaceTree tree(mesh, mesh.open_faces());
-    Random random(3);
-    std::size_t entries = 0, listed = 0;
-    for (const Camera& camera : cameras_around(random, glm::dvec3(0), 1)) {
-        const View view(camera, 45, 33);
-        TileFaces faces(mesh, tree, view);
-        RayWalk one(mesh, tree), other(mesh, tree);
-        for (const PictureTile& tile : tiles_to_trace(view.width, view.height)) {
-            ASSERT_TRUE(faces.list(tile));
-            for (int i = 0; i < tile.width * tile.height; ++i) {
-                const glm::ivec2 pixel(tile.column + i % tile.width, tile.row + i / tile.width);
-                const View::Ray ray = view.ray(pixel.x, pixel.y);
-                one.aim(ray.origin, ray.direction);
-                other.aim(ray.origin, ray.direction, faces.of(pixel));
-                ASSERT_EQ(one.entries().size(), other.entries().size());
-                for (std::size_t e = 0; e < one.entries().size(); ++e)
-                    ASSERT_EQ(one.entries()[e].at, other.entries()[e].at);
-                ASSERT_EQ(one.overlapping(), other.overlapping());
-                entries += one.entries().size();
-                listed += faces.of(pixel).size();
+    const View view(camera, 48, 32);
+    TileFaces faces(mesh, tree, view);
+    RayWalk one(mesh, tree), other(mesh, tree);
+    for (const PictureTile& tile : tiles_to_trace(view.width, view.height)) {
+        if (!faces.list(tile)) continue;  // of eyes in the mesh
+        for (int i = 0; i < tile.width * tile.height; ++i) {
+            const glm::ivec2 pixel(tile.column + i % tile.width, tile.row + i / tile.width);
+            const View::Ray ray = view.ray(pixel.x, pixel.y);
+            one.aim(ray.origin, ray.direction);
+            other.aim(ray.origin, ray.direction, faces.of(pixel));
+            ASSERT_EQ(one.entries().size(), other.entries().size());
+            for (std::size_t e = 0; e < one.entries().size(); ++e) {
+                ASSERT_EQ(one.entries()[e].at, other.entries()[e].at);
+                ASSERT_EQ(one.entries()[e].face.tet, other.entries()[e].face.tet);
             }
+            ASSERT_EQ(one.overlapping(), other.overlapping());
+            entries += one.entries().size();
+            listed += faces.of(pixel).size();
+            ++pixels;
+        }
+    }
+}
+
+// A box of 8^3 cells has 768 open faces, many smaller than a pixel.
+TEST(TileFaces, ListThoseThatLinesMeet) {
+    Random random(3);
+    MeshData regular = test::kuhn_box({8, 8, 8}, value_at), irregular = regular;
+    for (glm::dvec3& point : irregular.points) point += random.point(-.2, .2);
+    std::size_t entries = 0, listed = 0, pixels = 0;
+    for (const MeshData& data : {regular, irregular}) {
+        const TetMesh mesh(data, "box");
+        for (const Camera& camera : cameras_around(random, glm::dvec3(0), 8)) {
+            expect_faces_listed(mesh, camera, entries, listed, pixels);
         }
     }
     EXPECT_GT(entries, 10000u);
-    EXPECT_LT(listed, 20 * entries);  // not simply all of them
+    EXPECT_GT(pixels, 182 * 48 * 32 / 2);
+    EXPECT_LT(listed, 768 * pixels / 10);  // of 768 faces
 }
 
 // 200 tets one behind the other in front of 1024 pixels.
@@ -95,12 +123,8 @@ TEST(SeenPixels, HoldAllWhoseRaysMeetABox) {
     for (const double origin : {0.0, 1e6}) {
         Grid grid = make_grid({5, 6, 7}, Centering::cell);
         grid.origin = glm::dvec3(origin, -origin, origin / 3);
-        std::array<glm::dvec3, 8> corners;
-        for (std::size_t i = 0; i < 8; ++i) {
-            const glm::dvec3 lo = grid.index_min(), hi = grid.index_max();
-            corners[i] =
-                grid.to_world({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
-        }
+        std::array<glm::dvec3, 8> corners = box_corners(grid.index_min(), grid.index_max());
+        for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
         for (const Camera& camera : cameras_around(random, grid.origin, 6)) {
             const View view(camera, 40, 30);
             const PictureTile tile{3, 5, 32, 20};
@@ -120,6 +144,28 @@ TEST(SeenPixels, HoldAllWhoseRaysMeetABox) {
     }
     EXPECT_GT(hits, 1000u);
     EXPECT_GT(misses, 1000u);
+}
+
+// Points on rays are seen in the rays' pixels, however skewed the view's axes are.
+TEST(SeenPixels, HoldThePixelsOfPointsOnRays) {
+    Random random(5);
+    for (const double tilt : {2e-9, 1e-7, 1e-5, 1e-3, 1.0}) {
+        for (int i = 0; i < 2000; ++i) {
+            Camera camera;
+            camera.projection = i % 2 == 0 ? Projection::perspective : Projection::orthographic;
+            camera.eye = random.point(-1, 1);
+            camera.center = camera.eye + random.point(-1, 1);
+            const glm::dvec3 along = glm::normalize(camera.center - camera.eye);
+            camera.up = along + tilt * glm::normalize(glm::cross(along, random.point(-1, 1)));
+            camera.fov_y = i % 3 == 0 ? 1 : 30;
+            camera.height = .01;
+            const View view(camera, 1000, 1000);
+            const PictureTile tile{random.below(1000), random.below(1000), 1, 1};
+            const View::Ray ray = view.ray(tile.column, tile.row);
+            const std::array point{ray.origin + random.uniform(.1, 10) * ray.direction};
+            ASSERT_FALSE(pixels_around(view, tile, point).empty()) << tilt << " " << i;
+        }
+    }
 }
 
 }  // namespace
