@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-#include "choice/box_corners.h"
 #include "facts/view_rays.h"
+#include "mesh/box_corners.h"
 #include "optics/linear_pieces.h"
 
 namespace lamina {
@@ -97,7 +97,7 @@ std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer
 }
 
 std::array<glm::dvec3, 8> MeshField::corners() const {
-    return corners_of(mesh_.mesh.bounds().min, mesh_.mesh.bounds().max);
+    return box_corners(mesh_.mesh.bounds().min, mesh_.mesh.bounds().max);
 }
 
 std::vector<double> MeshField::optical_depths(const Scene& scene) const {

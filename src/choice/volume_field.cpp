@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "choice/box_corners.h"
 #include "choice/large_volume.h"
 #include "choice/shown_cells.h"
 #include "facts/facts.h"
+#include "mesh/box_corners.h"
 
 namespace lamina {
 namespace {
@@ -54,7 +54,7 @@ std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transf
 
 std::array<glm::dvec3, 8> VolumeField::corners() const {
     const Grid& grid = volume_.grid();
-    std::array<glm::dvec3, 8> corners = corners_of(grid.index_min(), grid.index_max());
+    std::array<glm::dvec3, 8> corners = box_corners(grid.index_min(), grid.index_max());
     for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
     return corners;
 }

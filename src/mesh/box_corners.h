@@ -7,7 +7,8 @@
 
 namespace lamina {
 
-// The corners of the box between two opposite ones, at index x + 2y + 4z.
+// The corners of the box between two points: corner i has max along x where i & 1, along y where
+// i & 2, along z where i & 4.
 inline std::array<glm::dvec3, 8> box_corners(const glm::dvec3& min, const glm::dvec3& max) {
     std::array<glm::dvec3, 8> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -114,8 +114,8 @@ class RayWalk {
     const TetMesh& mesh_;
     const FaceTree& tree_;
     LineFrame line_;
-    glm::dvec3 extent_x_{0},
-        extent_y_{0};  // how far a unit along each axis reaches across the line
+    // How far a unit along each axis reaches across the line.
+    glm::dvec3 extent_x_{0}, extent_y_{0};
     double origin_norm_ = 0;
     std::vector<Entry> entries_;
     std::vector<double> exits_;

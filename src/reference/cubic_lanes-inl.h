@@ -14,6 +14,7 @@
 
 #include "base/set_members.h"
 #include "reference/cubic.h"
+#include "reference/longest_vector.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -21,6 +22,7 @@ namespace reference {
 
 namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::ScalableTag<double>;
+static_assert(HWY_MAX_BYTES <= longest_vector * sizeof(double));
 using Doubles = hn::Vec<Lanes>;
 using Mask = hn::Mask<Lanes>;
 using NumberLanes = hn::ScalableTag<std::int64_t>;

@@ -10,8 +10,6 @@ namespace lamina {
 // linear in the position x = (value - lo) * inverse_width, 0 <= x <= 1; outside the outermost knots
 // it is constant (change = 0). Columns have room for the longest vector at least.
 struct IntervalColumns {
-    static constexpr std::size_t longest_vector = 8;
-
     // Interval i lies between bounds[i] and bounds[i + 1]: the knots, -infinity before them, and
     // infinity behind them, at least as often as to make the knots and one more a power of two.
     std::vector<double> bounds;

@@ -161,9 +161,9 @@ HWY_INLINE WeightLanes weights_by_rule(const GaussRule& rule, Doubles p, Doubles
 }
 
 HWY_INLINE WeightLanes closed_weights(Doubles p, Doubles q) {
-    constexpr std::size_t most = LinearRound::longest_vector;
     const Lanes d;
-    alignas(64) double ps[most], qs[most], fronts[most], backs[most];
+    alignas(64) double ps[longest_vector], qs[longest_vector], fronts[longest_vector],
+        backs[longest_vector];
     hn::Store(p, d, ps);
     hn::Store(q, d, qs);
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {

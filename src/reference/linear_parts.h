@@ -32,8 +32,8 @@ struct LinearParts {
 
     // Makes sure that columns have room for so many parts, and a vector of doubles more.
     void make_room(std::size_t parts) {
-        if (parts + LinearRound::longest_vector <= from.size()) return;
-        const std::size_t room = std::max(2 * from.size(), parts + LinearRound::longest_vector);
+        if (parts + longest_vector <= from.size()) return;
+        const std::size_t room = std::max(2 * from.size(), parts + longest_vector);
         segment.resize(room);
         interval.resize(room);
         for (Column* column :

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+
+#include "reference/longest_vector.h"
 
 namespace lamina {
 
 // One part of each segment of a vector, where `kept` has its bit (LinearParts).
 struct LinearRound {
-    static constexpr std::size_t longest_vector = 8;  // doubles
-
     alignas(64) std::int64_t interval[longest_vector];
     alignas(64) double from[longest_vector];
     alignas(64) double to[longest_vector];

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/interrupt.h"
-#include "reference/tet_range.h"
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 namespace {
@@ -107,7 +107,7 @@ void MeshTile::add_overlapping(std::size_t lane) {
     walk_.ray(lane).list(overlapping_);
     for (const TetSegment& segment : overlapping_) {
         const Tet& tet = picture_.mesh.tets()[static_cast<std::size_t>(segment.tet)];
-        const auto [least, most] = range_of(tet, picture_.scalar);
+        const auto [least, most] = range_in(picture_.scalar, tet);
         const SeenSegment part = seen_segment(segment, range, picture_.scalar);
         const double slack = scalar_slack(least, most);
         const auto [lo, hi] = std::minmax(part.front, part.back);

@@ -29,7 +29,7 @@ namespace lamina {
 // Traces one tile of a mesh's picture.
 class MeshTile {
   public:
-    // What all tiles of a picture share.
+    // All tiles of a picture share this.
     struct Picture {
         const TetMesh& mesh;
         const FaceTree& open_faces;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/packet_walk.h"
 
-#include "reference/tet_range.h"
+#include "mesh/scalar_range.h"
 
 namespace lamina {
 namespace {
@@ -66,7 +66,7 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
 // Takes a step that vectors of floats did not decide.
 std::int32_t PacketWalk::step_alone(std::size_t lane) {
     const auto [least, most] =
-        range_of(mesh_.tets()[static_cast<std::size_t>(tets_[lane])], values_);
+        range_in(values_, mesh_.tets()[static_cast<std::size_t>(tets_[lane])]);
     lanes_.least[lane] = least;
     lanes_.most[lane] = most;
     TetSegment segment{tets_[lane], crossing(lanes_.in(), lane), {}};

@@ -40,7 +40,8 @@ class PacketWalk {
     // Takes every line that walks through one more tet.
     void step();
 
-    // Of the last step: the tets, and where the lines entered and left these.
+    // These tell of the last step: which tets the lines passed, and where they entered and left
+    // them.
     std::int32_t tet(std::size_t lane) const { return passed_[lane]; }
     const WalkLanes& lanes() const { return lanes_; }
     TetSegment segment(std::size_t lane) const;

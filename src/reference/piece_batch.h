@@ -15,7 +15,6 @@ namespace lamina {
 // a segment (SegmentBatch) on which the transfer function is linear.
 struct PieceBatch {
     using Column = std::vector<double>;
-    static constexpr std::size_t longest_vector = CutRound::longest_vector;
 
     std::vector<std::int64_t> segment, interval;  // numbers
     Column from, to;                              // parameters of the segment, 0 <= from < to <= 1

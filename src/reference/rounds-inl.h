@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "reference/cubic_lanes-inl.h"
 
@@ -36,8 +35,6 @@ template <typename Pieces, typename Store>
 HWY_INLINE void append_rounds(std::size_t count, std::size_t first_segment, Pieces& pieces,
                               const Store& store) {
     auto& rounds = pieces.rounds;
-    constexpr std::size_t most = std::remove_cvref_t<decltype(rounds[0])>::longest_vector;
-    static_assert(HWY_MAX_BYTES <= most * sizeof(double) && most <= 8);  // bits of a byte
     const std::size_t lanes = hn::Lanes(Lanes());
     pieces.make_room(pieces.count + lanes * count);
     for (std::size_t lane = 0; lane < lanes; ++lane) {

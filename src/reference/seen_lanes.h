@@ -15,11 +15,11 @@ namespace lamina {
 struct SeenLanes {
     using Row = WalkLanes::Row;
 
-    // Of the lines.
+    // These rows describe the lines.
     Row first, last;  // SeenRange
     Row world_per_z;  // world length per unit of the parameter
 
-    // Of the segments.
+    // These rows describe the segments.
     Row from, to, front, back;  // SeenSegment
     Row length;                 // in world units
     Row slack;                  // scalar_slack()

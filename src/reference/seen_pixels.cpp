@@ -33,37 +33,39 @@ double skew_of(const View& view) {
 
 }  // namespace
 
+TileSight::TileSight(const View& view, const PictureTile& tile)
+    : view_(view),
+      size_(tile.width, tile.height),
+      middle_(0.5 * view.width - 0.5 - tile.column, 0.5 * view.height - 0.5 - tile.row),
+      error_(place_error + 8 * skew_of(view)),
+      eye_norm_(norm1(view.eye)) {}
+
 // Points behind the eye are seen mirrored, so what lies on both sides of it may be anywhere.
-SeenPixels pixels_around(const View& view, const PictureTile& tile,
-                         std::span<const glm::dvec3> points) {
-    const glm::ivec2 size(tile.width, tile.height);
-    const SeenPixels all{{0, 0}, size - 1};
-    const bool perspective = view.projection == Projection::perspective;
-    const glm::dvec2 middle(0.5 * view.width - 0.5 - tile.column,
-                            0.5 * view.height - 0.5 - tile.row);
-    const double error = place_error + 8 * skew_of(view);
+SeenPixels TileSight::around(std::span<const glm::dvec3> points) const {
+    const SeenPixels all{{0, 0}, size_ - 1};
+    const bool perspective = view_.projection == Projection::perspective;
     glm::dvec2 least(INFINITY), most(-INFINITY);
     std::size_t behind = 0;
     for (const glm::dvec3& point : points) {
-        const glm::dvec3 from = point - view.eye;
-        const double distance = norm1(from), depth = glm::dot(from, view.forward);
-        glm::dvec2 place(glm::dot(from, view.right), -glm::dot(from, view.up));
-        double slack = error * (distance + norm1(view.eye)) + least_error;
+        const glm::dvec3 from = point - view_.eye;
+        const double distance = norm1(from), depth = glm::dot(from, view_.forward);
+        glm::dvec2 place(glm::dot(from, view_.right), -glm::dot(from, view_.up));
+        double slack = error_ * (distance + eye_norm_) + least_error;
         if (perspective) {
             if (!(std::abs(depth) * widest > distance)) return all;
             behind += depth < 0;
             place /= depth;
             slack *= (1 + distance / std::abs(depth)) / std::abs(depth);
         }
-        place = place / view.pixel + middle;
-        slack = slack / view.pixel + spare_pixels;
+        place = place / view_.pixel + middle_;
+        slack = slack / view_.pixel + spare_pixels;
         if (!std::isfinite(place.x + place.y + slack)) return all;
         least = glm::min(least, place - slack);
         most = glm::max(most, place + slack);
     }
     if (behind != 0 && behind != points.size()) return all;
-    return {glm::ivec2(glm::ceil(glm::clamp(least, glm::dvec2(0), glm::dvec2(size)))),
-            glm::ivec2(glm::floor(glm::clamp(most, glm::dvec2(-1), glm::dvec2(size - 1))))};
+    return {glm::ivec2(glm::ceil(glm::clamp(least, glm::dvec2(0), glm::dvec2(size_)))),
+            glm::ivec2(glm::floor(glm::clamp(most, glm::dvec2(-1), glm::dvec2(size_ - 1))))};
 }
 
 }  // namespace lamina

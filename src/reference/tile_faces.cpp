@@ -25,13 +25,13 @@ bool TileFaces::list(const PictureTile& tile) {
     tile_ = tile;
     faces_.clear();
     std::size_t count = 0;
+    const TileSight sight(view_, tile);
     const auto meets = [&](const FaceTree::Box& box) {
-        return count <= most_listed &&
-               !pixels_around(view_, tile, box_corners(box.min, box.max)).empty();
+        return count <= most_listed && !sight.around(box_corners(box.min, box.max)).empty();
     };
     const auto add = [&](std::int32_t face) {
-        const SeenPixels pixels = pixels_around(
-            view_, tile, mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
+        const SeenPixels pixels =
+            sight.around(mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(face)]));
         if (pixels.empty()) return;
         faces_.push_back({face, pixels});
         const glm::ivec2 size = pixels.last - pixels.first + 1;

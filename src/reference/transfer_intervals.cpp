@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "reference/longest_vector.h"
+
 namespace lamina {
 namespace {
 
@@ -61,14 +63,13 @@ void TransferIntervals::add_constant(const TransferKnot& knot) {
 }
 
 void TransferIntervals::make_room() {
-    constexpr std::size_t room = IntervalColumns::longest_vector;
     for (std::vector<double>* const column :
          {&columns_.lo, &columns_.hi, &columns_.inverse_width, &columns_.extinction,
           &columns_.extinction_change, &columns_.extinction_end, &columns_.color_span,
           &columns_.transparent}) {
-        column->resize(std::max(column->size(), room));
+        column->resize(std::max(column->size(), longest_vector));
     }
-    columns_.bounds.resize(std::max(columns_.bounds.size(), room + 1),
+    columns_.bounds.resize(std::max(columns_.bounds.size(), longest_vector + 1),
                            std::numeric_limits<double>::infinity());
 }
 

@@ -142,7 +142,7 @@ TileTotals trace_tile(const Traced<Samples>& traced, const View& view, const Pic
                       PreciseImage& image) {
     TileTotals totals;
     RayIntegrator integrator(traced.transfer, traced.options.tolerance);
-    const SeenPixels around = pixels_around(view, tile, traced.corners);
+    const SeenPixels around = TileSight(view, tile).around(traced.corners);
     for (int row = tile.row + around.first.y; row <= tile.row + around.last.y; ++row) {
         check_interrupt();
         for (int column = tile.column + around.first.x; column <= tile.column + around.last.x;

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "reference/longest_vector.h"
+
 namespace lamina {
 
 // The memory of PacketWalk: a number a line in each row. Lines are as in LineFrame, faces as in
 // RayFront and FaceCrossing.
 struct WalkLanes {
-    static constexpr std::size_t width = 8;
+    static constexpr std::size_t width = longest_vector;
     struct alignas(64) Row : std::array<double, width> {};
     struct alignas(64) Numbers : std::array<std::int64_t, width> {};
 

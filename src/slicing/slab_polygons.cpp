@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "mesh/box_corners.h"
+
 namespace lamina {
 namespace {
 
@@ -65,11 +67,9 @@ void clip_side(Polygon& polygon, Polygon& kept, int axis, double sign, double li
 class SlabCutter {
   public:
     SlabCutter(const View& view, const Grid& grid, const IndexBox& box) : view_(view) {
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 index{(corner & 1) != 0 ? box.max.x : box.min.x,
-                                   (corner & 2) != 0 ? box.max.y : box.min.y,
-                                   (corner & 4) != 0 ? box.max.z : box.min.z};
-            const glm::dvec3 offset = grid.to_world(index) - view.eye;
+        const std::array<glm::dvec3, 8> indices = box_corners(box.min, box.max);
+        for (std::size_t corner = 0; corner < indices.size(); ++corner) {
+            const glm::dvec3 offset = grid.to_world(indices[corner]) - view.eye;
             corners_[corner] = {glm::dot(offset, view.right), glm::dot(offset, view.up),
                                 glm::dot(offset, view.forward)};
         }

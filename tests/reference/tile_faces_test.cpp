@@ -128,7 +128,7 @@ TEST(SeenPixels, HoldAllWhoseRaysMeetABox) {
         for (const Camera& camera : cameras_around(random, grid.origin, 6)) {
             const View view(camera, 40, 30);
             const PictureTile tile{3, 5, 32, 20};
-            const SeenPixels around = pixels_around(view, tile, corners);
+            const SeenPixels around = TileSight(view, tile).around(corners);
             for (int row = 0; row < tile.height; ++row) {
                 for (int column = 0; column < tile.width; ++column) {
                     const bool within = column >= around.first.x && column <= around.last.x &&
@@ -163,7 +163,7 @@ TEST(SeenPixels, HoldThePixelsOfPointsOnRays) {
             const PictureTile tile{random.below(1000), random.below(1000), 1, 1};
             const View::Ray ray = view.ray(tile.column, tile.row);
             const std::array point{ray.origin + random.uniform(.1, 10) * ray.direction};
-            ASSERT_FALSE(pixels_around(view, tile, point).empty()) << tilt << " " << i;
+            ASSERT_FALSE(TileSight(view, tile).around(point).empty()) << tilt << " " << i;
         }
     }
 }
