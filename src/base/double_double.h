@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "base/clone_for_fma.h"
-
 namespace lamina {
 
 // The unevaluated sum hi + lo with |lo| <= ulp(hi)/2, which has about 31 digits (Dekker 1971; Hida,
@@ -18,38 +16,38 @@ struct DoubleDouble {
     bool finite() const { return std::isfinite(hi) && std::isfinite(lo); }
 };
 
-LAMINA_IN_CLONES DoubleDouble exact_sum(double a, double b) {
+inline DoubleDouble exact_sum(double a, double b) {
     const double sum = a + b;
     const double b_part = sum - a;
     return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-LAMINA_IN_CLONES DoubleDouble exact_product(double a, double b) {
+inline DoubleDouble exact_product(double a, double b) {
     const double product = a * b;
     return {product, std::fma(a, b, -product)};
 }
 
-LAMINA_IN_CLONES DoubleDouble operator-(DoubleDouble a) {
+inline DoubleDouble operator-(DoubleDouble a) {
     return {-a.hi, -a.lo};
 }
 
-LAMINA_IN_CLONES DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
     const DoubleDouble high = exact_sum(a.hi, b.hi);
     const DoubleDouble low = exact_sum(a.lo, b.lo);
     const DoubleDouble middle = exact_sum(high.hi, high.lo + low.hi);
     return exact_sum(middle.hi, middle.lo + low.lo);
 }
 
-LAMINA_IN_CLONES DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
     return a + -b;
 }
 
-LAMINA_IN_CLONES DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
     const DoubleDouble product = exact_product(a.hi, b.hi);
     return exact_sum(product.hi, product.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-LAMINA_IN_CLONES DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
     const double first = a.hi / b.hi;
     const DoubleDouble rest = a - b * DoubleDouble{first, 0};
     const double second = rest.hi / b.hi;
@@ -57,7 +55,7 @@ LAMINA_IN_CLONES DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
     return exact_sum(first, second) + DoubleDouble{third, 0};
 }
 
-LAMINA_IN_CLONES bool operator<(DoubleDouble a, DoubleDouble b) {
+inline bool operator<(DoubleDouble a, DoubleDouble b) {
     return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 

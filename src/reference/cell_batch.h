@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "reference/cell_walk.h"
+#include "reference/cell_index.h"
 #include "reference/chord.h"
 #include "reference/interval_columns.h"
 #include "reference/segment_batch.h"
@@ -19,11 +19,13 @@ struct CellBatch {
     alignas(64) double from[capacity];  // parameters of the chord
     alignas(64) double to[capacity];
     std::size_t count = 0;
+    std::size_t wanted = capacity;  // the batch is complete with so many cells
 
     alignas(64) double corners[8][capacity];  // CellSamples::fetch(): samples, at index x + 2y + 4z
     // make_segments(): each segment's cell in this batch.
     alignas(64) std::int64_t seen[capacity];
 
+    bool complete() const { return count >= wanted; }
     void add(const CellIndex& index, double begin, double end) {
         for (std::size_t axis = 0; axis < 3; ++axis) cell[axis][count] = index[axis];
         from[count] = begin;

@@ -33,6 +33,9 @@ struct Chord {
 // Clips a ray to the box, and to the half-spaces of a clip. The numbers of ray and grid are taken
 // as exact. length_z has a relative error of 1e-15, also for very short chords at an edge of the
 // box that is seen from far away. The box is closed: a ray in a face is inside.
+// Clips some rays together, in vectors. There must be as many chords as rays.
+void clip_to_box(const GridAxes& grid, std::span<const View::Ray> rays,
+                 std::span<const HalfSpace> clip, std::span<Chord> chords);
 Chord clip_to_box(const GridAxes& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 Chord clip_to_box(const Grid& grid, const View::Ray& ray, std::span<const HalfSpace> clip = {});
 

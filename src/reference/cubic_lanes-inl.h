@@ -14,6 +14,7 @@
 
 #include "base/set_members.h"
 #include "reference/cubic.h"
+#include "reference/lane_set.h"
 #include "reference/longest_vector.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,6 +31,12 @@ using Numbers = hn::Vec<NumberLanes>;
 
 HWY_INLINE Doubles number(double value) {
     return hn::Set(Lanes(), value);
+}
+
+HWY_INLINE LaneSet set_of(Mask lanes) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Lanes(), lanes, bits);
+    return bits[0];
 }
 
 // Stores some lanes of vectors one after the other, for which it writes whole vectors.
@@ -53,10 +60,9 @@ class KeptLanes {
     static HWY_INLINE Places places(Mask kept) {
         const NumberLanes n;
         const hn::RebindToUnsigned<NumberLanes> u;
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(Lanes(), kept, bits);
         const auto shift = hn::ShiftLeft<3>(hn::Iota(u, 0));
-        const auto places = hn::And(hn::Shr(hn::Set(u, members_of[bits[0]]), shift), hn::Set(u, 7));
+        const auto places =
+            hn::And(hn::Shr(hn::Set(u, members_of[set_of(kept)]), shift), hn::Set(u, 7));
         return hn::IndicesFromVec(Lanes(), hn::BitCast(n, places));
     }
 

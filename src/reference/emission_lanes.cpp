@@ -155,10 +155,8 @@ inline void integrate_batch(PieceBatch& batch) {
         const Mask done = all_short ? integrate_lanes(batch, i, ShortDepth<most_terms>())
                                     : integrate_lanes(batch, i, MixedDepth{is_short});
         if (hn::AllTrue(Lanes(), done)) continue;
-        std::uint8_t bits[8];
-        hn::StoreMaskBits(Lanes(), done, bits);
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            if ((bits[lane / 8] >> lane % 8 & 1) == 0) integrate_bisected(batch, i + lane);
+        for_each_lane(set_of(hn::Not(done)),
+                      [&](std::size_t lane) { integrate_bisected(batch, i + lane); });
     }
 }
 }  // namespace lamina::HWY_NAMESPACE

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "lamina/grid.h"
-#include "reference/cell_walk.h"
+#include "reference/cell_index.h"
 #include "reference/cubic.h"
 #include "reference/trilinear.h"
 

@@ -13,12 +13,12 @@ GridAxes::Axis scaled_axis(const glm::dvec3& step) {
     std::frexp(largest, &exponent);
     --exponent;  // to [1, 2): an offset of one subnormal number from a face must survive
     GridAxes::Axis axis;
-    DoubleDouble parts[3];
+    DoubleDouble square;
     for (int i = 0; i < 3; ++i) {
         axis.scaled[i] = std::scalbn(step[i], -exponent);
-        parts[i] = {axis.scaled[i], 0};
+        square = square + exact_product(axis.scaled[i], axis.scaled[i]);
     }
-    axis.inverse_square = DoubleDouble{1, 0} / dot(parts, axis.scaled);
+    axis.inverse_square = DoubleDouble{1, 0} / square;
     axis.unscale = std::scalbn(1.0, -exponent);
     return axis;
 }

@@ -9,15 +9,6 @@
 
 namespace lamina {
 
-// The dot product, in twice the precision of double. Axes of most grids are along the world's.
-LAMINA_IN_CLONES DoubleDouble dot(const DoubleDouble (&a)[3], const glm::dvec3& b) {
-    DoubleDouble sum;
-    for (int i = 0; i < 3; ++i) {
-        if (b[i] != 0) sum = sum + a[i] * DoubleDouble{b[i], 0};
-    }
-    return sum;
-}
-
 // This holds what clip_to_box() needs of a grid, so that it is computed once for all rays.
 struct GridAxes {
     // A step of the grid, scaled by a power of two so that its square does not underflow.

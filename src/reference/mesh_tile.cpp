@@ -34,18 +34,18 @@ MeshTile::MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage
       rays_(PacketWalk::width, {{0, 0}, 0, std::nullopt, empty_sum(picture)}) {}
 
 MeshTile::Totals MeshTile::trace() {
-    constexpr std::uint32_t all = (1u << PacketWalk::width) - 1;
+    constexpr LaneSet all = lane_bit(PacketWalk::width) - 1;
     while (true) {
-        PacketWalk::for_each(all & ~walk_.walking(), [&](std::size_t lane) { begin(lane); });
+        for_each_lane(all & ~walk_.walking(), [&](std::size_t lane) { begin(lane); });
         if (walk_.walking() == 0) return totals_;
-        const std::uint32_t walked = walk_.walking();
+        const LaneSet walked = walk_.walking();
         walk_.step();
         find_seen(walk_.lanes(), picture_.intervals.columns(), seen_);
-        PacketWalk::for_each(walked & seen_.shown, [&](std::size_t lane) {
+        for_each_lane(walked & seen_.shown, [&](std::size_t lane) {
             add_shown(lane);
             if (rays_[lane].sum.opaque()) walk_.stop(lane);
         });
-        PacketWalk::for_each(walked & ~walk_.walking(), [&](std::size_t lane) { go_on(lane); });
+        for_each_lane(walked & ~walk_.walking(), [&](std::size_t lane) { go_on(lane); });
     }
 }
 
@@ -64,7 +64,7 @@ glm::ivec2 MeshTile::next_pixel() {
 void MeshTile::begin(std::size_t lane) {
     MeshRay& ray = rays_[lane];
     const TraceOptions& options = picture_.options;
-    while (has_pixels() && (walk_.walking() & PacketWalk::bit(lane)) == 0) {
+    while (has_pixels() && (walk_.walking() & lane_bit(lane)) == 0) {
         ray.pixel = next_pixel();
         ray.entered = 0;
         const View::Ray line = picture_.view.ray(ray.pixel.x, ray.pixel.y);

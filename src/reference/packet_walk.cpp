@@ -26,7 +26,7 @@ void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
     const RayFront front = rays_[lane].front_of(entry.face);
     set_front(lane, front);
     set_crossing(lane, RayWalk::crossing(front));
-    walking_ |= bit(lane);
+    walking_ |= lane_bit(lane);
     steps_[lane] = 0;
     move(lane, entry.face.tet);
 }
@@ -34,7 +34,7 @@ void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
 void PacketWalk::step() {
     lanes_.entry = 1 - lanes_.entry;
     step_lanes(lanes_);
-    for_each(walking_, [&](std::size_t lane) {
+    for_each_lane(walking_, [&](std::size_t lane) {
         passed_[lane] = tets_[lane];
         move(lane, lanes_.settled[lane] != 0 ? tet_behind(lane) : step_alone(lane));
     });

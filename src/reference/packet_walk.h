@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "mesh/ray_walk.h"
+#include "reference/lane_set.h"
 #include "reference/walk_lanes.h"
 
 namespace lamina {
@@ -27,15 +27,8 @@ class PacketWalk {
     RayWalk& ray(std::size_t lane) { return rays_[lane]; }
     // The lane's line enters the mesh, and takes part in step() until it leaves or stops.
     void enter(std::size_t lane, const RayWalk::Entry& entry);
-    void stop(std::size_t lane) { walking_ &= ~bit(lane); }
-    // Sets have one bit a lane.
-    std::uint32_t walking() const { return walking_; }
-    static std::uint32_t bit(std::size_t lane) { return 1u << lane; }
-    template <typename Visit>
-    static void for_each(std::uint32_t lanes, const Visit& visit) {
-        for (std::uint32_t left = lanes; left != 0; left &= left - 1)
-            visit(static_cast<std::size_t>(std::countr_zero(left)));
-    }
+    void stop(std::size_t lane) { walking_ &= ~lane_bit(lane); }
+    LaneSet walking() const { return walking_; }
 
     // Takes every line that walks through one more tet.
     void step();
@@ -60,7 +53,7 @@ class PacketWalk {
     std::vector<RayWalk> rays_;
     std::array<std::int32_t, width> passed_{}, tets_{};  // by the last step, and by the next one
     std::array<std::size_t, width> steps_{};
-    std::uint32_t walking_ = 0;
+    LaneSet walking_ = 0;
     WalkLanes lanes_{};
 };
 

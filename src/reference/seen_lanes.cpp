@@ -15,8 +15,8 @@ namespace lamina::HWY_NAMESPACE {
 namespace reference {
 
 // Returns a bit for each lane that shows something.
-HWY_INLINE std::uint32_t find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
-                                        std::size_t lane, SeenLanes& seen) {
+HWY_INLINE LaneSet find_seen_from(const WalkLanes& walk, const VisibleRanges& visible,
+                                  std::size_t lane, SeenLanes& seen) {
     const Lanes d;
     const auto load = [&](const WalkLanes::Row& row)
                           HWY_ATTR { return hn::Load(d, row.data() + lane); };
@@ -45,9 +45,7 @@ HWY_INLINE std::uint32_t find_seen_from(const WalkLanes& walk, const VisibleRang
     store(seen.slack, slack);
     const Mask shows =
         visible.meet(hn::Sub(hn::Min(front, back), slack), hn::Add(hn::Max(front, back), slack));
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::And(shows, hn::Lt(from, to)), bits);
-    return bits[0];
+    return set_of(hn::And(shows, hn::Lt(from, to)));
 }
 
 }  // namespace reference

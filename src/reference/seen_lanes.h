@@ -7,13 +7,15 @@
 #include <limits>
 
 #include "reference/interval_columns.h"
+#include "reference/lane_row.h"
+#include "reference/lane_set.h"
 #include "reference/walk_lanes.h"
 
 namespace lamina {
 
 // The parts that are seen of a packet's segments (SeenSegment), one a lane.
 struct SeenLanes {
-    using Row = WalkLanes::Row;
+    using Row = LaneRow;
 
     // These rows describe the lines.
     Row first, last;  // SeenRange
@@ -23,7 +25,7 @@ struct SeenLanes {
     Row from, to, front, back;  // SeenSegment
     Row length;                 // in world units
     Row slack;                  // scalar_slack()
-    std::uint32_t shown = 0;    // one bit a lane: the part is not empty and may show something
+    LaneSet shown = 0;          // the part is not empty and may show something
 };
 
 // How far the interpolation of scalars inside a tet may be off, by the range of the scalars at its

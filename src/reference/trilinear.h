@@ -10,7 +10,7 @@
 
 #include "lamina/grid.h"
 #include "reference/cell_batch.h"
-#include "reference/cell_walk.h"
+#include "reference/cell_index.h"
 #include "reference/cubic.h"
 #include "volume/sample_access.h"
 

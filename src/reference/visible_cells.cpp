@@ -50,7 +50,8 @@ class SampleRange {
     bool out_of_reach_;
 };
 
-// The rows of samples at the corners of a line of blocks along x.
+// The rows of samples at the corners of a line of blocks along x. `y` and `z` are those of the
+// samples at the lower corners of its first cells; outside the samples the border repeats.
 template <typename Sample>
 class SampleRows {
   public:
@@ -58,7 +59,7 @@ class SampleRows {
 
     SampleRows(const Sample* samples, const std::array<std::int64_t, 3>& size, std::int64_t y,
                std::int64_t z)
-        : samples_(samples), size_(size), y_(y), z_(z), width_((size[0] - 1) / edge * edge + edge) {
+        : samples_(samples), size_(size), y_(y), z_(z), width_(size[0] / edge * edge + edge) {
         sides_.resize(static_cast<std::size_t>((edge + 1) * (edge + 1) * (width_ + 1)));
     }
 
@@ -85,14 +86,15 @@ class SampleRows {
         for (std::int64_t x = 0; x < width_; ++x) sides[x] |= others[x];
     }
 
-    // Sets the sides of each pair of samples along x.
+    // Sets the sides of each pair of samples along x, of which the first is the border's twice.
     void find_sides(const SampleRange<Sample>& range, std::int64_t y, std::int64_t z) {
-        const std::int64_t row = std::min(y_ + y, size_[1] - 1);
-        const std::int64_t slice = std::min(z_ + z, size_[2] - 1);
+        const std::int64_t row = std::clamp<std::int64_t>(y_ + y, 0, size_[1] - 1);
+        const std::int64_t slice = std::clamp<std::int64_t>(z_ + z, 0, size_[2] - 1);
         const Sample* const values = samples_ + (slice * size_[1] + row) * size_[0];
         std::uint8_t* const sides = at(y, z);
-        for (std::int64_t x = 0; x < size_[0]; ++x) sides[x] = range.sides(values[x]);
-        std::fill(sides + size_[0], sides + width_ + 1, sides[size_[0] - 1]);
+        sides[0] = range.sides(values[0]);
+        for (std::int64_t x = 0; x < size_[0]; ++x) sides[x + 1] = range.sides(values[x]);
+        std::fill(sides + size_[0] + 1, sides + width_ + 1, sides[size_[0]]);
         for (std::int64_t x = 0; x < width_; ++x) sides[x] |= sides[x + 1];
     }
 
@@ -132,33 +134,43 @@ std::vector<SampleRange<Sample>> sample_ranges(const IntervalColumns& columns) {
 
 std::array<std::int64_t, 3> VisibleCells::blocks_of(const Grid& grid) {
     std::array<std::int64_t, 3> blocks;
-    for (std::size_t axis = 0; axis < 3; ++axis) blocks[axis] = (grid.size[axis] - 1) / edge + 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) blocks[axis] = grid.size[axis] / edge + 1;
     return blocks;
 }
 
-std::uint64_t VisibleCells::bytes_for(const Grid& grid) {
-    const auto [x, y, z] = blocks_of(grid);
-    return static_cast<std::uint64_t>(x * y * z) * (rows_of_block + 1);
+std::int64_t VisibleCells::words_of_line(const std::array<std::int64_t, 3>& count) {
+    return (count[0] + 63) / 64;
 }
 
-VisibleCells::VisibleCells(const Volume& volume, const TransferIntervals& transfer) {
-    const std::array<std::int64_t, 3>& size = volume.grid().size;
-    count_ = blocks_of(volume.grid());
-    any_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]));
-    rows_.resize(any_.size() * rows_of_block);
+std::uint64_t VisibleCells::bytes_for(const Grid& grid) {
+    const std::array<std::int64_t, 3> count = blocks_of(grid);
+    const auto lines = static_cast<std::uint64_t>(count[1] * count[2]);
+    return 8 * lines *
+           (static_cast<std::uint64_t>(count[0]) * words_of_block +
+            static_cast<std::uint64_t>(words_of_line(count)));
+}
+
+VisibleCells::VisibleCells(const Volume& volume, const TransferIntervals& transfer)
+    : count_(blocks_of(volume.grid())), line_words_(words_of_line(count_)) {
+    const std::int64_t lines = count_[1] * count_[2];
+    const auto blocks_of_line = static_cast<std::size_t>(count_[0]);
+    blocks_.resize(static_cast<std::size_t>(lines * line_words_));
+    cells_.resize(static_cast<std::size_t>(lines) * blocks_of_line * words_of_block);
     volume.visit([&](const auto* samples) {
         using Sample = std::remove_cvref_t<decltype(*samples)>;
         const auto ranges = sample_ranges<Sample>(transfer.columns());
-        parallel_for(count_[1] * count_[2], 1, [&](std::int64_t line) {
-            const std::int64_t y = line % count_[1], z = line / count_[1];
-            const std::size_t first = place_of({0, y, z});
-            SampleRows<Sample> line_of_blocks(samples, size, y * edge, z * edge);
+        parallel_for(lines, 1, [&](std::int64_t line) {
+            const std::int64_t y = line % count_[1] * edge - 1, z = line / count_[1] * edge - 1;
+            std::uint64_t* cells =
+                cells_.data() + static_cast<std::size_t>(line) * blocks_of_line * words_of_block;
+            SampleRows<Sample> line_of_blocks(samples, volume.grid().size, y, z);
             for (const auto& range : ranges)
-                line_of_blocks.mark(range, rows_.data() + first * rows_of_block);
-            for (std::size_t block = first; block < first + static_cast<std::size_t>(count_[0]);
-                 ++block) {
-                for (std::size_t row = 0; row < rows_of_block; ++row)
-                    any_[block] |= rows_[block * rows_of_block + row];
+                line_of_blocks.mark(range, reinterpret_cast<std::uint8_t*>(cells));
+            std::uint64_t* const blocks = blocks_.data() + line * line_words_;
+            for (std::size_t block = 0; block < blocks_of_line; ++block, cells += words_of_block) {
+                const bool shows =
+                    std::any_of(cells, cells + words_of_block, [](auto word) { return word != 0; });
+                blocks[block / 64] |= std::uint64_t{shows} << block % 64;
             }
         });
     });

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "reference/longest_vector.h"
+#include "reference/lane_row.h"
 
 namespace lamina {
 
@@ -13,7 +13,7 @@ namespace lamina {
 // RayFront and FaceCrossing.
 struct WalkLanes {
     static constexpr std::size_t width = longest_vector;
-    struct alignas(64) Row : std::array<double, width> {};
+    using Row = LaneRow;
     struct alignas(64) Numbers : std::array<std::int64_t, width> {};
 
     struct Corner {

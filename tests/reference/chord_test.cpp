@@ -3,13 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/double_double.h"
 #include "fixtures.h"
+#include "support/each_instruction_set.h"
 
 namespace lamina {
 namespace {
 
 using namespace reference_test;
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double relative_tolerance =
     1e-14;  // the header promises 1e-15; world_length multiplies by a rounded norm
 
@@ -128,6 +139,91 @@ TEST(Chord, ViewAndRayAgree) {
         EXPECT_EQ(chord_length(grid, view, column, 4.5), chord.world_length());
     }
     EXPECT_GT(chord_length(grid, view, 9.5, 4.5), 1.0);
+}
+
+// The chord of a box along the world's axes, in plain steps.
+Chord clip_simply(const Grid& grid, const View::Ray& ray) {
+    const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+    DoubleDouble position[3], slope[3], from, to{INFINITY, 0};
+    int entry_axis = -1;
+    for (int i = 0; i < 3; ++i) {
+        const DoubleDouble step{grid.step[static_cast<std::size_t>(i)][i], 0};
+        position[i] = exact_sum(ray.origin[i], -grid.origin[i]) / step;
+        slope[i] = DoubleDouble{ray.direction[i], 0} / step;
+        if (slope[i].hi == 0) {
+            if (position[i].hi < lowest[i] || position[i].hi > highest[i]) return {};
+            continue;
+        }
+        DoubleDouble near = (DoubleDouble{lowest[i], 0} - position[i]) / slope[i];
+        DoubleDouble far = (DoubleDouble{highest[i], 0} - position[i]) / slope[i];
+        if (far < near) std::swap(near, far);
+        if (from < near) from = near, entry_axis = i;
+        if (far < to) to = far;
+    }
+    if (!(from < to)) return {};
+    Chord chord;
+    chord.length_z = (to - from).rounded();
+    chord.world_per_z = glm::length(ray.direction);
+    for (int i = 0; i < 3; ++i) {
+        chord.direction[i] = slope[i].rounded();
+        chord.entry[i] =
+            std::clamp((position[i] + slope[i] * from).rounded(), lowest[i], highest[i]);
+    }
+    if (entry_axis >= 0)
+        chord.entry[entry_axis] =
+            chord.direction[entry_axis] > 0 ? lowest[entry_axis] : highest[entry_axis];
+    return chord;
+}
+
+// Chords of rays together, in each instruction set, are those of rays alone, bit for bit: through
+// the box and beside it, along its axes, and cut by half-spaces.
+TEST(Chord, OfManyRaysAreThoseOfEachAlone) {
+    Random random(5);
+    Grid grid = make_grid({7, 5, 9}, Centering::cell, {.3, 1.7, .9});
+    grid.origin = {.1, -3, 17};
+    const Camera camera = camera_at(grid, Projection::perspective, {1, .3, .2}, .8);
+    const std::vector<HalfSpace> clip{{middle_of(grid), {1, .4, -.2}}};
+    std::vector<View::Ray> rays;
+    for (int i = 0; i < 403; ++i) {
+        View::Ray ray{camera.eye + .2 * random.point(-1, 1), random.point(-1, 1)};
+        if (i % 3 > 0) ray.direction += glm::dvec3(-1.5, -.4, -.3);
+        if (i % 5 == 0) ray.direction[i % 3] = 0;
+        if (i % 7 == 0) {
+            const int axis = i / 7 % 3;
+            ray = {middle_of(grid) + random.point(-1, 1), glm::dvec3(0)};
+            ray.direction[axis] = i % 2 == 0 ? 1 : -1e-300;
+        }
+        rays.push_back(ray);
+    }
+    const auto bits = [](const Chord& chord) {
+        return std::array{chord.entry.x,     chord.entry.y,     chord.entry.z,  chord.direction.x,
+                          chord.direction.y, chord.direction.z, chord.length_z, chord.world_per_z};
+    };
+    const std::span<const HalfSpace> whole;
+    for (const std::span<const HalfSpace>& cut : {whole, std::span<const HalfSpace>(clip)}) {
+        std::vector<Chord> alone;
+        std::size_t met = 0;
+        for (const View::Ray& ray : rays) {
+            alone.push_back(clip_to_box(grid, ray, cut));
+            met += alone.back().length_z > 0 ? 1 : 0;
+        }
+        EXPECT_GT(met, 100U);
+        EXPECT_LT(met, 350U);
+        test::for_each_instruction_set([&](const std::string& name) {
+            std::vector<Chord> together(rays.size());
+            clip_to_box(GridAxes(grid), rays, cut, together);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                ASSERT_EQ(bits(together[i]), bits(alone[i])) << name << ", ray " << i;
+            if (!cut.empty()) return;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const auto expected = bits(clip_simply(grid, rays[i])), found = bits(together[i]);
+                // Both are rounded once from numbers of some 30 digits.
+                for (std::size_t k = 0; k < found.size(); ++k)
+                    ASSERT_NEAR(found[k], expected[k], epsilon * std::abs(expected[k]))
+                        << name << ", ray " << i;
+            }
+        });
+    }
 }
 
 }  // namespace

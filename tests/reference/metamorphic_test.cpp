@@ -4,6 +4,8 @@
 #include <tbb/global_control.h>
 
 #include "fixtures.h"
+#include "lit_fixtures.h"
+#include "support/each_instruction_set.h"
 
 namespace lamina {
 namespace {
@@ -200,8 +202,29 @@ TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(many.segments, one.segments);
 }
 
-// A picture leaves out cells that show nothing, and single pixels do not: the same
-// digits.
+// Traces a picture and each of its pixels alone, which must have the same digits. Returns the
+// largest.
+double compare_alone(const Volume& volume, const TransferFunction& function, const Camera& camera,
+                     const TraceOptions& options) {
+    const View view(camera, 60, 45);
+    std::vector<glm::ivec2> pixels;
+    for (int row = 0; row < view.height; ++row)
+        for (int column = 0; column < view.width; ++column) pixels.push_back({column, row});
+    const TraceResult picture = trace_volume(volume, function, view, options);
+    const TracedPixels alone = trace_pixels(volume, function, view, pixels, options);
+    double most = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const double* const pixel = picture.image.pixel(pixels[i].x, pixels[i].y);
+        for (int channel = 0; channel < 4; ++channel) {
+            EXPECT_EQ(pixel[channel], alone.rgba[i][channel]) << pixels[i].x << ' ' << pixels[i].y;
+            most = std::max(most, pixel[channel]);
+        }
+    }
+    return most;
+}
+
+// A picture leaves out cells that show nothing, and its rays go side by side; single pixels do
+// neither.
 TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
     const TransferFunction steep = TransferFunction::linear(
         {{.5, {{.2, .4, .6}, 0}}, {.8, {{.9, .5, .1}, 20}}, {1, {{.1, 1, .3}, 10}}});
@@ -228,22 +251,18 @@ TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
         // Rays within roundings of cells' edges.
         for (const glm::dvec3& along : {glm::dvec3(1, 0, 1.25), {1, .75, 0}, {-1, .75, 1.25}})
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
+        const TraceOptions plain{tolerance};
+        const TraceOptions lit{
+            tolerance,
+            directional(),
+            {{middle_of(grid), {1, .3, -.2}}, {grid.to_world({2, 2, 2}), {.1, 1, .4}}}};
         double most = 0;
-        for (const Camera& camera : views) {
-            const View view(camera, 60, 45);
-            std::vector<glm::ivec2> pixels;
-            for (int row = 0; row < view.height; ++row)
-                for (int column = 0; column < view.width; ++column) pixels.push_back({column, row});
-            const TraceResult picture = trace_volume(volume, function, view, {tolerance});
-            const TracedPixels alone = trace_pixels(volume, function, view, pixels, {tolerance});
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
-                const double* const pixel = picture.image.pixel(pixels[i].x, pixels[i].y);
-                for (int channel = 0; channel < 4; ++channel) {
-                    ASSERT_EQ(pixel[channel], alone.rgba[i][channel]);
-                    most = std::max(most, pixel[channel]);
-                }
-            }
-        }
+        for (const Camera& camera : views)
+            most = std::max(most, compare_alone(volume, function, camera, plain));
+        test::for_each_instruction_set([&](const std::string&) {
+            for (const TraceOptions& options : {plain, lit})
+                most = std::max(most, compare_alone(volume, function, views.front(), options));
+        });
         EXPECT_GT(most, .1);
     }
 }

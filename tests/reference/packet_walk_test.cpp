@@ -98,7 +98,7 @@ Together walk_together(const TetMesh& mesh, const FaceTree& tree,
     while (walk.walking() != 0) {
         const std::uint32_t walked = walk.walking();
         walk.step();
-        PacketWalk::for_each(walked, [&](std::size_t lane) {
+        for_each_lane(walked, [&](std::size_t lane) {
             const WalkLanes& lanes = walk.lanes();
             const TetSegment segment = walk.segment(lane);
             EXPECT_EQ(segment.tet, walk.tet(lane));
@@ -110,7 +110,7 @@ Together walk_together(const TetMesh& mesh, const FaceTree& tree,
                  lanes.out().value[lane], lanes.least[lane], lanes.most[lane], segment.out.corners,
                  segment.out.weights});
         });
-        PacketWalk::for_each(walked & ~walk.walking(), go_on);
+        for_each_lane(walked & ~walk.walking(), go_on);
     }
     return result;
 }

@@ -9,10 +9,14 @@
 #include <vector>
 
 #include "fixtures.h"
+#include "visible_bits.h"
 
 namespace lamina {
 namespace {
 
+using reference_test::block_of;
+using reference_test::block_shows;
+using reference_test::cell_shows;
 using reference_test::make_grid;
 using reference_test::make_volume;
 using reference_test::Random;
@@ -29,6 +33,25 @@ TransferFunction ranges(int count, double first) {
         add(first + 10 * i + 4, 0);
     }
     return TransferFunction::linear(knots);
+}
+
+// A block shows something where one of its cells does, and no other bit is set.
+void expect_blocks_of_cells(const VisibleCells& cells, const Grid& grid) {
+    const auto& size = grid.size;
+    std::vector<std::uint64_t> expected(
+        static_cast<std::size_t>(cells.count()[1] * cells.count()[2] * cells.line_bits() / 64));
+    for (std::int64_t z = -1; z < size[2]; ++z) {
+        for (std::int64_t y = -1; y < size[1]; ++y) {
+            for (std::int64_t x = -1; x < size[0]; ++x) {
+                if (!cell_shows(cells, {x, y, z})) continue;
+                const auto [bx, by, bz] = block_of({x, y, z});
+                const std::int64_t bit = (bz * cells.count()[1] + by) * cells.line_bits() + bx;
+                expected[static_cast<std::size_t>(bit / 64)] |= std::uint64_t{1} << bit % 64;
+                ASSERT_TRUE(block_shows(cells, {bx, by, bz}));
+            }
+        }
+    }
+    ASSERT_EQ(std::vector(cells.blocks(), cells.blocks() + expected.size()), expected);
 }
 
 // Cells that may show something are those whose range of values meets one of the function's, by a
@@ -48,33 +71,29 @@ void test_cells(const TransferFunction& function, bool exact, Random& random) {
     const Volume volume = make_volume<Sample>(grid, samples);
     const VisibleCells cells(volume, transfer);
     const auto& size = grid.size;
-    for (std::int64_t z = 0; z < size[2]; ++z) {
-        for (std::int64_t y = 0; y < size[1]; ++y) {
+    for (std::int64_t z = -1; z < size[2]; ++z) {
+        for (std::int64_t y = -1; y < size[1]; ++y) {
             for (std::int64_t x = -1; x < size[0]; ++x) {
                 double lo = INFINITY, hi = -INFINITY;
                 for (int corner = 0; corner < 8; ++corner) {
-                    const std::int64_t cx =
-                        std::clamp<std::int64_t>(x + (corner & 1), 0, size[0] - 1);
-                    const std::int64_t cy = std::min(y + (corner >> 1 & 1), size[1] - 1);
-                    const std::int64_t cz = std::min(z + (corner >> 2), size[2] - 1);
-                    const auto value = static_cast<double>(
-                        samples[static_cast<std::size_t>((cz * size[1] + cy) * size[0] + cx)]);
+                    const auto at = [&](std::int64_t cell, int axis) {
+                        const std::int64_t last = size[static_cast<std::size_t>(axis)] - 1;
+                        return std::clamp<std::int64_t>(cell + (corner >> axis & 1), 0, last);
+                    };
+                    const auto value = static_cast<double>(samples[static_cast<std::size_t>(
+                        (at(z, 2) * size[1] + at(y, 1)) * size[0] + at(x, 0))]);
                     lo = std::isnan(value) ? -INFINITY : std::min(lo, value);
                     hi = std::max(hi, value);
                 }
-                const CellIndex cell{x, y, z};
-                const CellBlock block = cells.block_of(cell);
-                for (int axis = 0; axis < 3; ++axis)
-                    ASSERT_TRUE(block.holds(cell[static_cast<std::size_t>(axis)], axis));
-                const bool shown = !block.hidden && VisibleCells::may_show(block, cell);
                 if (transfer.visible(lo, hi) && std::isfinite(lo) && std::isfinite(hi)) {
-                    ASSERT_TRUE(shown) << x << ' ' << y << ' ' << z;
-                } else if (exact && x >= 0 && std::isfinite(lo) && std::isfinite(hi)) {
-                    ASSERT_FALSE(shown) << x << ' ' << y << ' ' << z;
+                    ASSERT_TRUE(cell_shows(cells, {x, y, z})) << x << ' ' << y << ' ' << z;
+                } else if (exact && std::isfinite(lo) && std::isfinite(hi)) {
+                    ASSERT_FALSE(cell_shows(cells, {x, y, z})) << x << ' ' << y << ' ' << z;
                 }
             }
         }
     }
+    expect_blocks_of_cells(cells, grid);
 }
 
 template <typename Sample>
@@ -104,58 +123,6 @@ TEST(VisibleCells, AreThoseWhoseRangeMeetsTheFunctions) {
     test_type<std::int16_t>();
     test_type<std::uint16_t>();
     test_type<float>();
-}
-
-struct Visit {
-    CellIndex cell;
-    double from, to;
-    bool operator==(const Visit&) const = default;
-};
-
-// A walk that leaves out hidden blocks visits the other cells of one that does not, with the same
-// parameters.
-TEST(VisibleCells, HiddenBlocksAreLeftOutOfWalks) {
-    Random random(8);
-    for (const std::array<std::int64_t, 3>& size :
-         {std::array<std::int64_t, 3>{40, 33, 25}, {1, 30, 9}}) {
-        const Grid grid = make_grid(size, Centering::cell, {1, 1, 1});
-        std::vector<float> samples(static_cast<std::size_t>(grid.sample_count()));
-        for (int speck = 0; speck < 12; ++speck)
-            samples[static_cast<std::size_t>(random.uniform(0, double(samples.size())))] = 15;
-        const TransferIntervals transfer(ranges(1, 12));
-        const VisibleCells cells(make_volume<float>(grid, samples), transfer);
-        std::size_t visited = 0, left_out = 0;
-        for (int ray = 0; ray < 3000; ++ray) {
-            Chord chord;
-            const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
-            const glm::dvec3 a = lowest + random.point(0, 1) * (highest - lowest);
-            glm::dvec3 b = lowest + random.point(0, 1) * (highest - lowest);
-            if (ray % 5 == 0) b[ray % 3] = a[ray % 3];
-            chord.entry = a;
-            chord.direction = b - a;
-            chord.length_z = 1;
-            std::vector<Visit> expected, found;
-            CellWalk(grid, chord).run([&](const CellIndex& cell, double from, double to) {
-                if (cells.block_of(cell).hidden) {
-                    ++left_out;
-                } else {
-                    expected.push_back({cell, from, to});
-                }
-                return true;
-            });
-            CellWalk(grid, chord)
-                .run(
-                    [&](const CellIndex& cell, double from, double to, const CellBlock&) {
-                        found.push_back({cell, from, to});
-                        return true;
-                    },
-                    [&](const CellIndex& cell) { return cells.block_of(cell); });
-            ASSERT_EQ(found, expected);
-            visited += found.size();
-        }
-        EXPECT_GT(visited, 0U);
-        EXPECT_GT(left_out, 0U);
-    }
 }
 
 }  // namespace
