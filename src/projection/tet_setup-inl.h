@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+#include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
 #include "tiles/arithmetic-inl.h"
 
@@ -49,6 +50,34 @@ HWY_INLINE VD to_float_and_back(VD v) {
     return hn::PromoteTo(d, hn::DemoteTo(hn::Rebind<float, DD>(), v));
 }
 
+// The planes of tets' faces, those of front faces first and the others from the last place on.
+struct FacePlanes {
+    VD depth[4], per_column[4], per_row[4];
+    VD fronts;  // the number of front faces so far
+
+    HWY_INLINE explicit FacePlanes(DD d) : fronts(hn::Zero(d)), place_of_back_(hn::Set(d, 3)) {
+        for (std::size_t place = 0; place < 4; ++place)
+            depth[place] = per_column[place] = per_row[place] = hn::Zero(d);
+    }
+
+    HWY_INLINE void add(MD front, VD face_depth, VD face_per_column, VD face_per_row) {
+        const DD d;
+        const VD place = hn::IfThenElse(front, fronts, place_of_back_);
+        for (std::size_t i = 0; i < 4; ++i) {
+            const MD here = hn::Eq(place, hn::Set(d, static_cast<double>(i)));
+            depth[i] = hn::IfThenElse(here, face_depth, depth[i]);
+            per_column[i] = hn::IfThenElse(here, face_per_column, per_column[i]);
+            per_row[i] = hn::IfThenElse(here, face_per_row, per_row[i]);
+        }
+        const VD one = hn::Set(d, 1);
+        fronts = hn::Add(fronts, hn::IfThenElseZero(front, one));
+        place_of_back_ = hn::Sub(place_of_back_, hn::IfThenZeroElse(front, one));
+    }
+
+  private:
+    VD place_of_back_;
+};
+
 class TetVectors {
   public:
     TetVectors(const SetupView& view, TetSetup::Lanes& lanes, std::size_t first)
@@ -65,14 +94,26 @@ class TetVectors {
             set_whole();
         }
         if (lit) set_gradients();
+        store(lanes_.fronts, fronts_);
         store(lanes_.good, hn::IfThenElseZero(good, one()));
         store(lanes_.visible, hn::IfThenElseZero(visible_, one()));
     }
 
   private:
     using Row = TetSetup::Lanes::Row;
+    using FloatRow = TetSetup::Lanes::FloatRow;
     VD load(const Row& row) const { return hn::Load(d_, row.data() + first_); }
     void store(Row& row, VD v) const { hn::Store(v, d_, row.data() + first_); }
+    void store(FloatRow& row, VD v) const {
+        const hn::Rebind<float, DD> floats;
+        hn::Store(hn::DemoteTo(floats, v), floats, row.data() + first_);
+    }
+    // Stores whole numbers as 32-bit integers, in the bits of floats.
+    void store_whole(FloatRow& row, VD v) const {
+        const hn::Rebind<float, DD> floats;
+        const hn::Rebind<std::int32_t, DD> numbers;
+        hn::Store(hn::BitCast(floats, hn::DemoteTo(numbers, v)), floats, row.data() + first_);
+    }
     VD set(double value) const { return hn::Set(d_, value); }
     VD one() const { return set(1); }
 
@@ -123,14 +164,14 @@ class TetVectors {
             to_float_and_back(hn::Add(hn::Floor(hn::Mul(half, hn::Add(lo_x, hi_x))), half));
         const VD row =
             to_float_and_back(hn::Add(hn::Floor(hn::Mul(half, hn::Add(lo_y, hi_y))), half));
-        store(lanes_.center_column, column);
-        store(lanes_.center_row, row);
+        store(lanes_.center[0], column);
+        store(lanes_.center[1], row);
         column_ = hn::Sub(column, hn::Mul(half, width));
         row_ = hn::Sub(row, hn::Mul(half, height));
         center_depth_ = to_float_and_back(inverted(sum));
-        store(lanes_.center_depth, center_depth_);
+        store(lanes_.center[2], center_depth_);
         center_z_ = inverted(center_depth_);
-        store(lanes_.center_z, center_z_);
+        store(lanes_.center[3], center_z_);
     }
 
     // Sets the bounds of the pixel centres that may be covered (pixel_bounds()).
@@ -142,10 +183,11 @@ class TetVectors {
         const VD last_column = hn::Min(hn::Floor(hn::Add(hi_x, most)), set(view_.view.width - 1));
         const VD last_row = hn::Min(hn::Floor(hn::Add(hi_y, most)), set(view_.view.height - 1));
         visible_ = hn::And(hn::Le(first_column, last_column), hn::Le(first_row, last_row));
-        store(lanes_.first_column, first_column);
-        store(lanes_.last_column, last_column);
-        store(lanes_.first_row, first_row);
-        store(lanes_.last_row, last_row);
+        store_whole(lanes_.pixels[0], first_column);
+        store_whole(lanes_.pixels[1], last_column);
+        const VD top = set(view_.view.height - 1);
+        store_whole(lanes_.pixels[2], hn::Sub(top, last_row));
+        store_whole(lanes_.pixels[3], hn::Sub(top, first_row));
     }
 
     // The plane's depth at the center, from its change per pixel.
@@ -157,7 +199,8 @@ class TetVectors {
 
     // Returns true where the signs are certain and float32 is good enough.
     MD find_faces() {
-        VD reach = hn::Zero(d_), rounding = hn::Zero(d_), fronts = hn::Zero(d_);
+        VD reach = hn::Zero(d_), rounding = hn::Zero(d_);
+        FacePlanes planes(d_);
         VD size = hn::Zero(d_), steepest = size;
         for (const Point& p : seen_) {
             reach = hn::Max(reach, largest_of(p));
@@ -178,24 +221,25 @@ class TetVectors {
             const VD divisor = view_.perspective ? distance : normal.z;
             good = hn::And(good, hn::And(hn::Gt(hn::Abs(divisor), least_divisor),
                                          hn::Gt(hn::Abs(across), least_across)));
-            const VD front =
-                hn::IfThenElseZero(hn::Gt(hn::Mul(divisor, across), hn::Zero(d_)), one());
+            const MD front = hn::Gt(hn::Mul(divisor, across), hn::Zero(d_));
             const VD per_pixel = hn::Div(set(-view_.view.pixel), divisor);
             const VD per_column = hn::Mul(normal.x, per_pixel),
                      per_row = hn::Mul(normal.y, per_pixel);
             const VD depth =
                 at_center(hn::Div(view_.perspective ? hn::Neg(normal.z) : distance, divisor),
                           per_column, per_row);
-            store(lanes_.front[face], front);
-            store(lanes_.depth[face], depth);
-            store(lanes_.per_column[face], per_column);
-            store(lanes_.per_row[face], per_row);
-            fronts = hn::Add(fronts, front);
+            planes.add(front, depth, per_column, per_row);
             steepest = hn::Max(steepest, hn::Add(hn::Abs(per_column), hn::Abs(per_row)));
             rounding = hn::Max(
                 rounding, hn::Add(hn::Add(hn::Abs(depth), hn::Mul(columns_, hn::Abs(per_column))),
                                   hn::Mul(rows_, hn::Abs(per_row))));
         }
+        for (std::size_t place = 0; place < 4; ++place) {
+            store(lanes_.depth[place], planes.depth[place]);
+            store(lanes_.per_column[place], planes.per_column[place]);
+            store(lanes_.per_row[place], planes.per_row[place]);
+        }
+        fronts_ = planes.fronts;
         const VD thickness = hn::Sub(farthest_, nearest_);
         const VD range =
             view_.perspective ? hn::Div(thickness, hn::Mul(farthest_, farthest_)) : thickness;
@@ -210,7 +254,7 @@ class TetVectors {
         if (view_.perspective)
             bounded = hn::Or(bounded, hn::Gt(hn::Mul(set(16), steepest), hn::Abs(center_depth_)));
         store(lanes_.bounded, hn::IfThenElseZero(bounded, one()));
-        return hn::And(good, hn::And(hn::Gt(fronts, hn::Zero(d_)), hn::Lt(fronts, set(4))));
+        return hn::And(good, hn::And(hn::Gt(fronts_, hn::Zero(d_)), hn::Lt(fronts_, set(4))));
     }
 
     // Finds the scalar's gradient; returns true where it is a number.
@@ -243,10 +287,10 @@ class TetVectors {
             view_.perspective ? Point{x, y, one()} : Point{hn::Zero(d_), hn::Zero(d_), one()};
         const Point center = view_.perspective ? scaled(direction, z) : Point{x, y, z};
         const Point gradient = scaled(gradient_, scale);
-        store(lanes_.scalar, finite(hn::Mul(hn::Sub(scalar_at(center), origin), scale)));
-        store(lanes_.scalar_per_z, finite(dot(gradient, direction)));
-        store(lanes_.scalar_per_column, finite(hn::Mul(gradient.x, pixel)));
-        store(lanes_.scalar_per_row, finite(hn::Mul(gradient.y, pixel)));
+        store(lanes_.scalar[0], finite(hn::Mul(hn::Sub(scalar_at(center), origin), scale)));
+        store(lanes_.scalar[1], finite(dot(gradient, direction)));
+        store(lanes_.scalar[2], finite(hn::Mul(gradient.x, pixel)));
+        store(lanes_.scalar[3], finite(hn::Mul(gradient.y, pixel)));
     }
 
     // The components of the gradient, as set_scalars() sets the scalar.
@@ -290,8 +334,18 @@ class TetVectors {
         const VD low = hn::Min(hn::Max(least_, from), to),
                  high = hn::Min(hn::Max(largest_, from), to);
         set_scalars(low, hn::Sub(high, low));
-        set_cut(low, hn::Gt(from, least_), true, lanes_.lower_cut);
-        set_cut(high, hn::Lt(to, largest_), false, lanes_.upper_cut);
+        const Cut lower = cut_at(low, hn::Gt(from, least_), true);
+        const Cut upper = cut_at(high, hn::Lt(to, largest_), false);
+        store(lanes_.cuts[0], lower.depth);
+        store(lanes_.cuts[1], lower.per_column);
+        store(lanes_.cuts[2], lower.per_row);
+        store(lanes_.cuts[3], upper.depth);
+        store(lanes_.limits[0], upper.per_column);
+        store(lanes_.limits[1], upper.per_row);
+        const auto bit = [&](MD front, std::uint32_t value)
+                             HWY_ATTR { return hn::IfThenElseZero(front, set(value)); };
+        fronts_ = hn::Add(fronts_, hn::Add(bit(lower.front, TetRecord::lower_cut_is_front),
+                                           bit(upper.front, TetRecord::upper_cut_is_front)));
         const VD width = hn::Sub(to, from);
         constexpr std::size_t extinction = 3;
         VD most = hn::Zero(d_);
@@ -317,7 +371,12 @@ class TetVectors {
         store(lanes_.largest_depth, hn::Mul(hn::Sqrt(longest), most));
     }
 
-    void set_cut(VD level, MD is_cut, bool lower, TetSetup::Lanes::Cut& cut) {
+    // A plane of constant scalar, as in TetRecord.
+    struct Cut {
+        VD depth, per_column, per_row;
+        MD front;
+    };
+    Cut cut_at(VD level, MD is_cut, bool lower) const {
         const VD above_eye = hn::Sub(level, scalar_at({hn::Zero(d_), hn::Zero(d_), hn::Zero(d_)}));
         const VD divisor = view_.perspective ? above_eye : gradient_.z;
         const MD positive = hn::Ge(divisor, hn::Zero(d_));
@@ -332,10 +391,9 @@ class TetVectors {
         const MD front = lower ? positive : hn::Not(positive);
         const auto where_cut = [&](VD value, VD else_value)
                                    HWY_ATTR { return hn::IfThenElse(is_cut, value, else_value); };
-        store(cut.depth, where_cut(hn::Mul(depth, factor), set(-beyond_all)));
-        store(cut.per_column, where_cut(hn::Mul(per_column, factor), hn::Zero(d_)));
-        store(cut.per_row, where_cut(hn::Mul(per_row, factor), hn::Zero(d_)));
-        store(cut.front, where_cut(hn::IfThenElseZero(front, one()), one()));
+        return {where_cut(hn::Mul(depth, factor), set(-beyond_all)),
+                where_cut(hn::Mul(per_column, factor), hn::Zero(d_)),
+                where_cut(hn::Mul(per_row, factor), hn::Zero(d_)), hn::Or(front, hn::Not(is_cut))};
     }
 
     const SetupView& view_;
@@ -344,8 +402,8 @@ class TetVectors {
     DD d_;
     Point seen_[4];
     VD values_[4];
-    VD nearest_, farthest_, columns_, rows_, column_, row_, center_depth_, center_z_, least_,
-        largest_;
+    VD fronts_, nearest_, farthest_, columns_, rows_, column_, row_, center_depth_, center_z_,
+        least_, largest_;
     Point gradient_;
     MD visible_;
 };

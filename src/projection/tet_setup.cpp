@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include "optics/front_weights.h"
 #include "projection/tet_setup-inl.h"
@@ -16,9 +18,53 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-void set_up_vectors(const SetupView& view, bool parts, bool lit, TetSetup::Lanes& lanes) {
+// Writes a group of four numbers to some records, `offset` bytes behind their beginnings.
+template <typename Record>
+HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t offset,
+                            std::size_t count, Record* records) {
+    constexpr std::size_t together = 4;
+    const hn::FixedTag<float, together> d;
+    for (std::size_t first = 0; first < count; first += together) {
+        const auto row = [&](std::size_t i)
+                             HWY_ATTR { return hn::Load(d, rows[i].data() + first); };
+        const auto low02 = hn::InterleaveLower(d, row(0), row(2));
+        const auto low13 = hn::InterleaveLower(d, row(1), row(3));
+        const auto high02 = hn::InterleaveUpper(d, row(0), row(2));
+        const auto high13 = hn::InterleaveUpper(d, row(1), row(3));
+        const decltype(hn::Zero(d)) of_records[together] = {
+            hn::InterleaveLower(d, low02, low13), hn::InterleaveUpper(d, low02, low13),
+            hn::InterleaveLower(d, high02, high13), hn::InterleaveUpper(d, high02, high13)};
+        for (std::size_t i = 0; i < std::min(together, count - first); ++i) {
+            auto* const record = reinterpret_cast<std::byte*>(records + first + i);
+            hn::Store(of_records[i], d, reinterpret_cast<float*>(record + offset));
+        }
+    }
+}
+
+HWY_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
+                              TetRecord* records, PartArea* areas) {
+    const auto write = [&](const TetSetup::Lanes::Group& group, std::size_t offset)
+                           HWY_ATTR { write_group(group, offset, count, records); };
+    static_assert(std::is_base_of_v<PixelArea, PartArea>);  // an area begins with its pixels
+    write_group(lanes.pixels, 0, count, areas);
+    write(lanes.depth, offsetof(TetRecord, depth));
+    write(lanes.per_column, offsetof(TetRecord, depth_per_column));
+    write(lanes.per_row, offsetof(TetRecord, depth_per_row));
+    write(lanes.center, offsetof(TetRecord, center));
+    write(lanes.scalar, offsetof(TetRecord, scalar));
+    write(lanes.limits, offsetof(TetRecord, limits));
+    if (!parts) return;
+    write(lanes.cuts, offsetof(TetRecord, lower_cut));
+    write(lanes.low, offsetof(TetRecord, low));
+    write(lanes.high, offsetof(TetRecord, high));
+}
+
+// Sets up a vector after the other, and writes `count` records and the pixels of areas.
+void set_up_vectors(const SetupView& view, bool parts, bool lit, TetSetup::Lanes& lanes,
+                    std::size_t count, TetRecord* records, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
         TetVectors(view, lanes, first).set_up(parts, lit);
+    write_records(lanes, parts, count, records, areas);
 }
 
 }  // namespace lamina::HWY_NAMESPACE
@@ -75,7 +121,8 @@ void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> n
     if (lit != nullptr) load_gradients(parts, lanes);
     const bool pieces = parts[0].piece != TetPart::whole;
     const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
-    HWY_DYNAMIC_DISPATCH(set_up_vectors)(view, pieces, lit != nullptr, lanes);
+    HWY_DYNAMIC_DISPATCH(set_up_vectors)
+    (view, pieces, lit != nullptr, lanes, parts.size(), records, result.areas.data());
     store(parts, lanes, records, result);
     if (lit != nullptr) store_gradients(parts.size(), lanes, lit);
 }
@@ -129,17 +176,6 @@ void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
     }
 }
 
-void TetSetup::store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const {
-    std::size_t first_back = 0, place_of_back = 3;
-    for (std::size_t face = 0; face < 4; ++face) {
-        const std::size_t place = lanes.front[face][lane] != 0 ? first_back++ : place_of_back--;
-        record.depth.high[place] = to_float(lanes.depth[face], lane);
-        record.depth_per_column.high[place] = to_float(lanes.per_column[face], lane);
-        record.depth_per_row.high[place] = to_float(lanes.per_row[face], lane);
-    }
-    record.fronts = static_cast<std::uint32_t>(first_back);
-}
-
 void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
                      Parts& result) const {
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
@@ -148,53 +184,20 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
                   : lanes.visible[lane] == 0 ? Outcome::invisible
                                              : Outcome::done;
         if (outcome != Outcome::done) continue;
-        const auto pixel = [&](const Lanes::Row& row) {
-            return static_cast<std::int32_t>(row[lane]);
-        };
-        const int last = window_.view().height - 1;
         const bool whole = parts[lane].piece == TetPart::whole;
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
         TetRecord& record = records[lane];
-        store_faces(lanes, lane, record);
-        record.center = {to_float(lanes.center_column, lane), to_float(lanes.center_row, lane)};
-        // The members are written one by one: a copy of the whole area would wait for what has just
-        // been written of it.
+        record.fronts = static_cast<std::uint32_t>(lanes.fronts[lane]);
+        record.number = part_number(parts[lane], tets_.size());
         PartArea& area = result.areas[lane];
-        area.first_column = pixel(lanes.first_column);
-        area.last_column = pixel(lanes.last_column);
-        area.first_row = last - pixel(lanes.last_row);
-        area.last_row = last - pixel(lanes.first_row);
         area.careful = false;
         area.depth = depth <= faint_depth  ? PartDepth::faint
                      : depth <= thin_depth ? PartDepth::thin
                                            : PartDepth::any;
         area.bounded = lanes.bounded[lane] != 0;
         area.farthest = to_float(lanes.farthest, lane);
-        record.center_depth = to_float(lanes.center_depth, lane);
-        record.center_z = to_float(lanes.center_z, lane);
-        record.scalar = to_float(lanes.scalar, lane);
-        record.scalar_per_z = to_float(lanes.scalar_per_z, lane);
-        record.scalar_per_column = to_float(lanes.scalar_per_column, lane);
-        record.scalar_per_row = to_float(lanes.scalar_per_row, lane);
-        record.number = part_number(parts[lane], tets_.size());
-        if (whole) {
-            record.limits = {to_float(lanes.limits[0], lane), to_float(lanes.limits[1], lane)};
-            continue;
-        }
-        record.lower_cut = {to_float(lanes.lower_cut.depth, lane),
-                            to_float(lanes.lower_cut.per_column, lane),
-                            to_float(lanes.lower_cut.per_row, lane)};
-        record.upper_cut = to_float(lanes.upper_cut.depth, lane);
-        record.limits = {to_float(lanes.upper_cut.per_column, lane),
-                         to_float(lanes.upper_cut.per_row, lane)};
-        if (lanes.lower_cut.front[lane] != 0) record.fronts |= TetRecord::lower_cut_is_front;
-        if (lanes.upper_cut.front[lane] != 0) record.fronts |= TetRecord::upper_cut_is_front;
-        for (std::size_t channel = 0; channel < 4; ++channel) {
-            record.low[channel] = to_float(lanes.low[channel], lane);
-            record.high[channel] = to_float(lanes.high[channel], lane);
-        }
     }
-    // This is a loop of its own for the same reason.
+    // This is a loop of its own: it would wait for what has just been written.
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         PartArea& area = result.areas[lane];
         if (result.outcomes[lane] == Outcome::done)

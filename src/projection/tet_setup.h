@@ -61,7 +61,6 @@ class TetSetup {
                Parts& result) const;
     void load_gradients(std::span<const TetPart> parts, Lanes& lanes) const;
     static void store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit);
-    void store_faces(const Lanes& lanes, std::size_t lane, TetRecord& record) const;
 
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;

@@ -13,25 +13,26 @@ namespace lamina {
 // numbers.
 struct TetSetup::Lanes {
     struct alignas(64) Row : std::array<double, most_parts> {};
-    struct Cut {
-        Row depth, per_column, per_row, front;
-    };
+    struct alignas(32) FloatRow : std::array<float, most_parts> {};
+    // Four numbers that lie side by side in a record.
+    using Group = std::array<FloatRow, 4>;
 
     std::array<Row, 4> x, y, z, value;  // in
     Row piece_from, piece_to;           // scalars at the ends of its piece
     std::array<Row, 4> at_from, at_to;  // colour and extinction there
     // At each corner, component by component; of lit ones alone.
     std::array<std::array<Row, 4>, 3> gradient;
-    Row good, visible, bounded;                          // out: 1 or 0
-    Row first_column, last_column, first_row, last_row;  // pixels; rows from the bottom
-    Row center_column, center_row, center_depth, center_z;
-    Row farthest;                                          // PartArea::farthest
-    std::array<Row, 4> front, depth, per_column, per_row;  // of the face opposite each corner
-    Row scalar, scalar_per_z, scalar_per_column, scalar_per_row;
-    std::array<Row, 2> limits;
-    Cut lower_cut, upper_cut;
-    std::array<Row, 4> low, high;
+    Row good, visible, bounded;  // out: 1 or 0
+    Row fronts;                  // TetRecord::fronts
+    Row farthest;                // PartArea::farthest
     Row largest_depth;
+    Group pixels;                      // PixelArea, in the bits of its integers
+    Group depth, per_column, per_row;  // of the faces, as in TetRecord
+    Group center;                      // column, row, depth and z
+    Group scalar;                      // at the center, per z, per column and per row
+    Group limits;                      // two, and two that are not used
+    Group cuts;                        // lower: depth, per column, per row; upper: depth
+    Group low, high;
     struct Linear {
         Row at_center, per_z, per_column, per_row;
     };
