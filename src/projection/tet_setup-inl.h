@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include "projection/face_planes-inl.h"
+#include "projection/point_vectors-inl.h"
 #include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
 #include "tiles/arithmetic-inl.h"
@@ -19,64 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using DD = hn::CappedTag<double, TetSetup::most_parts>;
-using VD = hn::Vec<DD>;
-using MD = hn::Mask<DD>;
-
-struct Point {
-    VD x, y, z;
-};
-
-HWY_INLINE Point operator-(const Point& a, const Point& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE VD dot(const Point& a, const Point& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Point cross(const Point& a, const Point& b) {
-    return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)),
-            hn::Sub(hn::Mul(a.z, b.x), hn::Mul(b.z, a.x)),
-            hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y))};
-}
-HWY_INLINE Point scaled(const Point& a, VD factor) {
-    return {hn::Mul(a.x, factor), hn::Mul(a.y, factor), hn::Mul(a.z, factor)};
-}
-HWY_INLINE VD largest_of(const Point& a) {
-    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
-}
-HWY_INLINE VD to_float_and_back(VD v) {
-    const DD d;
-    return hn::PromoteTo(d, hn::DemoteTo(hn::Rebind<float, DD>(), v));
-}
-
-// The planes of tets' faces, those of front faces first and the others from the last place on.
-struct FacePlanes {
-    VD depth[4], per_column[4], per_row[4];
-    VD fronts;  // the number of front faces so far
-
-    HWY_INLINE explicit FacePlanes(DD d) : fronts(hn::Zero(d)), place_of_back_(hn::Set(d, 3)) {
-        for (std::size_t place = 0; place < 4; ++place)
-            depth[place] = per_column[place] = per_row[place] = hn::Zero(d);
-    }
-
-    HWY_INLINE void add(MD front, VD face_depth, VD face_per_column, VD face_per_row) {
-        const DD d;
-        const VD place = hn::IfThenElse(front, fronts, place_of_back_);
-        for (std::size_t i = 0; i < 4; ++i) {
-            const MD here = hn::Eq(place, hn::Set(d, static_cast<double>(i)));
-            depth[i] = hn::IfThenElse(here, face_depth, depth[i]);
-            per_column[i] = hn::IfThenElse(here, face_per_column, per_column[i]);
-            per_row[i] = hn::IfThenElse(here, face_per_row, per_row[i]);
-        }
-        const VD one = hn::Set(d, 1);
-        fronts = hn::Add(fronts, hn::IfThenElseZero(front, one));
-        place_of_back_ = hn::Sub(place_of_back_, hn::IfThenZeroElse(front, one));
-    }
-
-  private:
-    VD place_of_back_;
-};
 
 class TetVectors {
   public:
