@@ -15,7 +15,9 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
-// The planes of tets' faces, those of front faces first and the others from the last place on.
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Puts the planes of front faces first, and those of others from the last place on.
 struct FacePlanes {
     VD depth[4], per_column[4], per_row[4];
     VD fronts;  // the number of front faces so far

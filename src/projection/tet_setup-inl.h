@@ -10,13 +10,14 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "projection/face_planes-inl.h"
 #include "projection/point_vectors-inl.h"
 #include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
-#include "tiles/arithmetic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
@@ -38,7 +39,7 @@ class TetVectors {
             set_whole();
         }
         if (lit) set_gradients();
-        store(lanes_.fronts, fronts_);
+        store_whole(lanes_.limits[2], fronts_);
         store(lanes_.good, hn::IfThenElseZero(good, one()));
         store(lanes_.visible, hn::IfThenElseZero(visible_, one()));
     }

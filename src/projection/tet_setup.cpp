@@ -8,8 +8,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #include "optics/front_weights.h"
@@ -18,12 +20,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace lamina::HWY_NAMESPACE {
 
-// Writes a group of four numbers to some records, `offset` bytes behind their beginnings.
-template <typename Record>
-HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t offset,
-                            std::size_t count, Record* records) {
+// Writes a group of four numbers to some records, from `offset` bytes after the start of each. They
+// are copied as bytes: some are integers.
+template <std::size_t offset, typename Record>
+HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t count,
+                            Record* records) {
+    static_assert(offset % 16 == 0 && sizeof(Record) % 16 == 0);
     constexpr std::size_t together = 4;
     const hn::FixedTag<float, together> d;
+    const hn::FixedTag<std::uint8_t, 16> bytes;
     for (std::size_t first = 0; first < count; first += together) {
         const auto row = [&](std::size_t i)
                              HWY_ATTR { return hn::Load(d, rows[i].data() + first); };
@@ -35,36 +40,41 @@ HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t offs
             hn::InterleaveLower(d, low02, low13), hn::InterleaveUpper(d, low02, low13),
             hn::InterleaveLower(d, high02, high13), hn::InterleaveUpper(d, high02, high13)};
         for (std::size_t i = 0; i < std::min(together, count - first); ++i) {
-            auto* const record = reinterpret_cast<std::byte*>(records + first + i);
-            hn::Store(of_records[i], d, reinterpret_cast<float*>(record + offset));
+            auto* const record = reinterpret_cast<std::uint8_t*>(records + first + i);
+            hn::Store(hn::BitCast(bytes, of_records[i]), bytes, record + offset);
         }
     }
 }
 
+// The groups are what these say of four numbers side by side.
+static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, PartArea>);
+static_assert(offsetof(TetRecord, center_z) == offsetof(TetRecord, center) + 12);
+static_assert(offsetof(TetRecord, scalar_per_row) == offsetof(TetRecord, scalar) + 12);
+static_assert(offsetof(TetRecord, fronts) == offsetof(TetRecord, limits) + 8);
+static_assert(offsetof(TetRecord, number) == offsetof(TetRecord, limits) + 12);
+static_assert(offsetof(TetRecord, upper_cut) == offsetof(TetRecord, lower_cut) + 12);
+
 HWY_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::size_t count,
-                              TetRecord* records, PartArea* areas) {
-    const auto write = [&](const TetSetup::Lanes::Group& group, std::size_t offset)
-                           HWY_ATTR { write_group(group, offset, count, records); };
-    static_assert(std::is_base_of_v<PixelArea, PartArea>);  // an area begins with its pixels
-    write_group(lanes.pixels, 0, count, areas);
-    write(lanes.depth, offsetof(TetRecord, depth));
-    write(lanes.per_column, offsetof(TetRecord, depth_per_column));
-    write(lanes.per_row, offsetof(TetRecord, depth_per_row));
-    write(lanes.center, offsetof(TetRecord, center));
-    write(lanes.scalar, offsetof(TetRecord, scalar));
-    write(lanes.limits, offsetof(TetRecord, limits));
+                              TetRecord* records) {
+    write_group<offsetof(TetRecord, depth)>(lanes.depth, count, records);
+    write_group<offsetof(TetRecord, depth_per_column)>(lanes.per_column, count, records);
+    write_group<offsetof(TetRecord, depth_per_row)>(lanes.per_row, count, records);
+    write_group<offsetof(TetRecord, center)>(lanes.center, count, records);
+    write_group<offsetof(TetRecord, scalar)>(lanes.scalar, count, records);
+    write_group<offsetof(TetRecord, limits)>(lanes.limits, count, records);
     if (!parts) return;
-    write(lanes.cuts, offsetof(TetRecord, lower_cut));
-    write(lanes.low, offsetof(TetRecord, low));
-    write(lanes.high, offsetof(TetRecord, high));
+    write_group<offsetof(TetRecord, lower_cut)>(lanes.cuts, count, records);
+    write_group<offsetof(TetRecord, low)>(lanes.low, count, records);
+    write_group<offsetof(TetRecord, high)>(lanes.high, count, records);
 }
 
-// Sets up a vector after the other, and writes `count` records and the pixels of areas.
+// Sets up one vector after the other, and writes `count` records and the pixels of areas.
 void set_up_vectors(const SetupView& view, bool parts, bool lit, TetSetup::Lanes& lanes,
                     std::size_t count, TetRecord* records, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
         TetVectors(view, lanes, first).set_up(parts, lit);
-    write_records(lanes, parts, count, records, areas);
+    write_records(lanes, parts, count, records);
+    write_group<0>(lanes.pixels, count, areas);
 }
 
 }  // namespace lamina::HWY_NAMESPACE
@@ -163,6 +173,7 @@ void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
             lanes.z[i][lane] = point.z;
             lanes.value[i][lane] = scalar_[corners[i]];
         }
+        lanes.limits[3][lane] = std::bit_cast<float>(part_number(part, tets_.size()));
         if (part.piece == TetPart::whole) continue;
         const LinearPiece& piece = pieces_.pieces()[static_cast<std::size_t>(part.piece)];
         lanes.piece_from[lane] = piece.from;
@@ -176,7 +187,7 @@ void TetSetup::load(std::span<const TetPart> parts, Lanes& lanes) const {
     }
 }
 
-void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
+void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
                      Parts& result) const {
     for (std::size_t lane = 0; lane < parts.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
@@ -186,9 +197,6 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
         if (outcome != Outcome::done) continue;
         const bool whole = parts[lane].piece == TetPart::whole;
         const double depth = whole ? INFINITY : lanes.largest_depth[lane];
-        TetRecord& record = records[lane];
-        record.fronts = static_cast<std::uint32_t>(lanes.fronts[lane]);
-        record.number = part_number(parts[lane], tets_.size());
         PartArea& area = result.areas[lane];
         area.careful = false;
         area.depth = depth <= faint_depth  ? PartDepth::faint
@@ -196,12 +204,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, TetReco
                                            : PartDepth::any;
         area.bounded = lanes.bounded[lane] != 0;
         area.farthest = to_float(lanes.farthest, lane);
-    }
-    // This is a loop of its own: it would wait for what has just been written.
-    for (std::size_t lane = 0; lane < parts.size(); ++lane) {
-        PartArea& area = result.areas[lane];
-        if (result.outcomes[lane] == Outcome::done)
-            area.outline = outline_of(records[lane], area, window_.view().height);
+        area.outline = outline_of(records[lane], area, window_.view().height);
     }
 }
 

@@ -46,9 +46,9 @@ class TetSetup {
           margin_(margin) {}
 
     // Takes at most `most_parts` cell fragments: either all are whole tets or none is. Records and
-    // areas are defined where the outcome is `done`. `records`: one for each cell fragment, and so
-    // `lit`, which is null where there are no gradients. `next`: cell fragments that will follow,
-    // which are prefetched.
+    // areas are defined where the outcome is `done`; the others are overwritten, too. `records`:
+    // one for each cell fragment, and so `lit`, which is null where there are no gradients. `next`:
+    // cell fragments that will follow, which are prefetched.
     void set_up(std::span<const TetPart> parts, std::span<const TetPart> next, TetRecord* records,
                 GradientRecord* lit, Parts& result) const;
 
@@ -57,7 +57,7 @@ class TetSetup {
   private:
     HWY_INLINE void prefetch(std::span<const TetPart> next) const;
     void load(std::span<const TetPart> parts, Lanes& lanes) const;
-    void store(std::span<const TetPart> parts, const Lanes& lanes, TetRecord* records,
+    void store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
                Parts& result) const;
     void load_gradients(std::span<const TetPart> parts, Lanes& lanes) const;
     static void store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit);

@@ -14,7 +14,7 @@ namespace lamina {
 struct TetSetup::Lanes {
     struct alignas(64) Row : std::array<double, most_parts> {};
     struct alignas(32) FloatRow : std::array<float, most_parts> {};
-    // Four numbers that lie side by side in a record.
+    // Holds four numbers that lie side by side in a record.
     using Group = std::array<FloatRow, 4>;
 
     std::array<Row, 4> x, y, z, value;  // in
@@ -23,15 +23,15 @@ struct TetSetup::Lanes {
     // At each corner, component by component; of lit ones alone.
     std::array<std::array<Row, 4>, 3> gradient;
     Row good, visible, bounded;  // out: 1 or 0
-    Row fronts;                  // TetRecord::fronts
     Row farthest;                // PartArea::farthest
     Row largest_depth;
-    Group pixels;                      // PixelArea, in the bits of its integers
+    Group pixels;                      // PixelArea, in the bits of integers
     Group depth, per_column, per_row;  // of the faces, as in TetRecord
     Group center;                      // column, row, depth and z
     Group scalar;                      // at the center, per z, per column and per row
-    Group limits;                      // two, and two that are not used
-    Group cuts;                        // lower: depth, per column, per row; upper: depth
+    // Two limits, and in the bits of integers TetRecord::fronts and (in) number.
+    Group limits;
+    Group cuts;  // lower: depth, per column, per row; upper: depth
     Group low, high;
     struct Linear {
         Row at_center, per_z, per_column, per_row;
