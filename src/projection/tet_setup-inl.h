@@ -260,10 +260,10 @@ class TetVectors {
             };
             const Point slope{sum(n1.x, n2.x, n3.x), sum(n1.y, n2.y, n3.y), sum(n1.z, n2.z, n3.z)};
             auto& lit = lanes_.lit[axis];
-            store(lit.at_center, finite(hn::Add(first, dot(slope, from_corner))));
-            store(lit.per_z, finite(dot(slope, direction)));
-            store(lit.per_column, finite(hn::Mul(slope.x, pixel)));
-            store(lit.per_row, finite(hn::Mul(slope.y, pixel)));
+            store(lit[0], finite(hn::Add(first, dot(slope, from_corner))));
+            store(lit[1], finite(dot(slope, direction)));
+            store(lit[2], finite(hn::Mul(slope.x, pixel)));
+            store(lit[3], finite(hn::Mul(slope.y, pixel)));
         }
     }
 

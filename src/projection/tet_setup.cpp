@@ -48,6 +48,7 @@ HWY_INLINE void write_group(const TetSetup::Lanes::Group& rows, std::size_t coun
 
 // The groups are what these say of four numbers side by side.
 static_assert(sizeof(PixelArea) == 16 && std::is_base_of_v<PixelArea, PartArea>);
+static_assert(sizeof(GradientRecord::Component) == 16);
 static_assert(offsetof(TetRecord, center_z) == offsetof(TetRecord, center) + 12);
 static_assert(offsetof(TetRecord, scalar_per_row) == offsetof(TetRecord, scalar) + 12);
 static_assert(offsetof(TetRecord, fronts) == offsetof(TetRecord, limits) + 8);
@@ -68,12 +69,22 @@ HWY_INLINE void write_records(const TetSetup::Lanes& lanes, bool parts, std::siz
     write_group<offsetof(TetRecord, high)>(lanes.high, count, records);
 }
 
-// Sets up one vector after the other, and writes `count` records and the pixels of areas.
-void set_up_vectors(const SetupView& view, bool parts, bool lit, TetSetup::Lanes& lanes,
-                    std::size_t count, TetRecord* records, PartArea* areas) {
+HWY_INLINE void write_gradients(const TetSetup::Lanes& lanes, std::size_t count,
+                                GradientRecord* lit) {
+    constexpr std::size_t component = sizeof(GradientRecord::Component);
+    write_group<0>(lanes.lit[0], count, lit);
+    write_group<component>(lanes.lit[1], count, lit);
+    write_group<2 * component>(lanes.lit[2], count, lit);
+}
+
+// Sets up one vector after the other, and writes `count` records, their gradients where `lit` is
+// not null, and the pixels of areas.
+void set_up_vectors(const SetupView& view, bool parts, TetSetup::Lanes& lanes, std::size_t count,
+                    TetRecord* records, GradientRecord* lit, PartArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_parts; first += hn::Lanes(DD()))
-        TetVectors(view, lanes, first).set_up(parts, lit);
+        TetVectors(view, lanes, first).set_up(parts, lit != nullptr);
     write_records(lanes, parts, count, records);
+    if (lit != nullptr) write_gradients(lanes, count, lit);
     write_group<0>(lanes.pixels, count, areas);
 }
 
@@ -103,10 +114,6 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
     return corners;
 }
 
-float to_float(const TetSetup::Lanes::Row& row, std::size_t lane) {
-    return static_cast<float>(row[lane]);
-}
-
 }  // namespace
 
 // The order of a view does not follow the mesh's, so the corners of the next tets, and the tets
@@ -132,9 +139,8 @@ void TetSetup::set_up(std::span<const TetPart> parts, std::span<const TetPart> n
     const bool pieces = parts[0].piece != TetPart::whole;
     const SetupView view{window_.view(), window_.perspective(), near_depth_, margin_, range_};
     HWY_DYNAMIC_DISPATCH(set_up_vectors)
-    (view, pieces, lit != nullptr, lanes, parts.size(), records, result.areas.data());
+    (view, pieces, lanes, parts.size(), records, lit, result.areas.data());
     store(parts, lanes, records, result);
-    if (lit != nullptr) store_gradients(parts.size(), lanes, lit);
 }
 
 void TetSetup::load_gradients(std::span<const TetPart> parts, Lanes& lanes) const {
@@ -146,17 +152,6 @@ void TetSetup::load_gradients(std::span<const TetPart> parts, Lanes& lanes) cons
             for (int axis = 0; axis < 3; ++axis)
                 lanes.gradient[static_cast<std::size_t>(axis)][i][lane] =
                     static_cast<double>(gradient[axis]);
-        }
-    }
-}
-
-void TetSetup::store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit) {
-    for (std::size_t lane = 0; lane < count; ++lane) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Lanes::Linear& from = lanes.lit[axis];
-            lit[lane].components[axis] = {
-                to_float(from.at_center, lane), to_float(from.per_z, lane),
-                to_float(from.per_column, lane), to_float(from.per_row, lane)};
         }
     }
 }
@@ -203,7 +198,7 @@ void TetSetup::store(std::span<const TetPart> parts, const Lanes& lanes, const T
                      : depth <= thin_depth ? PartDepth::thin
                                            : PartDepth::any;
         area.bounded = lanes.bounded[lane] != 0;
-        area.farthest = to_float(lanes.farthest, lane);
+        area.farthest = static_cast<float>(lanes.farthest[lane]);
         area.outline = outline_of(records[lane], area, window_.view().height);
     }
 }

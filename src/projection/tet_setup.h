@@ -60,7 +60,6 @@ class TetSetup {
     void store(std::span<const TetPart> parts, const Lanes& lanes, const TetRecord* records,
                Parts& result) const;
     void load_gradients(std::span<const TetPart> parts, Lanes& lanes) const;
-    static void store_gradients(std::size_t count, const Lanes& lanes, GradientRecord* lit);
 
     std::span<const glm::dvec3> points_;
     std::span<const Tet> tets_;

@@ -33,10 +33,7 @@ struct TetSetup::Lanes {
     Group limits;
     Group cuts;  // lower: depth, per column, per row; upper: depth
     Group low, high;
-    struct Linear {
-        Row at_center, per_z, per_column, per_row;
-    };
-    std::array<Linear, 3> lit;  // as in GradientRecord
+    std::array<Group, 3> lit;  // the components of GradientRecord
 };
 
 struct SetupView {

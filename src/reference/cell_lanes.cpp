@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/cell_lanes.h"
 
-#include <limits>
-
 #include "reference/axis_start.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -329,9 +327,6 @@ void enter_cells(CellLanes& lanes, std::size_t lane, const GridAxes& grid, const
         rows.inverse[lane] = start.inverse;
         rows.cell[lane] = start.cell;
         rows.last_cell[lane] = start.last_cell;
-        rows.crossing[lane] = start.cell == start.last_cell
-                                  ? std::numeric_limits<double>::infinity()
-                                  : (start.cell + (d > 0 ? 1 : 0) - p) * start.inverse;
     }
     lanes.from[lane] = 0;
     lanes.length[lane] = chord.length_z;

@@ -24,7 +24,8 @@ struct CellLanes {
     struct Axis {
         LaneRow entry, direction;
         LaneRow cell, last_cell, inverse;  // AxisStart
-        LaneRow crossing;                  // where the chord leaves the cell along this axis
+        // Where the chord leaves the cell along this axis, in lanes that are in a block.
+        LaneRow crossing;
     };
 
     std::array<Axis, 3> axes;

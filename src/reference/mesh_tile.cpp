@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/interrupt.h"
 #include "mesh/scalar_range.h"
 
 namespace lamina {
@@ -26,10 +25,10 @@ SegmentSum empty_sum(const MeshTile::Picture& picture) {
 
 MeshTile::MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image)
     : picture_(picture),
-      tile_(tile),
       image_(image),
       faces_(picture.mesh, picture.open_faces, picture.view),
       listed_(faces_.list(tile)),
+      pixels_({tile.column, tile.row}, {tile.column + tile.width - 1, tile.row + tile.height - 1}),
       walk_(picture.mesh, picture.open_faces, picture.scalar),
       rays_(PacketWalk::width, {{0, 0}, 0, std::nullopt, empty_sum(picture)}) {}
 
@@ -49,23 +48,12 @@ MeshTile::Totals MeshTile::trace() {
     }
 }
 
-// Row by row.
-glm::ivec2 MeshTile::next_pixel() {
-    const glm::ivec2 pixel(tile_.column + column_, tile_.row + row_);
-    if (column_ == 0) check_interrupt();
-    if (++column_ == tile_.width) {
-        column_ = 0;
-        ++row_;
-    }
-    return pixel;
-}
-
 // Begins rays until one walks, or no pixel is left.
 void MeshTile::begin(std::size_t lane) {
     MeshRay& ray = rays_[lane];
     const TraceOptions& options = picture_.options;
-    while (has_pixels() && (walk_.walking() & lane_bit(lane)) == 0) {
-        ray.pixel = next_pixel();
+    while (pixels_.any() && (walk_.walking() & lane_bit(lane)) == 0) {
+        ray.pixel = pixels_.take();
         ray.entered = 0;
         const View::Ray line = picture_.view.ray(ray.pixel.x, ray.pixel.y);
         const SeenRange range = seen_range(options.clip, line);

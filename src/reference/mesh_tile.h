@@ -15,6 +15,7 @@
 #include "mesh/tet_mesh.h"
 #include "optics/ray_lights.h"
 #include "reference/packet_walk.h"
+#include "reference/pixels_in_turn.h"
 #include "reference/seen_lanes.h"
 #include "reference/seen_segment.h"
 #include "reference/segment_sum.h"
@@ -59,8 +60,6 @@ class MeshTile {
         SegmentSum sum;
     };
 
-    bool has_pixels() const { return row_ < tile_.height; }
-    glm::ivec2 next_pixel();
     void begin(std::size_t lane);
     void go_on(std::size_t lane);
     void add_overlapping(std::size_t lane);
@@ -72,11 +71,10 @@ class MeshTile {
     glm::dvec3 gradient_at(const FaceCrossing& crossing) const;
 
     const Picture& picture_;
-    PictureTile tile_;
     PreciseImage& image_;
     TileFaces faces_;
-    bool listed_ = false;       // whether faces_ has the tile's faces
-    int column_ = 0, row_ = 0;  // the next pixel
+    bool listed_ = false;  // whether faces_ has the tile's faces
+    PixelsInTurn pixels_;
     PacketWalk walk_;
     SeenLanes seen_{};
     std::vector<MeshRay> rays_;            // one a lane

@@ -16,7 +16,7 @@
 
 namespace lamina {
 
-// What all rays of a picture share. `Samples`: as CellSamples.
+// This holds what all rays of a picture share. `Samples` are as in CellSamples.
 template <typename Samples>
 struct TracedVolume {
     TracedVolume(const Volume& volume, const Samples& first_sample,

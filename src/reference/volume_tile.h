@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "base/interrupt.h"
 #include "lamina/image.h"
 #include "reference/cell_lanes.h"
 #include "reference/chord.h"
 #include "reference/lane_set.h"
+#include "reference/pixels_in_turn.h"
 #include "reference/seen_pixels.h"
 #include "reference/trace_tiles.h"
 #include "reference/traced_ray.h"
@@ -33,17 +33,14 @@ class VolumeTile {
         : traced_(traced),
           view_(view),
           image_(image),
-          first_(tile.column, tile.row),
-          seen_(TileSight(view, tile).around(traced.corners)),
-          next_(seen_.first) {}
+          pixels_(pixels_of(tile, TileSight(view, tile).around(traced.corners))) {}
 
     VolumeTotals trace() {
-        if (!seen_.empty()) {
-            if (traced_.visible.empty()) {
-                trace_one_by_one();
-            } else {
-                trace_side_by_side();
-            }
+        if (!pixels_.any()) return {};
+        if (traced_.visible.empty()) {
+            trace_one_by_one();
+        } else {
+            trace_side_by_side();
         }
         return totals_;
     }
@@ -51,19 +48,15 @@ class VolumeTile {
   private:
     static constexpr std::size_t width = CellLanes::width;
 
-    bool has_pixels() const { return next_.y <= seen_.last.y; }
-    // Pixels are taken row by row.
-    glm::ivec2 next_pixel() {
-        const glm::ivec2 pixel = first_ + next_;
-        if (next_.x == seen_.first.x) check_interrupt();
-        if (++next_.x > seen_.last.x) next_ = {seen_.first.x, next_.y + 1};
-        return pixel;
+    static PixelsInTurn pixels_of(const PictureTile& tile, const SeenPixels& seen) {
+        const glm::ivec2 first(tile.column, tile.row);
+        return {first + seen.first, first + seen.last};
     }
 
     void trace_one_by_one() {
         VolumeRay ray(traced_);
-        while (has_pixels()) {
-            const glm::ivec2 pixel = next_pixel();
+        while (pixels_.any()) {
+            const glm::ivec2 pixel = pixels_.take();
             add(pixel, ray.trace(view_.ray(pixel.x, pixel.y)));
         }
     }
@@ -86,7 +79,7 @@ class VolumeTile {
         while (clip_next()) {
             const std::size_t next = begun_++;
             if (!(chords_[next].length_z > 0)) continue;
-            pixels_[lane] = clipped_pixels_[next];
+            pixel_of_[lane] = clipped_pixels_[next];
             rays_[lane].begin(clipped_[next], chords_[next]);
             enter_cells(lanes_, lane, traced_.axes, chords_[next]);
             return;
@@ -97,8 +90,8 @@ class VolumeTile {
     bool clip_next() {
         if (begun_ < clipped_count_) return true;
         begun_ = clipped_count_ = 0;
-        for (; clipped_count_ < width && has_pixels(); ++clipped_count_) {
-            const glm::ivec2 pixel = next_pixel();
+        for (; clipped_count_ < width && pixels_.any(); ++clipped_count_) {
+            const glm::ivec2 pixel = pixels_.take();
             clipped_pixels_[clipped_count_] = pixel;
             clipped_[clipped_count_] = view_.ray(pixel.x, pixel.y);
         }
@@ -107,12 +100,12 @@ class VolumeTile {
         return clipped_count_ > 0;
     }
 
-    // After a lane's cells are complete or its chord has ended.
+    // Goes on after a lane's cells are complete or its chord has ended.
     void go_on(std::size_t lane) {
         const bool walks = (lanes_.walking & lane_bit(lane)) != 0;
         if (walks && rays_[lane].integrate()) return;
         lanes_.stop(lane);
-        add(pixels_[lane], rays_[lane].finish());
+        add(pixel_of_[lane], rays_[lane].finish());
         begin(lane);
     }
 
@@ -126,13 +119,11 @@ class VolumeTile {
     const TracedVolume<Samples>& traced_;
     const View& view_;
     PreciseImage& image_;
-    glm::ivec2 first_;
-    SeenPixels seen_;
-    glm::ivec2 next_;
+    PixelsInTurn pixels_;
     CellLanes lanes_{};
     std::array<CellBatch*, width> batches_{};
     std::vector<VolumeRay<Samples>> rays_;  // one a lane
-    std::array<glm::ivec2, width> pixels_{};
+    std::array<glm::ivec2, width> pixel_of_{};
     // The next rays, of which some have begun.
     std::array<glm::ivec2, width> clipped_pixels_{};
     std::array<View::Ray, width> clipped_{};

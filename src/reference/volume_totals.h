@@ -5,7 +5,7 @@
 
 namespace lamina {
 
-// What the rays of a volume's picture took together.
+// These are totals over the rays of a volume's picture.
 struct VolumeTotals {
     double error_estimate = 0;  // the largest
     std::int64_t segments = 0;

@@ -59,6 +59,17 @@ Chord random_chord(const Grid& grid, Random& random) {
     chord.entry = a;
     chord.direction = b - a;
     chord.length_z = random.uniform(.5, 1);
+    const int kind = random.below(7);
+    if (kind < 2) {  // nearly, or quite, in a plane or along an axis
+        constexpr std::array slopes{0., -0., 1e-300, -1e-300, 1e-310, -5e-324};
+        const auto slope = [&] { return slopes[static_cast<std::size_t>(random.below(6))]; };
+        chord.direction[axis] = slope();
+        if (kind == 0) chord.direction[(axis + 1) % 3] = slope();
+    } else if (kind == 2) {
+        const double scale = std::ldexp(1, 10 * random.below(100) - 500);
+        chord.direction *= scale;
+        chord.length_z /= scale;
+    }
     return chord;
 }
 
