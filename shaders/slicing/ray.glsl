@@ -30,6 +30,7 @@ uniform float pixel_size;       // at depth 1
 
 uniform vec3 box_min;  // the brick's part of the volume's box, index space
 uniform vec3 box_max;
+uniform vec3 last_face;  // box_max if the volume ends there, else beyond all places (slicing/texture_bricks.h)
 
 struct Ray {
     REAL3 origin;
@@ -60,10 +61,13 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
-// Returns the depths between which the ray is inside the box and inside the slab. Where there are none, y <= x.
+// Returns the depths between which the ray is inside the box and inside the slab. If there are none, y <= x. A ray that
+// runs in the box's first face is inside, and one in its last face is if that is last_face.
 REAL2 clip_to_box(Ray ray, REAL2 slab) {
     const REAL3 least = REAL3(1e-20);  // a ray that runs along a face never crosses it
-    REAL3 direction = mix(ray.direction, least, lessThan(abs(ray.direction), least));
+    // A ray in a face stays inside if it is taken to leave the face into the box.
+    REAL3 along = mix(least, -least, equal(ray.origin, REAL3(last_face)));
+    REAL3 direction = mix(ray.direction, along, lessThan(abs(ray.direction), least));
     REAL3 inverse = REAL3(1.0) / direction;
     REAL3 one = (REAL3(box_min) - ray.origin) * inverse;
     REAL3 other = (REAL3(box_max) - ray.origin) * inverse;

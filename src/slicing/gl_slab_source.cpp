@@ -223,6 +223,8 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     if (plan_.occupied_only) program.set("first_sample", glm::vec3(first));
     program.set("box_min", glm::vec3(box.min - first));
     program.set("box_max", glm::vec3(box.max - first));
+    const glm::dvec3 end(glm::vec3(box.max - first));  // as the shader has it
+    program.set("last_face", glm::vec3(last_face_of(end, first, facts_.grid)));
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
     if (tables_) volume_->bricks()[brick].bind(GlTransferTables::first_free_unit);

@@ -22,6 +22,16 @@ IndexBox box_of(const TextureBrick& brick, const Grid& grid) {
     return box;
 }
 
+glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid) {
+    const glm::dvec3 border(
+        glm::vec3(grid.index_max() - first));  // boxes are rounded to float, too
+    glm::dvec3 face = no_last_face;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (end[axis] >= border[axis]) face[axis] = border[axis];
+    }
+    return face;
+}
+
 BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z) {
     const auto own = [&](std::size_t axis, std::int64_t place) {
         return std::clamp<std::int64_t>(brick.first[axis] + place, 0, grid.size[axis] - 1);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
 #include "lamina/grid.h"
@@ -15,6 +17,15 @@ namespace lamina {
 // The box of index space that a brick draws: that of its samples and, at the volume's border, what
 // lies beyond them.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
+
+// Beyond all places, as a float, which shaders get.
+inline constexpr glm::dvec3 no_last_face{double{std::numeric_limits<float>::max()}};
+
+// The last face of a part of the volume on each axis, in the part's own index space, if the volume
+// ends there; else no_last_face. `end`: the part's largest coordinates. The volume's box is closed:
+// rays that run in its faces are inside, as the reference tracer has them. Those in a face between
+// two parts belong to the part that begins there.
+glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid);
 
 // A row of a brick along x. Places begin .. end - 1 hold the volume's own samples, from number
 // `first` on. Other places repeat the nearest of these.

@@ -56,10 +56,17 @@ HWY_INLINE EyeLanes eye_of(const TileLight& light, const PacketRays& rays) {
     return eye;
 }
 
-// A direction to divide by: a ray that runs along a plane never crosses it.
+// Directions, in voxels per depth, that are smaller than this are those of rays that run along a
+// plane and never cross it.
+constexpr double least_direction = 1e-20;
+
+// A direction to divide by: `along` in place of those that are too small.
+HWY_INLINE HalfDoubles crossing_direction(HalfDoubles direction, HalfDoubles along) {
+    const auto least = hn::Set(DoubleTag(), least_direction);
+    return hn::IfThenElse(hn::Lt(hn::Abs(direction), least), along, direction);
+}
 HWY_INLINE HalfDoubles crossing_direction(HalfDoubles direction) {
-    const auto least = hn::Set(DoubleTag(), 1e-20);
-    return hn::IfThenElse(hn::Lt(hn::Abs(direction), least), least, direction);
+    return crossing_direction(direction, hn::Set(DoubleTag(), least_direction));
 }
 
 // The depth of the boundary in front of a slab, clamped to a span.
@@ -70,12 +77,19 @@ HWY_INLINE TwoDoubles boundary(const TileRays& frame, const DepthSpan& span, int
     return each_half<FloatTag>(clamp, span.enter, span.leave);
 }
 
-HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box, DepthSpan& span) {
+// Clips to a box. A ray that runs in the box's first face is inside, and one in its last face is
+// if that is `last_face` (TileBrickView).
+HWY_INLINE void clip_to_box(const PacketRays& rays, const IndexBox& box,
+                            const glm::dvec3& last_face, DepthSpan& span) {
     const DoubleTag d;
     for (int axis = 0; axis < 3; ++axis) {
         const auto clip = [&](HalfDoubles origin, HalfDoubles there, HalfDoubles& enter,
                               HalfDoubles& leave) HWY_ATTR {
-            const auto inverse = hn::Div(hn::Set(d, 1.0), crossing_direction(there));
+            // A ray in a face stays inside if it is taken to leave the face into the box.
+            const auto in_last_face = hn::Eq(origin, hn::Set(d, last_face[axis]));
+            const auto along = hn::IfThenElse(in_last_face, hn::Set(d, -least_direction),
+                                              hn::Set(d, least_direction));
+            const auto inverse = hn::Div(hn::Set(d, 1.0), crossing_direction(there, along));
             const auto one = hn::Mul(hn::Sub(hn::Set(d, box.min[axis]), origin), inverse);
             const auto other = hn::Mul(hn::Sub(hn::Set(d, box.max[axis]), origin), inverse);
             enter = hn::Max(enter, hn::Min(one, other));
@@ -186,11 +200,11 @@ HWY_INLINE PacketRays packet_rays(const TileRays& frame, const TileBrickView& br
     rays.length_float = to_floats(FloatTag(), rays.length_per_depth);
     for (const IndexPlane& plane : brick.clip) clip_to_plane(rays, plane, rays.box);
     rays.drawn = rays.box;
-    clip_to_box(rays, brick.box, rays.box);
-    clip_to_box(rays, brick.drawn, rays.drawn);
+    clip_to_box(rays, brick.box, brick.last_face, rays.box);
+    clip_to_box(rays, brick.drawn, brick.last_face, rays.drawn);
     if (brick.share) {
         rays.share = {all(-1e30), all(1e30)};
-        clip_to_box(rays, *brick.share, rays.share);
+        clip_to_box(rays, *brick.share, no_last_face, rays.share);
         rays.drawn = with_half_slabs(frame, rays.share, rays.drawn);
     }
     return rays;

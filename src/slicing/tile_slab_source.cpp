@@ -165,6 +165,7 @@ void TileSlabSource::add_brick(std::size_t number, const View& view, const Slabs
     brick.drawn.max -= first;
     if (plan_.share && !keep_to_share({plan_.share->min - first, plan_.share->max - first}, brick))
         return;
+    brick.last_face = last_face_of(brick.box.max, first, grid_);
     slabs_.bricks.push_back(brick);
     see(brick, view);
 }

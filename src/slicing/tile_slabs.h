@@ -14,6 +14,7 @@
 #include "plan/plan.h"
 #include "slicing/cell_map.h"
 #include "slicing/slab_polygons.h"
+#include "slicing/texture_bricks.h"
 #include "slicing/tile_volume.h"
 
 namespace lamina {
@@ -39,8 +40,9 @@ struct TileRays {
 
 struct TileBrickView {
     TileBrick brick;
-    glm::dvec3 origin_middle{0};  // origin of the ray through the image's middle
-    IndexBox box, drawn;          // in the brick's index space
+    glm::dvec3 origin_middle{0};          // origin of the ray through the image's middle
+    IndexBox box, drawn;                  // in the brick's index space
+    glm::dvec3 last_face = no_last_face;  // of `box` (slicing/texture_bricks.h)
     std::vector<IndexPlane> clip;
     glm::dvec3 first{0};  // the volume's sample at the brick's origin
     double margin = 0;    // largest error of a point in float, in voxels
