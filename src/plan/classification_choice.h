@@ -10,8 +10,8 @@
 
 namespace lamina {
 
-// The largest error of exact segments in float32, in 1/255, where extinction times the length of a
-// cell jumps by less than .2 (docs/precision.md).
+// Largest error of exact segments in float32, in 1/255, of colours up to 1, if extinction times the
+// length of a cell jumps by less than .2 (docs/precision.md, "Exact segments").
 inline constexpr double exact_segment_error = 0.05;
 
 struct ClassificationChoice {

@@ -27,6 +27,7 @@ SlicePlan without_remarks(SlicePlan plan) {
     plan.error_bound.reset();
     plan.tree_reason.clear();
     plan.rounding_bound.reset();
+    plan.segment_error = exact_segment_error;
     plan.table.error = 0;
     return plan;
 }

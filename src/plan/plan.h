@@ -96,11 +96,14 @@ struct SlicePlan : CompositingPlan {
     // Exact segments follow curves where points of the transfer function are smooth, if > 0; it is
     // what that may cost, in 1/255.
     double curve_error = 0;
+    // The largest error of exact segments, in 1/255. A picture is linear in its colours, and so is
+    // the error of a crossing of the transfer function: it grows with the brightest one above 1.
+    double segment_error = exact_segment_error;
 
     // The error that slabs, filter and table were found to make, in 1/255, as far as it was
     // measured; that of exact segments.
     double found_error() const {
-        if (integrates_cells()) return exact_segment_error + light_error + curve_error;
+        if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
     // With the bound on roundings, where both are known: nothing was measured of slabs that the

@@ -69,6 +69,7 @@ class SlicePlanner {
         choose_sampling();
         const CurveChoice curves = choose_curves(scene_, facts_, slice, capabilities_);
         if (leave_out(curves.pay, "smooth_points", curves.reason)) slice.curve_error = curves.error;
+        slice.segment_error = exact_segment_error * std::max(max_color(), 1.0);
         choose_table();
         choose_bricks();
         choose_compositing();

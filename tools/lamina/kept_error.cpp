@@ -12,8 +12,11 @@ void say_what_is_not_kept(const RenderRequest& request, const SlicePlan& plan) {
     if (error > wanted) {
         const std::string why =
             plan.integrates_cells()
-                ? fmt::format("exact segments in {} are off by up to {:.2g} / 255",
-                              name_of(plan.target), error)
+                ? fmt::format("exact segments in {} are off by up to {:.2g} / 255{}",
+                              name_of(plan.target), error,
+                              plan.segment_error > exact_segment_error
+                                  ? ", in proportion to the brightest colour"
+                                  : "")
             : plan.table.error > wanted
                 ? fmt::format(
                       "the pre-integration table is off by up to {:.2g} / 255 "
