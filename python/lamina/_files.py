@@ -9,6 +9,16 @@ import tempfile
 from ._errors import Error
 
 
+def _mode_of(file: pathlib.Path) -> int:
+    """The permissions of the file that is replaced, or those of a new one."""
+    try:
+        return file.stat().st_mode & 0o777
+    except OSError:
+        umask = os.umask(0)
+        os.umask(umask)
+        return 0o666 & ~umask
+
+
 def write_file(file: pathlib.Path, content: bytes) -> None:
     """Writes beside the file and renames. Raises lamina.Error where that cannot be done."""
     try:
@@ -16,9 +26,7 @@ def write_file(file: pathlib.Path, content: bytes) -> None:
         try:
             with os.fdopen(descriptor, "wb") as stream:
                 stream.write(content)
-            umask = os.umask(0)
-            os.umask(umask)
-            os.chmod(name, 0o666 & ~umask)
+            os.chmod(name, _mode_of(file))
             os.replace(name, file)
         except BaseException:
             os.unlink(name)

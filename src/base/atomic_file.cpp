@@ -75,6 +75,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(st
     }
     if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
     if (!open_nameless()) open_named();
+    keep_mode();
     open_stream();
 }
 
@@ -109,6 +110,15 @@ void AtomicFile::open_named() {
         if (errno != EEXIST) give_up(errno);
         if (!remove_abandoned(name)) ++number;
     }
+}
+
+// Takes over who may read and write the file that is replaced, before anything is written: what was
+// private stays so. A file system without modes refuses, and then there is none to keep.
+void AtomicFile::keep_mode() const {
+    struct stat replaced = {};
+    if (stat(path_.c_str(), &replaced) != 0) return;
+    constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
+    fchmod(descriptor_, replaced.st_mode & permissions);
 }
 
 void AtomicFile::open_stream() {

@@ -12,7 +12,7 @@ namespace lamina {
 // left behind, not even when the process is killed, because until then the file has no name where
 // the file system allows that. Where it does not (NFS), and during commit(), the file lies beside
 // its destination as NAME.lamina-N.part and is locked. If a killed process leaves such a file
-// there, the next one of this name removes it.
+// there, the next one of this name removes it. A file that is replaced keeps its mode.
 class AtomicFile : public OutputFile {
   public:
     explicit AtomicFile(
@@ -28,6 +28,7 @@ class AtomicFile : public OutputFile {
     void close_stream();
     bool open_nameless();  // false where the file system does not allow it
     void open_named();
+    void keep_mode() const;
     void open_stream();
     void give_name();
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/atomic_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <set>
 #include <string>
@@ -44,6 +46,25 @@ TEST(AtomicFile, ReplacesAnOldFileInOneStep) {
     EXPECT_EQ(read_bytes_of(folder / "a.txt"), "a longer text");
     // Who had opened the old file still reads the old file: it was replaced, not overwritten.
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old_reader), {}), "old");
+}
+
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+    const TemporaryFolder folder;
+    for (const mode_t mode : {0600, 0640, 0666, 0444}) {
+        const std::filesystem::path path = folder / fmt::format("{:o}.txt", mode);
+        write_bytes_to(path, "old");
+        ASSERT_EQ(chmod(path.c_str(), mode), 0);
+        std::filesystem::create_symlink(path, path.string() + ".link");
+        for (const std::string& name : {path.string(), path.string() + ".link"}) {
+            AtomicFile file(name);
+            file.write("new");
+            file.commit();
+            struct stat found = {};
+            ASSERT_EQ(stat(path.c_str(), &found), 0);
+            EXPECT_EQ(found.st_mode & 0777, mode);
+            EXPECT_EQ(read_bytes_of(path), "new");
+        }
+    }
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
