@@ -13,6 +13,8 @@
 #include "base/atomic_file.h"
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/file_bytes.h"
+#include "base/printable.h"
 
 namespace lamina {
 namespace {
@@ -25,7 +27,7 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 16;
 Json header_of(const std::string& identity, const Grid& grid, SampleType type,
                const VolumeIndex& index) {
     const MinMaxBricks& bricks = index.bricks;
-    return {{"identity", identity},
+    return {{"identity", printable(identity)},  // a name need not be UTF-8
             {"size", grid.size},
             {"type", name_of(type)},
             {"non_finite", bricks.non_finite},
@@ -70,10 +72,49 @@ bool read_ranges(std::ifstream& stream, BrickRanges& ranges, ContentHash& hash) 
     return good;
 }
 
+bool begins_as_index(const std::filesystem::path& file) {
+    const std::string first_line = std::string(magic) + "\n";
+    return file_beginning(file, first_line.size()) == first_line;
+}
+
+void expect_no_link(const std::filesystem::path& file) {
+    std::error_code absent;
+    if (!std::filesystem::is_symlink(file, absent)) return;
+    throw WriteError(
+        fmt::format("{}: cannot write: found a link, which is not followed", file.string()));
+}
+
+// A line of the header, which is far shorter than this.
+bool read_line(std::ifstream& stream, std::string& line) {
+    constexpr std::size_t most = std::size_t{1} << 16;
+    line.clear();
+    for (int byte = stream.get(); byte != '\n'; byte = stream.get()) {
+        if (byte == std::ifstream::traits_type::eof() || line.size() == most) return false;
+        line.push_back(static_cast<char>(byte));
+    }
+    return true;
+}
+
+FoundIndex damaged() {
+    return {{}, "the index is damaged"};
+}
+
 }  // namespace
+
+void expect_index_or_nothing(const std::filesystem::path& file) {
+    std::error_code absent;
+    const auto status = std::filesystem::symlink_status(file, absent);
+    if (!std::filesystem::exists(status)) return;
+    expect_no_link(file);
+    if (begins_as_index(file)) return;
+    throw WriteError(fmt::format(
+        "{}: cannot write: found another file, expected an index that lamina wrote, or nothing",
+        file.string()));
+}
 
 void write_index_file(const std::filesystem::path& file, const std::string& identity,
                       const Grid& grid, SampleType type, const VolumeIndex& index) {
+    expect_no_link(file);
     AtomicFile output(file);
     const auto put = [&](std::string_view text) { output.write(text.data(), text.size()); };
     const std::string header = header_of(identity, grid, type, index).dump();
@@ -100,16 +141,22 @@ void write_index_file(const std::filesystem::path& file, const std::string& iden
 
 FoundIndex read_index_file(const std::filesystem::path& file, const std::string& identity,
                            const Grid& grid, SampleType type) try {
+    std::error_code absent;
+    const auto status = std::filesystem::status(file, absent);
+    if (!std::filesystem::exists(status)) return {};
+    // Opening a pipe may never end, and a device need not have an end.
+    if (!std::filesystem::is_regular_file(status)) return {{}, "the index is not a regular file"};
     std::ifstream stream(file, std::ios::binary);
+    if (!stream) return {{}, "the index cannot be read"};
     std::string line, text;
-    if (!std::getline(stream, line) || line != magic || !std::getline(stream, text)) return {};
+    if (!read_line(stream, line) || line != magic || !read_line(stream, text)) return damaged();
     const Json header = Json::parse(text);
-    if (header.at("identity") != identity || header.at("size") != Json(grid.size) ||
+    if (header.at("identity") != printable(identity) || header.at("size") != Json(grid.size) ||
         header.at("type") != name_of(type))
-        return {{}, true};
+        return {{}, "the index is of other samples"};
     constexpr std::size_t most_values = std::size_t{1} << 22;  // more than there ever are
     const std::size_t codes = header.at("codes"), some = header.at("some");
-    if (codes > most_values || some > most_values) return {};
+    if (codes > most_values || some > most_values) return damaged();
     VolumeIndex index{MinMaxBricks::of(grid, type), {}};
     index.bricks.non_finite = header.at("non_finite");
     index.bricks.whole = {header.at("range").at(0), header.at("range").at(1)};
@@ -118,12 +165,12 @@ FoundIndex read_index_file(const std::filesystem::path& file, const std::string&
     if (!read_values(stream, codes, index.values.codes, hash) ||
         !read_values(stream, some, index.values.some, hash) ||
         !read_ranges(stream, index.bricks.ranges, hash))
-        return {};
+        return damaged();
     std::string end(16, ' ');
-    if (!stream.read(end.data(), 16) || end != hash.hex()) return {};
-    return {std::move(index), false};
+    if (!stream.read(end.data(), 16) || end != hash.hex()) return damaged();
+    return {std::move(index), {}};
 } catch (const Json::exception&) {
-    return {};  // the header is damaged
+    return damaged();  // its header
 }
 
 }  // namespace lamina

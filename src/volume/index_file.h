@@ -16,11 +16,15 @@ namespace lamina {
 void write_index_file(const std::filesystem::path& file, const std::string& identity,
                       const Grid& grid, SampleType type, const VolumeIndex& index);
 
-// Nothing where the file is not there, is damaged, or is of other samples; `stale` then says
-// whether it is a whole index of others.
+// Throws Error if there is something at `file` that is no index: it must not be replaced. A link is
+// never followed, neither here nor by write_index_file().
+void expect_index_or_nothing(const std::filesystem::path& file);
+
+// No index if the file is not there, is damaged, or is of other samples. `wrong` then says what is
+// wrong with a file that is there; otherwise it is empty.
 struct FoundIndex {
     std::optional<VolumeIndex> index;
-    bool stale = false;
+    std::string wrong;
 };
 FoundIndex read_index_file(const std::filesystem::path& file, const std::string& identity,
                            const Grid& grid, SampleType type);

@@ -217,9 +217,8 @@ VolumeIndex index_of(const Volume& volume) {
     for (const std::filesystem::path& file : {index_file_of(volume), cached}) {
         FoundIndex found = read_index_file(file, identity, volume.grid(), volume.type());
         if (found.index) return std::move(*found.index);
-        if (found.stale)
-            warn(
-                fmt::format("{}: the index is of other samples, and is made again", file.string()));
+        if (!found.wrong.empty())
+            warn(fmt::format("{}: {}, and is made again", file.string(), found.wrong));
     }
     VolumeIndex index = measure_index(volume);
     keep(volume, index, cached);

@@ -17,7 +17,8 @@ struct VolumeIndex {
 
 // Of a volume that stays in its files: from the index file beside them, or from that in the user's
 // cache folder, if it is of these samples as they are now; else by a pass over the samples, on all
-// cores, whose result is kept in the cache folder. A warning says where an index was stale.
+// cores, whose result is kept in the cache folder. A warning says what is wrong
+// with an index that is there.
 VolumeIndex index_of(const Volume& volume);
 
 // The pass alone.

@@ -80,9 +80,33 @@ TEST_F(VolumeIndexFile, IsReadAsItWasWritten) {
 TEST_F(VolumeIndexFile, OfOtherSamplesIsStale) {
     write();
     EXPECT_FALSE(read("elsewhere").index);
-    EXPECT_TRUE(read("elsewhere").stale);
-    EXPECT_TRUE(read_index_file(file(), "here", grid, SampleType::uint8).stale);
-    EXPECT_FALSE(read_index_file(folder_ / "none", "here", grid, SampleType::uint8).stale);
+    EXPECT_EQ(read("elsewhere").wrong, "the index is of other samples");
+    EXPECT_EQ(read_index_file(file(), "here", grid, SampleType::uint8).wrong,
+              "the index is of other samples");
+    EXPECT_EQ(read_index_file(folder_ / "none", "here", grid, SampleType::uint8).wrong, "");
+}
+
+TEST_F(VolumeIndexFile, IsOnlyReadFromARegularFile) {
+    ASSERT_EQ(mkfifo(file().c_str(), 0600), 0);
+    EXPECT_EQ(read("here").wrong, "the index is not a regular file");
+    std::filesystem::remove(file());
+    std::filesystem::create_symlink("/dev/zero", file());
+    EXPECT_EQ(read("here").wrong, "the index is not a regular file");
+}
+
+TEST_F(VolumeIndexFile, NeverFollowsALinkAndReplacesNothingElse) {
+    write_bytes_to(folder_ / "precious", "data");
+    std::filesystem::create_symlink(folder_ / "precious", file());
+    EXPECT_THROW(write(), Error);
+    EXPECT_THROW(expect_index_or_nothing(file()), Error);
+    EXPECT_EQ(read_bytes_of(folder_ / "precious"), "data");
+    std::filesystem::remove(file());
+    expect_index_or_nothing(file());
+    write_bytes_to(file(), "data");
+    EXPECT_THROW(expect_index_or_nothing(file()), Error);
+    std::filesystem::remove(file());
+    write();
+    expect_index_or_nothing(file());
 }
 
 // Cut short at any place, and with any byte changed, it is no index.
@@ -93,6 +117,7 @@ TEST_F(VolumeIndexFile, ThatIsDamagedIsNotUsed) {
     for (std::size_t kept = 0; kept < bytes.size(); kept += 1 + bytes.size() / 300) {
         put(bytes.substr(0, kept));
         EXPECT_FALSE(read("here").index) << kept;
+        EXPECT_EQ(read("here").wrong, "the index is damaged") << kept;
     }
     const std::size_t header = bytes.find('\n', bytes.find('\n') + 1);
     for (std::size_t at = 0; at < bytes.size(); at += at < header ? 1 : 1 + bytes.size() / 300) {

@@ -10,6 +10,7 @@
 #include "memory_option.h"
 #include "raw_options.h"
 #include "verbs.h"
+#include "volume/index_file.h"
 #include "volume/volume_index.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/volume_file.h"
@@ -36,6 +37,7 @@ void run(const IndexOptions& options) {
     const Volume volume = open_volume(options.file, request_of(options.raw),
                                       {.residence = VolumeUse::Residence::in_files});
     const std::filesystem::path file = index_file_of(volume);
+    expect_index_or_nothing(file);  // before the long work
     const VolumeIndex index = measure_index(volume);
     write_index(volume, index, file);
     if (options.quiet) return;
