@@ -69,6 +69,7 @@ Volume read_hdf5(const std::filesystem::path& path, const VolumeRequest& request
 Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use) {
     const ArrayPath named = array_path(path);
+    expect_regular_file(named.file);
     const Hdf5Place place{named.file.string(), named.array.empty() ? request.array : named.array,
                           request};
     auto process = std::make_unique<Hdf5Process>(place);

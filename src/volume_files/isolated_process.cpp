@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@
 
 #include "base/client.h"
 #include "base/error.h"
+#include "base/error_text.h"
 #include "base/interrupt.h"
 #include "base/warning.h"
 
@@ -118,6 +120,22 @@ class OwnLine final : public IsolatedLine {
     pid_t starter_;
 };
 
+pid_t awaited_starter = -1;  // in the process of its own
+
+// Ends this process within a second of the one that started it, even if it waits for a file that
+// never gives anything. (PR_SET_PDEATHSIG would end it with the thread that started it.)
+void end_with_starter(pid_t starter) {
+    awaited_starter = starter;
+    struct sigaction action = {};
+    action.sa_handler = [](int) {
+        if (getppid() != awaited_starter) _exit(1);
+    };
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &action, nullptr);
+    const itimerval every_second{{1, 0}, {1, 0}};
+    setitimer(ITIMER_REAL, &every_second, nullptr);
+}
+
 [[noreturn]] void run_isolated(OwnLine& line, const std::string& too_much,
                                const IsolatedProcess::Work& work) {
     // A terminal interrupts both processes: the other one hears of it, and ends this one.
@@ -135,7 +153,7 @@ class OwnLine final : public IsolatedLine {
     } catch (const std::bad_alloc&) {
         line.text(refusal, too_much);
     } catch (const std::exception& error) {
-        line.text(refusal, error.what());
+        line.text(refusal, error_text(error));
     }
     _exit(0);
 }
@@ -155,6 +173,7 @@ IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Wo
     process_ = memory_ < 0 ? -1 : fork();
     if (process_ == 0) {
         close(ends[0]);
+        end_with_starter(starter);
         OwnLine line(ends[1], memory_, starter);
         run_isolated(line,
                      name_ + ": damaged, or memory is short: " + library +

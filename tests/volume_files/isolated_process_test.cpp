@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/isolated_process.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+namespace lamina {
+namespace {
+
+// Whether a process is there and is more than a record for its parent.
+bool is_running(pid_t process) {
+    std::ifstream stream("/proc/" + std::to_string(process) + "/stat");
+    std::string number, name, state;
+    return static_cast<bool>(stream >> number >> name >> state) && state != "Z";
+}
+
+// Work that waits for ever, as opening a pipe does, in a process whose starter is killed.
+TEST(IsolatedProcess, EndsWhenItsStarterIsKilled) {
+    int line[2] = {-1, -1};
+    ASSERT_EQ(pipe(line), 0);
+    const pid_t starter = fork();
+    if (starter == 0) {
+        const IsolatedProcess isolated("name", "library", [&](IsolatedLine&) {
+            const pid_t own = getpid();
+            if (write(line[1], &own, sizeof own) != sizeof own) _exit(1);
+            while (true) pause();
+        });
+        while (true) pause();
+    }
+    pid_t isolated = -1;
+    ASSERT_EQ(read(line[0], &isolated, sizeof isolated), static_cast<ssize_t>(sizeof isolated));
+    EXPECT_TRUE(is_running(isolated));
+    kill(starter, SIGKILL);
+    waitpid(starter, nullptr, 0);
+    // It looks every second.
+    for (int tenths = 0; tenths < 200 && is_running(isolated); ++tenths)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_FALSE(is_running(isolated));
+    for (const int end : line) close(end);
+}
+
+}  // namespace
+}  // namespace lamina
