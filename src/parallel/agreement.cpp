@@ -6,14 +6,14 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/error_text.h"
 
 namespace lamina {
 namespace {
 
-// Takes no memory.
-const char* message_of(const std::exception& error) {
-    const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-    return memory ? "out of memory" : error.what();
+// Takes no memory when there is none: so short a text lies in the string itself.
+std::string message_of(const std::exception& error) {
+    return error_text(error);
 }
 
 }  // namespace
@@ -42,8 +42,8 @@ void do_or_abort(const Ranks& ranks, const std::function<void()>& work) {
     try {
         work();
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "lamina: %s (rank %d of %d)\n", message_of(error), ranks.number(),
-                     ranks.count());
+        std::fprintf(stderr, "lamina: %s (rank %d of %d)\n", message_of(error).c_str(),
+                     ranks.number(), ranks.count());
         MPI_Abort(ranks.comm(), 1);
     }
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/error_text.h"
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/stopwatch.h"
@@ -30,7 +31,7 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
             outcome.note = error.what();
         } catch (const std::exception& error) {
             outcome.verdict = Verdict::failed;
-            outcome.note = error.what();
+            outcome.note = error_text(error);
         }
         results.push_back(
             {each.group, each.scene, each.way, each.about, outcome, watch.milliseconds()});

@@ -7,6 +7,10 @@
 
 namespace lamina::study {
 
+// What is wrong with a record that lamina did not write.
+inline constexpr const char* strange_record =
+    "a record lacks a key, or a key has a value of another kind";
+
 // The records of a running study, one line of JSON each. A record is on disk before append()
 // returns, so that a crash loses at most the record that was being written.
 class Journal {

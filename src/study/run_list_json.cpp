@@ -107,8 +107,11 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
         if (list.baselines.size() != list.scenes.size() || list.id() != document.at("study"))
             fail("its runs are not those that it was written with");
         return list;
-    } catch (const nlohmann::json::exception& error) {
-        fail("{}: not a list of runs that lamina study wrote: {}", file.string(), error.what());
+    } catch (const nlohmann::json::exception&) {
+        fail(
+            "{}: not a list of runs that lamina study wrote: a key is missing or has a value of "
+            "another kind",
+            file.string());
     } catch (const Error& error) {
         fail("{}: not a list of runs that lamina study wrote: {}", file.string(), error.what());
     }

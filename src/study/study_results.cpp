@@ -157,9 +157,12 @@ StudyResults read_results(const StudyFolder& folder) {
         for (const Records& each : records) journals.push_back(by_run(each));
         for (std::size_t run = 0; run < results.list.runs.size(); ++run)
             add_result(results.list, run, journals, results.runs);
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
              error.what());
+    } catch (const std::exception&) {
+        fail("{}: a journal holds what lamina study did not write: {}", folder.path.string(),
+             strange_record);
     }
     for (RunResult& run : results.runs) {
         if (run.failed.empty())

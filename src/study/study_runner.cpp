@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error.h"
+#include "base/error_text.h"
 #include "base/interrupt.h"
 #include "base/stopwatch.h"
 #include "image/exr.h"
@@ -43,9 +44,12 @@ StudyRunner::StudyRunner(const RunList& list, const StudyFile& file, const Study
       contexts_([this] { drop_opengl(); }) {
     try {
         take_over(journal_.found());
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         fail("{}: holds records that lamina study did not write: {}",
              folder.journal(shard.number, shard.count).string(), error.what());
+    } catch (const std::exception&) {
+        fail("{}: holds records that lamina study did not write: {}",
+             folder.journal(shard.number, shard.count).string(), strange_record);
     }
     journal_.append(begin);
 }
@@ -180,7 +184,7 @@ void StudyRunner::visit(std::size_t run, int round) {
     } catch (const std::bad_alloc&) {
         return give_up(run, "out of memory");
     } catch (const std::exception& error) {
-        return give_up(run, one_line(error.what()));
+        return give_up(run, one_line(error_text(error)));
     }
     record(run, round, measured);
 }

@@ -3,6 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <functional>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error_text.h"
+
 namespace lamina {
 namespace {
 
@@ -20,6 +29,50 @@ TEST(Fail, FormatsItsMessage) {
     } catch (const Error& error) {
         EXPECT_STREQ(error.what(), "scene.json: found 3, expected 2");
     }
+}
+
+// The marks of texts that libraries write.
+void expect_no_library_speaks(const std::string& text) {
+    for (const char* const mark : {"json", "std::", "filesystem error", "vector", "basic_string"})
+        EXPECT_EQ(text.find(mark), std::string::npos) << text;
+}
+
+TEST(ErrorText, IsOwnWordsOfErrorsThatUsersCause) {
+    EXPECT_EQ(error_text(Error("a.json: found 3")), "a.json: found 3");
+    EXPECT_EQ(error_text(UsageError("--x: found 3")), "--x: found 3");
+    EXPECT_EQ(error_text(std::bad_alloc()), "out of memory");
+}
+
+TEST(ErrorText, NamesTheFileThatTheSystemRefuses) {
+    const std::string longest(5000, 'a');
+    try {
+        (void)std::filesystem::exists(std::filesystem::path("/tmp") / longest);
+        FAIL();
+    } catch (const std::exception& error) {
+        const std::string text = error_text(error);
+        EXPECT_TRUE(text.starts_with("/tmp/aaaa")) << text;
+        EXPECT_TRUE(text.ends_with("...: File name too long")) << text;
+        EXPECT_LT(text.size(), 200u);
+        expect_no_library_speaks(text);
+    }
+}
+
+TEST(ErrorText, CallsAnythingElseAMistakeOfLamina) {
+    const auto expect_mistake = [](const std::function<void()>& work) {
+        try {
+            work();
+            FAIL();
+        } catch (const std::exception& error) {
+            const std::string text = error_text(error);
+            EXPECT_TRUE(text.starts_with("a mistake of lamina")) << text;
+            EXPECT_NE(text.find("please report"), std::string::npos) << text;
+            expect_no_library_speaks(text);
+        }
+    };
+    expect_mistake([] { (void)nlohmann::json().value("files", 0); });
+    expect_mistake([] { (void)nlohmann::json("\xff").dump(); });
+    expect_mistake([] { (void)std::vector<int>().at(0); });
+    expect_mistake([] { (void)std::stoi("x"); });
 }
 
 }  // namespace

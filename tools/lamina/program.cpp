@@ -13,8 +13,10 @@
 
 #include "base/client.h"
 #include "base/error.h"
+#include "base/error_text.h"
 #include "base/large_stack.h"
 #include "base/progress.h"
+#include "base/shortened.h"
 #include "base/signal_stop.h"
 #include "base/standard_streams.h"
 #include "base/warning.h"
@@ -24,8 +26,16 @@
 namespace lamina {
 namespace {
 
+// What a user gave may be long, wherever a message shows it: its beginning and end are kept, which
+// say what is wrong and what is expected.
+std::string of_bounded_length(const std::string& message) {
+    constexpr std::size_t most = 2000, most_of_end = 500;  // bytes: far more than any message needs
+    if (message.size() <= most) return message;
+    return shortened(message, most - most_of_end) + message.substr(message.size() - most_of_end);
+}
+
 int report(const std::string& message, int exit_code) {
-    print_message("lamina: {}\n", message);
+    print_message("lamina: {}\n", of_bounded_length(message));
     return exit_code;
 }
 
@@ -33,7 +43,7 @@ int report(const std::string& message, int exit_code) {
 void print_warning(const std::string& text) {
     static std::set<std::string> printed;
     if (Progress::is_quiet() || !printed.insert(text).second) return;
-    print_message("lamina: warning: {}\n", text);
+    print_message("lamina: warning: {}\n", of_bounded_length(text));
 }
 
 // Names an unknown verb. CLI11 would only say that a subcommand is missing.
@@ -89,7 +99,7 @@ int run_and_report(const Program& program, int argc, char** argv, const SignalSt
         std::fputs("lamina: out of memory\n", stderr);  // needs no memory
         return 1;
     } catch (const std::exception& error) {
-        return report(error.what(), 1);
+        return report(error_text(error), 1);
     }
 }
 
@@ -103,7 +113,7 @@ int run_command_line(const Program& program, int argc, char** argv) {
         const SignalStop signals;
         return with_large_stack([&] { return run_and_report(program, argc, argv, signals); });
     } catch (const std::system_error& error) {
-        return report(error.what(), 1);
+        return report(error_text(error), 1);
     }
 }
 
