@@ -63,7 +63,9 @@ Json take_panels(Json& result) {
 
 Json page_section(const std::string& item, const Json& result, Json panels,
                   const std::filesystem::path& folder) {
-    const Json& values = result.at("values");
+    // An item that was skipped has no values.
+    const Json& found = result.at("values");
+    const Json values = found.is_object() ? found : Json::object();
     for (const Json& file : values.value("files", Json::array())) {
         const std::filesystem::path path = folder / file.get<std::string>();
         if (path.extension() != ".svg") continue;

@@ -84,6 +84,7 @@ class Lister {
 
     // A rule that matches no run has a mistake in its values.
     void check_drops() const {
+        if (!file_.skipped.empty()) return;  // it may be about a scene that is skipped
         for (std::size_t i = 0; i < matched_.size(); ++i) {
             if (!matched_[i])
                 fail("{}: drop.{}.where: no run has these values", file_.file.string(), i);
@@ -96,6 +97,14 @@ class Lister {
     std::vector<bool> matched_;  // of the rules
     std::set<std::string> ids_;
 };
+
+constexpr std::uint64_t most_counted = std::numeric_limits<std::int64_t>::max();
+
+std::uint64_t runs_of_one_scene(const StudyFile& file) {
+    std::uint64_t count = 0;
+    for (const SweepGrid& grid : file.sweep) count = std::min(most_counted, count + grid.count());
+    return count;
+}
 
 std::size_t find_baseline(const StudyFile& file, const RunList& list, std::size_t scene) {
     std::vector<std::size_t> found;
@@ -151,10 +160,9 @@ std::string RunList::id() const {
 }
 
 std::uint64_t run_count(const StudyFile& file) {
-    constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
-    std::uint64_t count = 0;
-    for (const SweepGrid& grid : file.sweep) count = std::min(most, count + grid.count());
-    return count > most / file.scenes.size() ? most : count * file.scenes.size();
+    const std::uint64_t count = runs_of_one_scene(file);
+    const std::size_t scenes = file.scenes.size();
+    return scenes > 0 && count > most_counted / scenes ? most_counted : count * scenes;
 }
 
 nlohmann::json document_of(const StudyRun& run, const StudyFile& file) {
@@ -195,6 +203,9 @@ RunList list_runs(const StudyFile& file) {
     }
     lister.check_drops();
     std::erase_if(list.dropped, [](const RunList::Dropped& each) { return each.runs == 0; });
+    const std::uint64_t runs_of_scene = runs_of_one_scene(file);
+    for (const StudyFile::Skipped& skipped : file.skipped)
+        list.dropped.push_back({skipped.because, runs_of_scene});
     for (std::size_t scene = 0; scene < file.scenes.size(); ++scene)
         list.baselines.push_back(find_baseline(file, list, scene));
     return list;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <set>
 
 #include "base/enum_words.h"
@@ -49,6 +51,34 @@ StudyFile::SceneEntry read_scene_entry(JsonReader& study, std::size_t number,
     return scene;
 }
 
+bool is_data_folder_set() {
+    const char* const folder = std::getenv("LAMINA_DATA");
+    return folder != nullptr && *folder != '\0';
+}
+
+// Whether a scene names a file of the data sets.
+bool names_data_folder(const nlohmann::json& value) {
+    if (value.is_string())
+        return value.get_ref<const std::string&>().find("${LAMINA_DATA}") != std::string::npos;
+    return value.is_structured() && std::ranges::any_of(value, names_data_folder);
+}
+
+// Moves the scenes that cannot be drawn without the data sets to those that are skipped.
+void skip_scenes_without_data(StudyFile& file) {
+    if (is_data_folder_set()) return;
+    for (const StudyFile::SceneEntry& scene : file.scenes) {
+        if (!names_data_folder(scene.document)) continue;
+        file.skipped.push_back(
+            {scene.name,
+             fmt::format(
+                 "scene \"{}\" is skipped: set LAMINA_DATA to the folder with the data sets",
+                 scene.name)});
+    }
+    std::erase_if(file.scenes, [](const StudyFile::SceneEntry& scene) {
+        return names_data_folder(scene.document);
+    });
+}
+
 void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
     if (!study.has("scenes") || !study.value("scenes").is_array() || study.value("scenes").empty())
         study.reject("scenes", "a list of scene files");
@@ -61,6 +91,7 @@ void read_scenes(JsonReader& study, const Settings& base, StudyFile& file) {
                                                 file.scenes.back().name));
         }
     }
+    skip_scenes_without_data(file);
 }
 
 // The keys that a study sweeps, for comparison with other keys.

@@ -26,9 +26,16 @@ struct StudyFile {
         std::string because;
     };
 
+    // A scene that is not drawn, because ${LAMINA_DATA}, which it names, is not set.
+    struct Skipped {
+        std::string name;
+        std::string because;
+    };
+
     std::filesystem::path file;
     std::string title;
     std::vector<SceneEntry> scenes;
+    std::vector<Skipped> skipped;
     Settings base;                 // keys that all runs have, as the file gives them
     std::string context = "auto";  // used where no axis sets it
     std::vector<SweepGrid> sweep;

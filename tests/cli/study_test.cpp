@@ -222,5 +222,31 @@ TEST_F(Study, ContextsAreSwept) {
     }
 }
 
+ProgramResult run_without_data(const std::vector<std::string>& arguments) {
+    return run_program(arguments, [] { unsetenv("LAMINA_DATA"); });
+}
+
+// The other scene runs, and the page says what is skipped and what to set.
+TEST_F(Study, ScenesWithoutTheirDataSetAreSkipped) {
+    blobs["volume"] = "${LAMINA_DATA}/bonsai.nrrd";
+    const std::string wanted =
+        "scene \"blobs\" is skipped: set LAMINA_DATA to the folder with the data sets";
+    const ProgramResult result = run_without_data(command("out"));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("4 runs left out: " + wanted), std::string::npos) << result.err;
+    for (const CsvRow& row : results("out")) EXPECT_EQ(row.at("scene"), "ramp");
+    EXPECT_EQ(document("out", "results.json")["dropped"].back(),
+              json({{"because", wanted}, {"runs", 4}}));
+}
+
+TEST_F(Study, WithoutAnyDataSetThereIsAPageThatSaysSo) {
+    ramp["volume"] = blobs["volume"] = "${LAMINA_DATA}/bonsai.nrrd";
+    const ProgramResult result = run_without_data(command("out"));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string page = read_bytes_of(folder / "out" / "report.html");
+    EXPECT_NE(page.find("set LAMINA_DATA to the folder with the data sets"), std::string::npos);
+    EXPECT_TRUE(results("out").empty());
+}
+
 }  // namespace
 }  // namespace lamina

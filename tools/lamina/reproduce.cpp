@@ -73,6 +73,7 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
 // Returns the files that items read where they exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
+    if (data.empty()) return {};
     std::vector<std::filesystem::path> files = files_of_volume(data / "bonsai.nrrd");
     for (const char* const mesh : {"bluntfin.vtu", "combustor.vtu", "torso.vtu"})
         files.push_back(data / mesh);
