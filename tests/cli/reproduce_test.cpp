@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/run_program.h"
 #include "support/temporary_folder.h"
@@ -77,6 +81,41 @@ TEST(Reproduce, AFileInTheWayIsExitOne) {
         EXPECT_EQ(result.exit_code, 1);
         EXPECT_NE(result.err.find("x: "), std::string::npos);
     }
+}
+
+void without_data() {
+    unsetenv("LAMINA_DATA");
+}
+
+// An item that needs a data set says so, on the line, in the report and on the page.
+TEST(Reproduce, ItemsWithoutTheirDataSetAreSkipped) {
+    const TemporaryFolder folder;
+    const ProgramResult result = run_program(
+        {LAMINA_BINARY, "reproduce", "lamar", "figure1", "-o", folder / "x"}, without_data);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string wanted = "skipped: set LAMINA_DATA to a folder that holds bonsai.nrrd";
+    EXPECT_NE(result.out.find(wanted), std::string::npos) << result.out;
+    const json report = json::parse(read_bytes_of(folder / "x/lamar.json"));
+    EXPECT_TRUE(report["figure1"]["agrees"].is_null());
+    EXPECT_NE(read_bytes_of(folder / "x/lamar.html").find(wanted), std::string::npos);
+}
+
+// Into a file, which is buffered as a pipe is. All items take minutes.
+TEST(Reproduce, ALineIsWrittenAsItsItemEnds) {
+    const TemporaryFolder folder;
+    StartedProgram program({"sh", "-c", "exec \"$0\" reproduce lamar -o \"$1\" > \"$2\"",
+                            LAMINA_BINARY, folder / "x", folder / "lines"});
+    const auto said = [&] {
+        std::error_code absent;
+        return std::filesystem::exists(folder / "lines", absent) &&
+               read_bytes_of(folder / "lines").find("table1 ") != std::string::npos;
+    };
+    while (!said() && !program.has_ended())
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_TRUE(said());
+    EXPECT_FALSE(program.has_ended());
+    program.send(SIGINT);
+    EXPECT_EQ(program.wait().exit_code, 130);
 }
 
 }  // namespace

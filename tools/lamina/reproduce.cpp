@@ -141,6 +141,7 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
                                           item.name, report.size(), items.size(), folder.string()));
         }
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
+        flush_results();  // now, into a pipe too: items take minutes
         const nlohmann::ordered_json panels = papers::take_panels(result);
         page["findings"].push_back(item.name + ": " + result["note"].get<std::string>());
         page["comparisons"].push_back(papers::page_section(item.name, result, panels, folder));
