@@ -108,6 +108,9 @@ class Scene(dict[str, Any]):
             if value is None:
                 continue
             if name == "set":
+                if not isinstance(value, Mapping):
+                    raise TypeError(f"set: found {shown(value)}, expected a dictionary, as in "
+                                    '{"render.slice.samples": 64}')
                 for key, item in value.items():
                     _set(scene, str(key), plain(item, str(key)))
             elif name == "size":

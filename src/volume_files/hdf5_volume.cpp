@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/shortened.h"
 #include "base/warning.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/stored_axes.h"
@@ -36,6 +37,8 @@ herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* da
     return found.names.size() < most_names ? 0 : 1;
 }
 
+constexpr std::size_t most_of_names = 200;  // bytes that a message shows
+
 std::string only_array(hid_t file, const std::string& name) {
     FoundArrays found;
     H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_array, &found);
@@ -43,8 +46,8 @@ std::string only_array(hid_t file, const std::string& name) {
         fail("{}: found no array of three dimensions and more in it, expected one", name);
     if (found.names.size() > 1) {
         fail("{}: found the arrays {}, expected one, as in {}:{}", name,
-             one_line(fmt::format("{}", fmt::join(found.names, ", "))), name,
-             one_line(found.names.front()));
+             shortened(one_line(fmt::format("{}", fmt::join(found.names, ", "))), most_of_names),
+             name, shortened(one_line(found.names.front()), most_of_names));
     }
     return found.names.front();
 }

@@ -166,5 +166,85 @@ TEST_F(Messages, AMeshThatIsMadeHasTheScenesName) {
               "1 of 8 samples are NaN or infinite");
 }
 
+// Colours up to 900: exact segments claim .05 / 255 of colours up to 1.
+TEST_F(Messages, BrightColorsWhoseErrorIsTooLargeAreSaid) {
+    json scene = gaussians_scene(12, 40, 30, 4);
+    write_bytes_to(folder / "scene.json", scene.dump());
+    const std::vector<std::string> render = {"render",         folder / "scene.json", "-o",
+                                             folder / "a.exr", "--context",           "cpu"};
+    EXPECT_EQ(lamina_run(render).err.find("is not kept"), std::string::npos);
+    for (json& point : scene["transfer_function"]["points"]) point["color"] = {900, 1, 1};
+    write_bytes_to(folder / "scene.json", scene.dump());
+    const ProgramResult result = lamina_run(render);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("render.max_error: 1 is not kept: exact segments in float32 are off "
+                              "by up to 45 / 255, in proportion to the brightest colour"),
+              std::string::npos)
+        << result.err;
+}
+
+// The file system takes no name of more than 255 bytes and no path of more than 4096.
+TEST_F(Messages, PathsThatAreTooLongGetOneShortLine) {
+    const std::string scene = scene_with("");
+    std::string deep = folder.path();
+    for (int i = 0; i < 50; ++i) deep += "/" + std::string(100, 'd');
+    for (const std::string& path :
+         {folder / std::string(300, 'n'), deep, std::string(1 << 20, 'x')}) {
+        for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+                 {"render", path, "-o", folder / "a.exr"},
+                 {"render", scene, "-o", path + ".exr"},
+                 {"render", scene, "-o", folder / "a.exr", "--stats", path},
+                 {"render", scene, "-o", folder / "a.exr", "--set", "volume=" + path},
+                 {"render", scene, "-o", folder / "a.exr", "--set", "render.target=" + path},
+                 {"info", path},
+                 {"scene", path, "-o", folder / "b.json"},
+                 {"scene", scene, "-o", path},
+                 {"index", path},
+                 {"mesh", path, "-o", folder / "a.vtu"},
+                 {"order", path},
+                 {"compare", path, path},
+                 {"study", path, "-o", folder / "study"},
+                 {"crosscheck", path, "-o", folder / "check"},
+                 {"reproduce", "lamar", "table3", "-o", path},
+                 {path}}) {
+            std::vector<std::string> shown = arguments;
+            for (std::string& word : shown) word = word.substr(0, 20);
+            if (path.size() > 100000) shown.emplace_back("(1 MB)");
+            const ProgramResult result = lamina_run(arguments);
+            EXPECT_TRUE(result.exit_code == 1 || result.exit_code == 2)
+                << json(shown) << result.exit_code;
+            expect_line(result.err, {"lamina: "});
+            EXPECT_LT(result.err.size(), 3000u) << json(shown);
+            for (const char* const library : {"json.exception", "std::", "filesystem error"})
+                EXPECT_EQ(result.err.find(library), std::string::npos) << result.err;
+            EXPECT_EQ(result.err.find("a mistake of lamina"), std::string::npos) << json(shown);
+            EXPECT_FALSE(std::filesystem::exists(folder / "a.exr")) << json(shown);
+        }
+    }
+}
+
+TEST_F(Messages, ASceneThatIsNoObjectIsNamedBeforeItsKeysAreSet) {
+    for (const char* const document : {"[]", "[1]", "3", "null", "\"x\""}) {
+        write_bytes_to(folder / "list.json", document);
+        const ProgramResult result =
+            lamina_run({"render", folder / "list.json", "-o", folder / "a.exr", "--set",
+                        "volume.channel=1", "--set", "render.target=fixed8"});
+        EXPECT_EQ(result.exit_code, 1);
+        expect_line(result.err,
+                    {"list.json: found " + std::string(document), "expected an object"});
+    }
+}
+
+// The scene would name another file, which is not there.
+TEST_F(Messages, AScenesDataHaveNamesThatJsonCanHold) {
+    scene_with("");
+    const std::filesystem::path odd = folder / "b\xff.nrrd";
+    std::filesystem::rename(folder / "v.nrrd", odd);
+    const ProgramResult result = lamina_run({"scene", odd, "-o", folder / "new.json"});
+    EXPECT_EQ(result.exit_code, 1);
+    expect_line(result.err, {"b\\xff.nrrd: its name is not UTF-8", "expected another name"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "new.json"));
+}
+
 }  // namespace
 }  // namespace lamina

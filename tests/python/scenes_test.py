@@ -53,6 +53,7 @@ def test_lighting(blob, function):
     (SCENE, {"slice": {"smaples": 3}}, lamina.Error, "render.slice.smaples.*samples"),
     (SCENE, {"size": "800x600"}, TypeError, "size: found '800x600', expected \\(width, height\\)"),
     (SCENE, {"size": (0, 1)}, lamina.Error, "image.width"),
+    (SCENE, {"set": 3}, TypeError, "set: found 3, expected a dictionary, as in .*render.slice.samples"),
     (SCENE, {"set": {"image.width.x": 3}}, ValueError, "'x' is not inside an object"),
     (SCENE, {"camera": object()}, TypeError, "camera: found object"),
     (SCENE, {"max_error": float("nan")}, ValueError, "max_error: found nan, expected a finite number"),

@@ -48,10 +48,20 @@ std::string scene_text(const SceneVerbOptions& options, const Scene& scene,
     return json_text(result, 2) + "\n";
 }
 
+// JSON is UTF-8: with another name the scene would name a file that is not there.
+void expect_utf8(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    if (parse_json(json_text(nlohmann::json(name))) == name) return;
+    fail("{}: its name is not UTF-8, which a scene cannot hold: expected another name", name);
+}
+
 void run(const SceneVerbOptions& options) {
     nlohmann::json document;
     Scene scene = load_scene(options.scene, settings_of(options.view), document);
     const Wishes wishes = wishes_of(options.view, scene.color_space);
+    for (const std::filesystem::path& file :
+         {scene.volume_file, scene.mesh_file, scene.colormap_file})
+        expect_utf8(file);
     expect_different_files(files_of(scene), {options.output});
     const auto output = open_named(options.output);
     RenderStats ignored;

@@ -31,6 +31,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         set_key(document, key, value);
         keys.push_back(key);
     };
+    (void)JsonReader(document, file);  // a scene is an object: keys of a list could not be set
     std::vector<std::string> settings = more;
     settings.insert(settings.end(), options.settings.begin(), options.settings.end());
     for (const std::string& setting : settings) {
