@@ -145,7 +145,8 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
         EXPECT_EQ(mkfifo(path.c_str(), 0600), 0) << name;
         return path;
     };
-    for (const char* name : {"a.nrrd", "a.nhdr", "a.vtu", "a.vtk"}) {
+    for (const char* name : {"a.nrrd", "a.nhdr", "a.vtu", "a.vtk", "a.h5", "a.hdf5", "a.nc",
+                             "a.mha", "a.nii", "a.tif", "a.dcm", "a.vti"}) {
         const std::string path = pipe_called(name);
         expect_one_line(lamina_run({"info", path}), 1, {path, "not a regular file"});
     }
@@ -167,6 +168,19 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
                        pipe_called("a.raw") + "\n\n");
     expect_one_line(lamina_run({"info", folder / "b.nhdr"}), 1, {"a.raw", "not a regular file"});
     EXPECT_TRUE(contents(out).empty());
+}
+
+// As an index of the volume, beside it and in the cache folder: another one is made.
+TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndex) {
+    const std::string index = folder / "volume.nrrd.lamina-index";
+    ASSERT_EQ(mkfifo(index.c_str(), 0600), 0);
+    const auto with_cache = [&] { setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); };
+    const ProgramResult drawn = lamina_run({"render", folder / "scene.json", "-o", out / "a.exr",
+                                            "--context", "cpu", "--memory", "1K"},
+                                           with_cache);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_NE(drawn.err.find("the index is not a regular file"), std::string::npos) << drawn.err;
+    expect_one_line(lamina_run({"index", folder / "volume.nrrd"}), 1, {index, "another file"});
 }
 
 TEST_F(FaultsOfMachines, FoldersThatAreNotThere) {
