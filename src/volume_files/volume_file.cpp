@@ -21,6 +21,11 @@ constexpr VolumeFormat raw_format{"raw", {},    {},    read_raw, {},
                                   false, false, false, false,    open_raw};
 
 const VolumeFormat& expected_format(const Path& path) {
+    // A part of a file ("FILE.h5:/ARRAY") is none by itself, nor what is not there.
+    std::error_code absent;
+    const auto status = std::filesystem::status(path, absent);
+    if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+        expect_regular_file(path);
     const VolumeFormat* const format = format_of(path);
     if (format != nullptr) return *format;
     if (!std::filesystem::is_directory(path)) expect_regular_file(path);

@@ -172,15 +172,17 @@ TEST_F(FaultsOfMachines, PipesInPlaceOfFiles) {
 
 // As an index of the volume, beside it and in the cache folder: another one is made.
 TEST_F(FaultsOfMachines, PipesInPlaceOfAnIndex) {
-    const std::string index = folder / "volume.nrrd.lamina-index";
+    const std::string volume = folder / "large.nrrd";  // stays in its file with the least memory
+    make({"generate", "gaussians", "-o", volume, "--size", "128,128,128"});
+    const std::string index = volume + ".lamina-index";
     ASSERT_EQ(mkfifo(index.c_str(), 0600), 0);
     const auto with_cache = [&] { setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1); };
-    const ProgramResult drawn = lamina_run({"render", folder / "scene.json", "-o", out / "a.exr",
-                                            "--context", "cpu", "--memory", "1K"},
+    const ProgramResult drawn = lamina_run({"render", volume, "-o", out / "a.exr", "--context",
+                                            "cpu", "--size", "20x15", "--memory", "1M"},
                                            with_cache);
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
     EXPECT_NE(drawn.err.find("the index is not a regular file"), std::string::npos) << drawn.err;
-    expect_one_line(lamina_run({"index", folder / "volume.nrrd"}), 1, {index, "another file"});
+    expect_one_line(lamina_run({"index", volume}, with_cache), 1, {index, "found another file"});
 }
 
 TEST_F(FaultsOfMachines, FoldersThatAreNotThere) {
