@@ -3,7 +3,9 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <type_traits>
@@ -20,11 +22,18 @@ namespace {
 // The data sets that a volume can be, by their paths.
 struct FoundArrays {
     std::vector<std::string> names;
+    bool too_deep = false;
 };
+
+// Groups in groups that are searched: real files have a few, and the time that the library takes
+// grows with the square of the depth.
+constexpr std::ptrdiff_t most_groups = 64;
 
 herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* data) {
     constexpr std::size_t most_names = 1000;
     auto& found = *static_cast<FoundArrays*>(data);
+    found.too_deep = std::count(name, name + std::strlen(name), '/') > most_groups;
+    if (found.too_deep) return 1;
     if (info->type != H5O_TYPE_DATASET) return 0;
     const Hdf5Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
     if (!set.valid()) return 0;
@@ -42,6 +51,13 @@ constexpr std::size_t most_of_names = 200;  // bytes that a message shows
 std::string only_array(hid_t file, const std::string& name) {
     FoundArrays found;
     H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, note_array, &found);
+    if (found.too_deep) {
+        fail(
+            "{}: found groups in groups more than {} deep, expected fewer, or the name of an "
+            "array, as "
+            "in {}:/GROUP/ARRAY",
+            name, most_groups, name);
+    }
     if (found.names.empty())
         fail("{}: found no array of three dimensions and more in it, expected one", name);
     if (found.names.size() > 1) {

@@ -183,6 +183,15 @@ def hdf5_cases():
     bad("h5_empty", "empty.h5:/v", "no samples", "8000000000")
     bad("h5_lzf", "empty.h5:/lzf", "filter", "lzf")
     bad("h5_words", "empty.h5:/words", "type")
+    deep = "/g" * 2000  # the library takes minutes to go through such groups
+    with h5py.File(f"{FOLDER}/deep.h5", "w") as file:
+        group = file
+        for _ in range(2000):
+            group = group.create_group("g")
+        array = np.arange(210, dtype="u1").reshape(5, 6, 7)
+        group.create_dataset("v", data=array)
+    bad("h5_deep", "deep.h5", "more than 64 deep", "the name of an array")
+    case("h5_deep_named", "deep.h5", array, array=f"{deep}/v")
 
 
 def slice_of(array, series, number, position, orientation, spacing, syntax=ExplicitVRLittleEndian, slope=None,
