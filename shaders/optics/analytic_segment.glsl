@@ -8,15 +8,13 @@ uniform vec3 single_color;
 #endif
 
 // Returns the associated colour and opacity of a segment on which the scalar is linear from `front` to `back`,
-// normalised so that the intervals cover [0, 1]. It integrates exactly, interval by interval of the transfer function
+// normalised so that the intervals cover [0, 1]; the first and the last interval go on outside. It integrates exactly, interval by interval of the transfer function
 // (docs/numerics.md, section 5). LIT: with what light_on_piece() adds. This is the twin of integrate_segment (optics/segment_integral.h) in float32.
 // Optical depth is a sum of terms >= 0. Extinction times length is finite (executors/shader_intervals.h) for lengths
 // up to 1e8.
 vec4 integrate_segment(float front, float back, float world_length) {
-    front = clamp(front, 0.0, 1.0);
-    back = clamp(back, 0.0, 1.0);
-    int interval = find_interval(front);
-    int last = find_interval(back);
+    int interval = find_interval(clamp(front, 0.0, 1.0));
+    int last = find_interval(clamp(back, 0.0, 1.0));
     int step = interval <= last ? 1 : -1;
     float end_share = step > 0 ? 1.0 : 0.0;  // at which an interval is left
     bool one_piece = interval == last;  // front and back may be equal

@@ -13,6 +13,9 @@ flat in vec4 center;
 #ifdef SCALARS
 flat in vec4 scalars;
 #endif
+#ifdef EXACT_SCALARS
+flat in vec4 scalars_low;
+#endif
 flat in vec4 limits;
 #ifdef CUT
 flat in vec4 cuts;
@@ -49,16 +52,22 @@ struct TetRun {
 #ifdef CAREFUL
 dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
 
+// The ray perturbation moves the ray in space. Its component along the ray does not count.
+dvec2 moved_place(vec2 place) {
+    dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
+    return dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
+}
+
+dvec4 depths_of_faces(dvec2 moved) {
+    return four_doubles(face_depths[0], face_depths[1]) + four_doubles(face_depths[2], face_depths[3]) * moved.x +
+           four_doubles(face_depths[4], face_depths[5]) * moved.y;
+}
+
 // Returns the depths, less the center's, between which the ray is inside the tet. They are double because faces that
 // are nearly edge-on are steep functions of the pixel, and both tets that share such a face must find it in the same
 // place.
 vec2 find_depths(vec2 place) {
-    // The ray perturbation moves the ray in space. Its component along the ray does not count.
-    dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
-    dvec2 moved = dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
-    vec4 depths = vec4(four_doubles(face_depths[0], face_depths[1]) +
-                       four_doubles(face_depths[2], face_depths[3]) * moved.x +
-                       four_doubles(face_depths[4], face_depths[5]) * moved.y);
+    vec4 depths = vec4(depths_of_faces(moved_place(place)));
     uint fronts = front_faces();
     float enter = near_depth - center.z;
     enter = max(enter, fronts > 0u ? depths.x : enter);
@@ -70,6 +79,37 @@ vec2 find_depths(vec2 place) {
     leave = min(leave, fronts > 2u ? leave : depths.z);
     return vec2(enter, leave);
 }
+
+#ifdef EXACT_SCALARS
+// Returns the same before it is rounded.
+dvec2 find_exact_depths(dvec2 moved) {
+    dvec4 depths = depths_of_faces(moved);
+    uint fronts = front_faces();
+    double enter = double(near_depth - center.z);
+    enter = max(enter, fronts > 0u ? depths.x : enter);
+    enter = max(enter, fronts > 1u ? depths.y : enter);
+    enter = max(enter, fronts > 2u ? depths.z : enter);
+    double leave = depths.w;
+    leave = min(leave, fronts > 0u ? leave : depths.x);
+    leave = min(leave, fronts > 1u ? leave : depths.y);
+    leave = min(leave, fronts > 2u ? leave : depths.z);
+    return dvec2(enter, leave);
+}
+
+// Returns the scalars at these depths. In float32 a scalar within the window would be a small difference of large
+// numbers, in a tet that runs far outside it (facts/far_scalars.h).
+vec2 exact_ends(dvec2 depths, dvec2 moved) {
+    dvec4 of = dvec4(scalars) + dvec4(scalars_low);
+#ifdef ORTHOGRAPHIC
+    dvec2 from_center = depths;
+    dvec2 reach = dvec2(1.0);
+#else
+    dvec2 reach = -1.0 / min(double(center.z) + depths, dvec2(-1e-30));
+    dvec2 from_center = depths * reach * (-1.0 / double(center.z));
+#endif
+    return vec2(of.x + from_center * of.y + reach * dot(moved, of.zw));
+}
+#endif
 #else
 // The same in float32, for tets with 1 to 3 front faces, none of them nearly edge-on.
 vec2 find_depths(vec2 place) {
@@ -122,21 +162,30 @@ void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) 
 
 TetRun find_run() {
     vec2 place = gl_FragCoord.xy - center.xy;  // exact
+#ifdef EXACT_SCALARS
+    dvec2 moved = moved_place(place);
+    dvec2 exact_depths = find_exact_depths(moved);
+    exact_depths = exact_depths.y > exact_depths.x ? exact_depths : dvec2(0.0);
+    vec2 depths = vec2(exact_depths);
+    float difference = float(exact_depths.y - exact_depths.x);
+#else
     vec2 depths = find_depths(place);
 #ifdef CUT
     depths = cut_depths(depths, place);
 #endif
     depths = depths.y > depths.x ? depths : vec2(0.0);  // missed: finite numbers, and no length
+    float difference = depths.y - depths.x;
+#endif
     TetRun run;
 #ifdef ORTHOGRAPHIC
-    run.world_length = depths.y - depths.x;
+    run.world_length = difference;
     vec2 from_center = depths;
     vec2 reach = vec2(1.0);
 #else
     // z = -1 / depth. Differences of z are computed from differences of depth, so that a far eye costs no digits
     // (docs/numerics.md, section 6).
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
-    run.world_length = (depths.y - depths.x) * z.x * z.y;
+    run.world_length = difference * z.x * z.y;
 #ifndef THICKNESS_DZ
     vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
     run.world_length *= sqrt(1.0 + dot(from_middle, from_middle));
@@ -151,7 +200,11 @@ TetRun find_run() {
     find_gradients(place, from_center, reach, run);
 #endif
 #ifdef SCALARS
+#ifdef EXACT_SCALARS
+    vec2 ends = exact_ends(exact_depths, moved);
+#else
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);
+#endif
 #ifdef CUT
     ends = clamp(ends, 0.0, 1.0);
 #else

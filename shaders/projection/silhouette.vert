@@ -24,6 +24,9 @@ flat out vec4 center;           // column, row, depth, z
 #ifdef SCALARS
 flat out vec4 scalars;          // at the center, per z, per column, per row
 #endif
+#ifdef EXACT_SCALARS
+flat out vec4 scalars_low;      // what these lack of double precision
+#endif
 flat out vec4 limits;           // of the scalar, or upper cut per column and row; bits: fronts, number
 #ifdef CUT
 flat out vec4 cuts;             // lower: depth, per column, per row; upper: depth
@@ -41,6 +44,9 @@ void main() {
     center = uintBitsToFloat(records[first + 6u]);
 #ifdef SCALARS
     scalars = uintBitsToFloat(records[first + 7u]);
+#endif
+#ifdef EXACT_SCALARS
+    scalars_low = uintBitsToFloat(records[first + 10u]);
 #endif
     limits = uintBitsToFloat(records[first + 8u]);
 #ifdef CUT

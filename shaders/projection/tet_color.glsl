@@ -5,6 +5,29 @@
 #include "projection/light_along.glsl"
 #endif
 
+#if SOURCE == SOURCE_CUT_TABLE || SOURCE == SOURCE_TABLE
+// Returns the colour of a segment whose scalars lie in [0, 1].
+vec4 color_within(float front, float back, float world_length);
+
+vec4 tet_color() {
+    TetRun run = find_run();
+    float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
+#ifdef WINDOWED
+    // The run before the window, within it and behind it, where the transfer function is constant.
+    if (front != back && (front != run.front || back != run.back)) {
+        float per_scalar = run.world_length / abs(run.back - run.front);
+        float before = per_scalar * abs(front - run.front), behind = per_scalar * abs(run.back - back);
+        vec4 sum = vec4(0.0);
+        if (before > 0.0) sum = color_within(front, front, before);
+        sum += (1.0 - sum.a) * color_within(front, back, per_scalar * abs(back - front));
+        if (behind > 0.0) sum += (1.0 - sum.a) * color_within(back, back, behind);
+        return sum;
+    }
+#endif
+    return color_within(front, back, run.world_length);
+}
+#endif
+
 #if SOURCE == SOURCE_CONSTANT
 vec4 tet_color() {
     float opacity = opacity_from_depth(constant_optics.a * find_run().world_length);
@@ -50,10 +73,8 @@ vec4 tet_color() {
 #ifndef TABLE_COLORED
 uniform vec3 single_color;
 #endif
-vec4 tet_color() {
-    TetRun run = find_run();
-    float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
-    vec4 sum = integrate_run(front, back, run.world_length, is_transparent(min(front, back), max(front, back))).whole;
+vec4 color_within(float front, float back, float world_length) {
+    vec4 sum = integrate_run(front, back, world_length, is_transparent(min(front, back), max(front, back))).whole;
     float opacity = opacity_from_depth(sum.a);
 #ifdef TABLE_COLORED
     return vec4(sum.rgb, opacity);
@@ -61,10 +82,10 @@ vec4 tet_color() {
     return vec4(single_color * opacity, opacity);
 #endif
 }
-#elif SOURCE == SOURCE_TABLE || SOURCE == SOURCE_ANALYTIC
-#if SOURCE == SOURCE_TABLE
+#elif SOURCE == SOURCE_TABLE
 #include "optics/segment_table.glsl"
-#else
+vec4 color_within(float front, float back, float world_length) { return integrate_segment(front, back, world_length); }
+#elif SOURCE == SOURCE_ANALYTIC
 #ifdef LIT
 vec3 segment_gradient, segment_turn, segment_to_eye;
 
@@ -82,13 +103,12 @@ vec3 light_on_piece(float from, float to, vec2 depths, vec3 near, vec3 far, floa
 }
 #endif
 #include "optics/analytic_segment.glsl"
-#endif
 vec4 tet_color() {
     TetRun run = find_run();
 #ifdef LIT
     set_lit_segment(run.front_gradient, run.back_gradient, run.to_eye);
 #endif
-    return integrate_segment(clamp(run.front, 0.0, 1.0), clamp(run.back, 0.0, 1.0), run.world_length);
+    return integrate_segment(run.front, run.back, run.world_length);
 }
 #else
 #error SOURCE is none of these

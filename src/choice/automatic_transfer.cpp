@@ -230,8 +230,9 @@ TransferFunction in_colors_of(const TransferFunction& function,
 }  // namespace
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
-                                           const TransferWishes& wishes) {
-    const Padding padding = find_padding(values, whole_numbers);
+                                           const TransferWishes& wishes,
+                                           double least_padding_share) {
+    const Padding padding = find_padding(values, whole_numbers, least_padding_share);
     if (wishes.range) {
         auto [function, reason] = within(values, *wishes.range);
         function = in_colors_of(function, wishes.colormap);

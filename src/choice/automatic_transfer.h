@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "choice/padding.h"
 #include "choice/value_distribution.h"
 #include "lamina/transfer_function.h"
 #include "optics/colormap.h"
@@ -26,8 +27,9 @@ struct AutomaticTransfer {
 
 // Chooses a transfer function by the values of a field (docs/first-picture.md): common values are
 // transparent, and the rarer the values beyond them are, the denser and the brighter they show. The
-// same values give the same function.
+// same values give the same function. `least_padding_share`: see find_padding().
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
-                                           const TransferWishes& wishes = {});
+                                           const TransferWishes& wishes = {},
+                                           double least_padding_share = least_padding);
 
 }  // namespace lamina

@@ -96,7 +96,8 @@ bool leaves_gradient_open(const Scene& scene) {
 
 // Of the values that were measured.
 ValueRange range_without_padding(const Field& field) {
-    const Padding padding = find_padding(field.distribution(), field.whole_numbers());
+    const Padding padding =
+        find_padding(field.distribution(), field.whole_numbers(), field.least_padding_share());
     if (padding.values.empty()) return field.range();
     return {padding.rest.lowest(), padding.rest.highest()};
 }
@@ -137,7 +138,8 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
     std::string reason;
     if (scene.automatic_transfer_function) {
         AutomaticTransfer chosen =
-            choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer);
+            choose_transfer_function(field.distribution(), field.whole_numbers(), wishes.transfer,
+                                     field.least_padding_share());
         scene.transfer_function = std::move(chosen.transfer_function);
         if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
             scene.transfer_function = displayed(scene.transfer_function);

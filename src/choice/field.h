@@ -25,6 +25,8 @@ class Field {
     virtual double spacing() const = 0;
     // Whether the values are whole numbers, as labels are.
     virtual bool whole_numbers() const = 0;
+    // The share of the field that a value has to take to be padding (choice/padding.h).
+    virtual double least_padding_share() const = 0;
     // Of the finite values, by volume; of large data evenly chosen ones. Empty where none is
     // finite.
     virtual ValueDistribution distribution() const = 0;

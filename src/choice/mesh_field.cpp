@@ -2,10 +2,12 @@
 #include "choice/mesh_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 
+#include "choice/padding.h"
 #include "facts/view_rays.h"
 #include "mesh/box_corners.h"
 #include "optics/linear_pieces.h"
@@ -26,6 +28,20 @@ double volume_of(const TetMesh& mesh, const Tet& tet, double diagonal) {
     };
     const glm::dvec3 origin = at(0);
     return std::abs(glm::dot(at(1) - origin, glm::cross(at(2) - origin, at(3) - origin)));
+}
+
+// Weight of a marker in a large mesh of whose tets only some are looked at, in units of the cube of
+// the mesh's diagonal: more than nothing, and less than any share that counts.
+constexpr double smallest_weight = 1e-30;
+
+// Returns the values at points that are far from those at all others.
+std::vector<double> markers_of(const SceneMesh& mesh) {
+    std::vector<WeightedValue> at_points;
+    at_points.reserve(mesh.scalar.values.size());
+    for (const double value : mesh.scalar.values) {
+        if (std::isfinite(value)) at_points.push_back({value, 1});
+    }
+    return find_markers(ValueDistribution(std::move(at_points)));
 }
 
 double depth_of(const TransferFunction& transfer_function, const MeshFacts::Run& run) {
@@ -61,20 +77,29 @@ ValueDistribution MeshField::distribution() const {
     const TetMesh::Bounds& bounds = mesh_.mesh.bounds();
     const double diagonal = glm::distance(bounds.min, bounds.max);
     const std::size_t step = tets.size() / most_tets + 1;
+    const std::vector<double> markers = markers_of(mesh_);
     std::vector<WeightedValue> values;
     for (std::size_t i = 0; i < tets.size(); i += step) {
         const Tet& tet = tets[i];
         const ValueRange range = range_in(mesh_.scalar.values, tet);
         if (range.empty()) continue;
         const double weight = volume_of(mesh_.mesh, tet, diagonal);
+        std::array<double, 4> at_corners;
         double sum = 0;
-        for (const std::int32_t corner : tet)
-            sum += mesh_.scalar.values[static_cast<std::size_t>(corner)];
-        for (const std::int32_t corner : tet) {
-            const double value = mesh_.scalar.values[static_cast<std::size_t>(corner)];
-            const double inside = near_others * (sum - value) + near_corner * value;
-            values.push_back({std::clamp(inside, range.lo, range.hi), weight});
+        bool marked = false;
+        for (std::size_t k = 0; k < 4; ++k) {
+            at_corners[k] = mesh_.scalar.values[static_cast<std::size_t>(tet[k])];
+            sum += at_corners[k];
+            marked = marked || std::ranges::count(markers, at_corners[k]) > 0;
         }
+        for (const double value : at_corners) {
+            const double inside = near_others * (sum - value) + near_corner * value;
+            values.push_back({marked ? value : std::clamp(inside, range.lo, range.hi), weight});
+        }
+    }
+    // A tet that was left out may have the only corner with a marker.
+    if (step > 1) {
+        for (const double marker : markers) values.push_back({marker, smallest_weight});
     }
     return ValueDistribution(std::move(values));
 }

@@ -16,7 +16,10 @@ class MeshField : public Field {
     ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
     double spacing() const override;                       // each tet's edges count
     bool whole_numbers() const override { return false; }  // it interpolates between them
-    // Tets count by their volume.
+    // A single vertex may mark missing data.
+    double least_padding_share() const override { return 0; }
+    // Tets count by their volume. Those with a corner far from all other values (find_markers())
+    // count by their corners: what lies between was not measured.
     ValueDistribution distribution() const override;
     // Corners of tets.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,

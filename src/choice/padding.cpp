@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t most_values = 4;
 // Measured data have more different values than this.
 constexpr std::size_t few_values = 24;
-constexpr double least_padding = 1e-3;
 
 // How far padding is from the rest, in widths of its range. A value above it may as well be a part
 // that has one value, a piece of metal in tissue, and so must be farther away.
@@ -25,28 +24,43 @@ constexpr double near_below = 1.0 / 8;
 constexpr double edge_share = 1.0 / 64;  // of the way to the padding, or of the rest's range
 constexpr double thin_shell = 1.0 / 50;  // of a voxel
 
-bool is_padding(double value, double share, const ValueDistribution& rest, bool whole_numbers) {
-    // Halves, for differences may overflow.
-    const double width = rest.highest() / 2 - rest.lowest() / 2;
-    const bool below = value < rest.lowest();
-    const double gap = below ? rest.lowest() / 2 - value / 2 : value / 2 - rest.highest() / 2;
+// Halves, for differences may overflow.
+struct HalfDistance {
+    double gap, width;  // to the rest, and of its range
+    bool below;
+
+    HalfDistance(double value, const ValueDistribution& rest)
+        : gap(value < rest.lowest() ? rest.lowest() / 2 - value / 2
+                                    : value / 2 - rest.highest() / 2),
+          width(rest.highest() / 2 - rest.lowest() / 2),
+          below(value < rest.lowest()) {}
+};
+
+bool is_marker(double value, const ValueDistribution& rest) {
+    const HalfDistance found(value, rest);
     // Where there is nothing, 0 is a value like others.
-    if (value != 0 && gap > (below ? far_below : far_above) * width) return true;
-    if (!below || !(gap > near_below * width)) return false;
+    return value != 0 && found.gap > (found.below ? far_below : far_above) * found.width;
+}
+
+bool is_padding(double value, double share, const ValueDistribution& rest, bool whole_numbers) {
+    if (is_marker(value, rest)) return true;
+    const HalfDistance found(value, rest);
+    if (share < least_padding || !found.below || !(found.gap > near_below * found.width))
+        return false;
     const CommonValues common = find_common_values(rest, whole_numbers);
     return common.background && share < (1 - share) * rest.share(common.lo, common.hi);
 }
 
-}  // namespace
-
-Padding find_padding(const ValueDistribution& all, bool whole_numbers) {
+// Takes values from both ends as long as `is_one(value, share, rest)` says so.
+template <typename IsOne>
+Padding take_from_ends(const ValueDistribution& all, const IsOne& is_one) {
     Padding found;
     found.rest = all;
     if (all.empty()) return found;
     const auto take = [&](double value, const ValueDistribution& rest) {
         if (rest.distinct() <= few_values) return false;
         const double share = found.rest.share(value, value);
-        if (share < least_padding || !is_padding(value, share, rest, whole_numbers)) return false;
+        if (!is_one(value, share, rest)) return false;
         found.values.push_back(value);
         found.share += share * (1 - found.share);
         found.rest = rest;
@@ -57,6 +71,22 @@ Padding find_padding(const ValueDistribution& all, bool whole_numbers) {
         more = take(lowest, found.rest.between(std::nextafter(lowest, INFINITY), highest)) ||
                take(highest, found.rest.between(lowest, std::nextafter(highest, -INFINITY)));
     }
+    return found;
+}
+
+}  // namespace
+
+std::vector<double> find_markers(const ValueDistribution& all) {
+    return take_from_ends(all, [](double value, double,
+                                  const ValueDistribution& rest) { return is_marker(value, rest); })
+        .values;
+}
+
+Padding find_padding(const ValueDistribution& all, bool whole_numbers, double least_share) {
+    Padding found =
+        take_from_ends(all, [&](double value, double share, const ValueDistribution& rest) {
+            return share >= least_share && is_padding(value, share, rest, whole_numbers);
+        });
     for (const double value : found.values) {
         // The nearest one on each side was found last.
         if (value < found.rest.lowest()) found.below = value;

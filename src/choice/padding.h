@@ -26,8 +26,17 @@ struct Padding {
     bool shell_above(double hi) const;
 };
 
+// Share of a volume that a value has to take to be padding: fewer samples may be noise.
+inline constexpr double least_padding = 1e-3;
+
 // Finds single values that are far from all others, at both ends (docs/first-picture.md).
-// `whole_numbers`: they are all of them.
-Padding find_padding(const ValueDistribution& all, bool whole_numbers);
+// `whole_numbers`: they are all of them. `least_share`: a value that takes less of the field is no
+// padding. Below `least_padding` only values farther away than the whole range of the rest are.
+Padding find_padding(const ValueDistribution& all, bool whole_numbers,
+                     double least_share = least_padding);
+
+// Returns the values, however rare, that are farther from all others than these are apart, as far
+// as padding has to be.
+std::vector<double> find_markers(const ValueDistribution& all);
 
 }  // namespace lamina

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "choice/field.h"
+#include "choice/padding.h"
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
 #include "volume/value_counts.h"
@@ -24,6 +25,7 @@ class VolumeField : public Field {
     ValueRange range() const override { return bricks_.whole; }
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
+    double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
     // Corners of cells.
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,

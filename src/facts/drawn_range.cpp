@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace lamina {
 namespace {
@@ -29,6 +30,30 @@ ValueRange changing_range(const TransferFunction& transfer_function) {
     return found;
 }
 
+// Share of a window's inner width that is added on each side, so that no value that counts lies at
+// an end, where rounding may move it outside.
+constexpr double window_margin = 1.0 / 16;
+
+// The window of a single step is as wide as this share of the values is near to it. A smaller one
+// costs time, because more tets then run far outside the window, and a larger one costs digits.
+constexpr double share_near_step = 0.1;
+
+// Returns the distance from `step` within which that share of the values lies, without those that
+// are equal to it; 0 if there are no others.
+double distance_near(double step, std::span<const double> values) {
+    std::vector<double> distances;
+    distances.reserve(values.size());
+    for (const double value : values) {
+        const double distance = std::abs(value - step);
+        if (std::isfinite(distance) && distance > 0) distances.push_back(distance);
+    }
+    if (distances.empty()) return 0;
+    const auto place =
+        static_cast<std::ptrdiff_t>(share_near_step * static_cast<double>(distances.size() - 1));
+    std::ranges::nth_element(distances, distances.begin() + place);
+    return distances[static_cast<std::size_t>(place)];
+}
+
 // The first of three halves of `range`, side by side and overlapping, that holds `inner` well
 // inside, or to an end of `whole`, beyond which there are no samples; else `range`.
 ValueRange half_around(const ValueRange& range, const ValueRange& inner, const ValueRange& whole) {
@@ -45,7 +70,12 @@ ValueRange half_around(const ValueRange& range, const ValueRange& inner, const V
 }  // namespace
 
 ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRange& range) {
-    if (range.lo == range.hi) return {range.lo, range.lo + std::max(1.0, std::abs(range.lo))};
+    // A power of two divides whole numbers without rounding: all samples are 0 exactly, the value
+    // whose optics are drawn.
+    if (range.lo == range.hi) {
+        const double width = std::max(1.0, std::exp2(std::ceil(std::log2(std::abs(range.lo)))));
+        return {range.lo, range.lo + width};
+    }
     if (std::ranges::count(transfer_function.knots(), range.hi, &TransferKnot::value) < 2)
         return range;
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(range.hi);
@@ -65,6 +95,22 @@ double largest_color(const TransferFunction& transfer_function, const ValueRange
         if (knot.value >= range.lo && knot.value <= range.hi) include(knot.optics.color);
     }
     return largest;
+}
+
+ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
+                       const ValueRange& range) {
+    const ValueRange drawn = drawn_range(transfer_function, range);
+    ValueRange inner = changing_range(transfer_function);
+    if (inner.empty() || inner.hi < drawn.lo || inner.lo > drawn.hi) return drawn;
+    inner = {std::max(inner.lo, drawn.lo), std::min(inner.hi, drawn.hi)};
+    // Values that lie closer are hardly different in double precision.
+    const double largest = std::max(std::abs(inner.lo), std::abs(inner.hi));
+    double width = std::max(inner.hi - inner.lo, 0x1p-40 * largest);
+    if (inner.lo == inner.hi) width = std::max(width, distance_near(inner.lo, values));
+    const double margin = inner.lo < inner.hi ? window_margin * width : width;
+    const ValueRange window{std::max(inner.lo - margin, drawn.lo),
+                            std::min(inner.hi + margin, drawn.hi)};
+    return window.lo < window.hi ? window : drawn;
 }
 
 float normalised_sample(double value, const ValueRange& range) {

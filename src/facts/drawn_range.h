@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
@@ -19,6 +21,14 @@ ValueRange drawn_range(const TransferFunction& transfer_function, const ValueRan
 // samples stay exact: cells whose value is a step lie on the side of that value.
 ValueRange exact_range(const TransferFunction& transfer_function, const ValueRange& range,
                        SampleType type);
+
+// The range that whole tets normalise to [0, 1]: all values at which something visible changes,
+// with a margin, cut to the drawn range. Beyond it the transfer function is constant, or there are
+// no values. It is the drawn range if nothing visible changes there. `values`: at the mesh's
+// points, with `range` as the range of the finite ones. They say how wide the window of a single
+// step is.
+ValueRange mesh_window(const TransferFunction& transfer_function, std::span<const double> values,
+                       const ValueRange& range);
 
 // The largest component of a colour in a range.
 double largest_color(const TransferFunction& transfer_function, const ValueRange& range);

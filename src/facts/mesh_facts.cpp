@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "facts/drawn_range.h"
+#include "facts/far_scalars.h"
 #include "mesh/scalar_range.h"
 #include "scene/camera.h"
 #include "scene/coloring.h"
@@ -31,10 +32,14 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
                              : transfer_function.single_color(lo, hi);
     facts.max_extinction = transfer_function.max_extinction(lo, hi);
     facts.max_color = largest_color(transfer_function, facts.range);
+    facts.window = mesh_window(transfer_function, mesh.scalar.values, facts.range);
     for (const Tet& tet : mesh.mesh.tets()) {
         const TetPieces::Span span = pieces.visible(mesh.scalar.values, tet);
         facts.transparent_tets += span.empty();
         facts.parts += pieces.count(span);
+        if (!span.empty())
+            facts.far_tets +=
+                runs_beyond(range_in(mesh.scalar.values, tet), facts.window, far_for_parts);
     }
 }
 

@@ -37,6 +37,10 @@ struct MeshFacts {
     double max_color = 0;       // largest component of a colour
     // Number of tets that show nothing, including those with a value that is not finite.
     std::int64_t transparent_tets = 0;
+    // The window that whole tets are normalised to (facts/drawn_range.h), and the number of tets
+    // that show something in it and run far outside it (facts/far_scalars.h).
+    ValueRange window;
+    std::int64_t far_tets = 0;
     // Number of cell fragments that show something, where the other tets are cut at the transfer
     // function's points.
     std::int64_t parts = 0;

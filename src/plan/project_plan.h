@@ -49,7 +49,10 @@ struct ProjectPlan : CompositingPlan {
     bool table_filtered = false;    // tables are read through the texture unit's filter
     // Eye-space depth of the near plane, in the plan's units, as are lengths in tables.
     double near_depth = 0;
-    ValueRange range;           // of scalars, [0, 1] in shaders; lo < hi
+    ValueRange range;  // of scalars, [0, 1] in shaders; lo < hi
+    // The range is the window of what shows. Scalars may lie outside it, where the transfer
+    // function is constant.
+    bool windowed = false;
     SegmentTableRequest table;  // for SegmentSource::table
     TablePlan aligned;          // for SegmentSource::cut_table
     double segment_error = 0;   // measured on rays of the view, in 1/255

@@ -41,6 +41,14 @@ constexpr std::int64_t most_parts = 8;
 // Of a transfer function: with more, a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
 
+// Scalars are normalised to the window of what shows if the whole range is so many times as wide:
+// below, no more than 3 of float32's 24 bits are at stake.
+constexpr double least_narrowing = 8;
+
+// Tets are cut into parts, however many, if the whole range is so many times as wide as most pieces
+// of the transfer function and no window holds these: float32 would have 1e-3 of a piece.
+constexpr double narrow_pieces = 0x1p12;
+
 // Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
 // their faces are always found in double, which takes some third longer.
 constexpr std::int64_t fewest_plain_tets = 10000;
@@ -66,7 +74,8 @@ class ProjectPlanner {
         plan_.thickness = settings_.thickness;
         plan_.table_filtered = capabilities_.exact_float_filter;
         plan_.near_depth = near_share * facts_.diagonal * plan_.unit;
-        plan_.range = drawn_range(scene_.transfer_function, facts_.range);
+        drawn_ = drawn_range(scene_.transfer_function, facts_.range);
+        plan_.range = drawn_;
         plan_light(scene_, facts_.max_color, plan_);
         check_size();
         choose_geometry();
@@ -212,10 +221,12 @@ class ProjectPlanner {
                       "closed form of the length alone")) {
             plan_.source = SegmentSource::constant;
         } else if (settings_.coloring == Coloring::analytic) {
+            take_window();
             plan_.source = SegmentSource::analytic;
         } else if (plan_.nothing_visible) {
             return;
         } else if (settings_.table) {
+            take_window();
             plan_.table = request_of(*settings_.table);
             plan_.segment_error = error_of(plan_.table);
             plan_.segment_reason = "as the scene asks";
@@ -237,6 +248,29 @@ class ProjectPlanner {
                 .colored = !plan_.single_color};
     }
 
+    // Normalises scalars to the window of what shows, if that is far narrower than the range of the
+    // data (docs/precision.md, "Meshes").
+    void take_window() {
+        const double width = facts_.window.hi - facts_.window.lo;
+        plan_.windowed = (drawn_.hi - drawn_.lo) / least_narrowing > width;
+        if (plan_.windowed) plan_.range = facts_.window;
+    }
+
+    // Whether tets have to be cut at the transfer function's points, because no other way keeps the
+    // scalar's digits: something shows at a value far from the others, and most pieces are narrow.
+    bool needs_parts() const {
+        std::vector<double> widths;
+        for_each_linear_piece(scene_.transfer_function.knots(), drawn_.lo, drawn_.hi,
+                              [&](const LinearPiece& piece) {
+                                  if (piece.at_from.extinction > 0 || piece.at_to.extinction > 0)
+                                      widths.push_back(piece.to - piece.from);
+                              });
+        if (widths.empty()) return false;
+        const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+        std::ranges::nth_element(widths, middle);
+        return *middle * narrow_pieces < drawn_.hi - drawn_.lo;
+    }
+
     // The exact integral of a run whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
@@ -251,12 +285,28 @@ class ProjectPlanner {
                 run.length *= plan_.unit;
                 append(exact,
                        integrate_segment(*transfer_function_, run.front, run.back, run.length));
-                append(found, lookup(run));
+                for_each_run_of_window(
+                    run, [&](const MeshFacts::Run& part) { append(found, lookup(part)); });
             }
             for (int channel = 0; channel < 4; ++channel)
                 errors[ray] = std::max(errors[ray], std::abs(exact[channel] - found[channel]));
         });
         return errors.empty() ? 0 : 255 * *std::ranges::max_element(errors);
+    }
+
+    // Calls visit() with the parts of a run before the window, within it and behind it, as they are
+    // drawn if the plan has one; their scalars lie in it.
+    template <typename Visit>
+    void for_each_run_of_window(const MeshFacts::Run& run, const Visit& visit) const {
+        const auto& [lo, hi] = plan_.range;
+        const double in = std::clamp(run.front, lo, hi), out = std::clamp(run.back, lo, hi);
+        if (!plan_.windowed || in == out) return visit(MeshFacts::Run{in, out, run.length});
+        const auto length = [&](double from, double to) {
+            return run.length * ((to - from) / (run.back - run.front));
+        };
+        if (in != run.front) visit(MeshFacts::Run{in, in, length(run.front, in)});
+        visit(MeshFacts::Run{in, out, length(in, out)});
+        if (out != run.back) visit(MeshFacts::Run{out, out, length(out, run.back)});
     }
 
     // Puts a segment behind what a ray has met.
@@ -275,7 +325,12 @@ class ProjectPlanner {
         const bool whole = plan_.geometry == ProjectGeometry::triangles;
         plan_.segment_reason = fmt::format("at most on {} rays of this view and tets of this mesh",
                                            facts_.trial_rays.size());
-        if (!whole && facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets)) {
+        take_window();
+        const bool few = facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets);
+        const bool cut = plan_.windowed ? few && facts_.far_tets == 0 : few || needs_parts();
+        if (!whole && cut) {
+            plan_.windowed = false;
+            plan_.range = drawn_;
             plan_.source = SegmentSource::parts;
             plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
         } else if (plan_.plain && !scene_.lighting && try_cut_table()) {
@@ -340,6 +395,7 @@ class ProjectPlanner {
     const OmissionSwitch& omissions_;
     std::vector<Omission>& omitted_;
     std::optional<TransferFunction> transfer_function_;  // in the plan's units
+    ValueRange drawn_;                                   // of the data's scalars
     ProjectPlan plan_;
 };
 

@@ -45,7 +45,8 @@ struct EndWeights {
     Floats near, far;
 };
 
-// Calls visit(AnalyticPiece) for the parts of segments, front to back. Scalars lie in [0, 1].
+// Calls visit(AnalyticPiece) for the parts of segments, front to back. Scalars may lie outside
+// [0, 1], where the first and the last interval go on.
 template <class Visit>
 HWY_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Floats front, Floats back,
                                         Floats world_length, const Visit& visit) {
@@ -54,8 +55,8 @@ HWY_INLINE void for_each_analytic_piece(const TileTransfer& transfer, Floats fro
     const IntTag di;
     const Floats one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
     const Ints one_int = hn::Set(di, 1), most = hn::Set(di, transfer.intervals - 1);
-    Ints interval = find_interval<kind>(transfer, front);
-    const Ints last = find_interval<kind>(transfer, back);
+    Ints interval = find_interval<kind>(transfer, clamp01(d, front));
+    const Ints last = find_interval<kind>(transfer, clamp01(d, back));
     const auto rising_int = hn::Not(hn::Gt(interval, last));
     const auto rising = hn::RebindMask(d, rising_int);
     const auto one_piece = hn::RebindMask(d, hn::Eq(interval, last));

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "facts/far_scalars.h"
 #include "optics/opacity.h"
 
 namespace lamina {
@@ -45,6 +46,14 @@ FanGeometry::Corner FanGeometry::corner_of(std::int32_t point) const {
             glm::dvec4((value - plan_.range.lo) / (plan_.range.hi - plan_.range.lo), 0, 0, 0);
     }
     return corner;
+}
+
+// Scales normalised scalars so that float32 can compute with them (facts/far_scalars.h).
+void FanGeometry::bring_near(Corners& corners) {
+    const auto [least, largest] =
+        std::ranges::minmax(corners, {}, [](const Corner& corner) { return corner.values.x; });
+    const double scale = far_scale(least.values.x, largest.values.x);
+    for (Corner& corner : corners) corner.values.x *= scale;
 }
 
 FanGeometry::Fronts FanGeometry::fronts_of(std::int32_t index) const {
@@ -217,6 +226,7 @@ TetGeometry::Written FanGeometry::write(const TetPart& part, const Place& place)
     const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(index)];
     Corners corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = corner_of(tet[i]);
+    if (plan_.windowed) bring_near(corners);
     const auto [least, largest] =
         std::ranges::minmax(corners, {}, [](const Corner& corner) { return corner.values.x; });
     const Owner owner{index, {least.values.x, largest.values.x}};

@@ -77,6 +77,7 @@ class FanGeometry : public TetGeometry {
     };
 
     Corner corner_of(std::int32_t point) const;
+    static void bring_near(Corners& corners);
     Fronts fronts_of(std::int32_t tet) const;
     Point point_of(const Corner& corner) const;
     Point mix(std::span<const Point> points, std::span<const double> weights) const;

@@ -35,9 +35,8 @@ HWY_INLINE Fragment<Vector> table_color(Tag d, const TetFragments& fragments,
 
 HWY_INLINE Fragment<Vector> analytic_color(Tag d, const TetFragments& fragments,
                                            const TetRun<Vector>& run) {
-    const AnalyticSum sum =
-        integrate_analytic(*fragments.transfer, fragments.colored, clamp01(d, run.front),
-                           clamp01(d, run.back), run.world_length);
+    const AnalyticSum sum = integrate_analytic(*fragments.transfer, fragments.colored, run.front,
+                                               run.back, run.world_length);
     const Vector opacity = opacity_from_depth(d, sum.depth);
     if (!fragments.colored) return with_color(d, fragments.single_color, opacity);
     return {sum.color[0], sum.color[1], sum.color[2], opacity};
@@ -64,6 +63,32 @@ HWY_INLINE Fragment<Vector> cut_table_color(Tag d, const TetFragments& fragments
             hn::Mul(sum.color[2], opacity), opacity};
 }
 
+// The colour of segments that may leave the window: before it, within it and behind it, where the
+// transfer function is constant, one behind the other. `color`: that of segments within [0, 1].
+template <class Color>
+HWY_INLINE Fragment<Vector> windowed_color(Tag d, const TetFragments& fragments,
+                                           const TetRun<Vector>& run, const Color& color) {
+    if (!fragments.windowed) return color(d, fragments, run);
+    const Vector in = clamp01(d, run.front), out = clamp01(d, run.back);
+    const auto changes = hn::Ne(in, out);
+    const auto leaves = hn::And(changes, hn::Or(hn::Ne(in, run.front), hn::Ne(out, run.back)));
+    if (hn::AllFalse(d, leaves)) return color(d, fragments, {in, out, run.world_length});
+    const Vector per_scalar = hn::Div(run.world_length, hn::Abs(hn::Sub(run.back, run.front)));
+    const auto length = [&](Vector from, Vector to) HWY_ATTR {
+        return hn::IfThenElseZero(changes, hn::Mul(per_scalar, hn::Abs(hn::Sub(to, from))));
+    };
+    const Vector within = hn::IfThenElse(changes, length(in, out), run.world_length);
+    Fragment<Vector> sum = color(d, fragments, {in, in, length(run.front, in)});
+    const auto put_behind = [&](const Fragment<Vector>& next) HWY_ATTR {
+        const Vector left = hn::Sub(hn::Set(d, 1.0f), sum.alpha);
+        sum = {mul_add(left, next.red, sum.red), mul_add(left, next.green, sum.green),
+               mul_add(left, next.blue, sum.blue), mul_add(left, next.alpha, sum.alpha)};
+    };
+    put_behind(color(d, fragments, {in, out, within}));
+    put_behind(color(d, fragments, {out, out, length(out, run.back)}));
+    return sum;
+}
+
 // The colour of segments whose ends are given by their scalars.
 HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fragments,
                                                    const TetRun<Vector>& run) {
@@ -71,11 +96,11 @@ HWY_NOINLINE inline Fragment<Vector> segment_color(Tag d, const TetFragments& fr
         case SegmentSource::constant:
             return constant_color(d, fragments, run);
         case SegmentSource::table:
-            return table_color(d, fragments, run);
+            return windowed_color(d, fragments, run, table_color);
         case SegmentSource::analytic:
             return analytic_color(d, fragments, run);
         case SegmentSource::cut_table:
-            return cut_table_color(d, fragments, run);
+            return windowed_color(d, fragments, run, cut_table_color);
         case SegmentSource::parts:
         case SegmentSource::mean:
         case SegmentSource::vertices:

@@ -62,6 +62,8 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (kind == FragmentKind::careful) defines.set("CAREFUL", 1);
     if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
+    if (plan.windowed) defines.set("WINDOWED", 1);
+    if (plan.windowed && kind == FragmentKind::careful) defines.set("EXACT_SCALARS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.lighting) {
         defines.set("LIT", 1);
@@ -95,7 +97,8 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
       order_(order_for(mesh, plan, std::move(order))) {
     if (plan_.nothing_visible) return;
     tables_.emplace(transfer_function_, plan_);
-    if (plan_.lighting) gradients_ = StoredGradients(gradients_of(mesh));
+    if (plan_.lighting)
+        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
         const auto kind = static_cast<FragmentKind>(i);
         if (has_program(plan_, kind)) programs_[i].emplace(make_program(kind));

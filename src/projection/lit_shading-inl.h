@@ -84,7 +84,10 @@ struct LitShader {
                                     by_depth ? slant.v : hn::Set(d, 1.0f));
         const Number aside =
             column * Number(record.scalar_per_column) + row * Number(record.scalar_per_row);
-        const TetRun<Vector> run = run_between(d, *this, record, ends, aside.v);
+        const TetRun<Vector> run =
+            has_exact_scalars(fragments, batch.area(part))
+                ? find_exact_run(d, *this, fragments, record, found.span, column.v, row.v, by_depth)
+                : run_between(d, *this, record, ends, aside.v);
         find_gradients(batch.gradient(part), column, row, ends, gradient);
         return cut ? part_lit(batch, part, run, gradient) : analytic_lit(run, gradient);
     }
@@ -160,7 +163,7 @@ struct LitShader {
                                              const GradientRun& gradient) const {
         const Tag d;
         Floats color[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        const Floats front = clamp01(d, run.front), back = clamp01(d, run.back);
+        const Floats front = run.front, back = run.back;
         const Number per_scalar = Number(1) / Number(hn::Abs(hn::Sub(back, front)));
         const auto place = [&](Floats scalar) HWY_ATTR {
             return Number(hn::Abs(hn::Sub(scalar, front))) * per_scalar;

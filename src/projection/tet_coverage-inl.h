@@ -65,7 +65,9 @@ class TetCoverage {
         // Blocks at the picture's right and lower edge may stick out of it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
         FragmentQueue::Writer writer(found, part);
-        if (area.careful) {
+        if (has_exact_scalars(fragments_, area)) {
+            find_in<true, true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
+        } else if (area.careful) {
             find_in<lit, true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
         } else if (area.bounded || !whole_blocks) {
             find_in<lit, true, PlainDepths<Tag>>(cut, record, area, blocks, writer);
@@ -146,7 +148,8 @@ class TetCoverage {
         hwy::Prefetch(tile_.pixels->alpha.data() + first);
     }
 
-    template <bool lit, bool bounded, class Depths>
+    // `places`: the queue gets the places of pixels.
+    template <bool places, bool bounded, class Depths>
     HWY_INLINE void find_in(bool cut, const TetRecord& record, const PartArea& area,
                             std::uint64_t blocks, FragmentQueue::Writer& writer) const {
         constexpr int rows_a_vector = static_cast<int>(FragmentQueue::lanes) / block;
@@ -188,7 +191,7 @@ class TetCoverage {
                     inside = hn::And(inside, hn::And(in_columns, in_rows));
                 }
                 const std::size_t place = number * block * block + step;
-                if constexpr (lit) {
+                if constexpr (places) {
                     writer.add(d_, place, {span, columns, rows}, inside);
                     continue;
                 }

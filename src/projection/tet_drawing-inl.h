@@ -87,9 +87,14 @@ class TetDrawing {
     HWY_INLINE void find_colors(const Shader& shader) {
         queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
             const FragmentQueue::Found found = queue_.found(d_, i);
+            const TetRecord& record = batch_.record(part);
+            const bool slanted = tile_.slants != nullptr;
             queue_.set_run(d_, i,
-                           find_run(d_, shader, fragments_, batch_.record(part), found.span,
-                                    found.aside, found.slant));
+                           has_exact_scalars(fragments_, batch_.area(part))
+                               ? find_exact_run(d_, shader, fragments_, record, found.span,
+                                                found.aside, found.slant, slanted)
+                               : find_run(d_, shader, fragments_, record, found.span, found.aside,
+                                          found.slant));
         });
         queue_.for_each_vector([&](std::size_t part, std::size_t i) HWY_ATTR {
             queue_.set_color(d_, i,

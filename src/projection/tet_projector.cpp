@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "facts/far_scalars.h"
 #include "optics/front_weights.h"
 
 namespace lamina {
@@ -56,6 +57,13 @@ void set_pair(TetRecord::Pairs& pairs, std::size_t place, double value) {
 
 float finite_float(double value) {
     return static_cast<float>(std::clamp(value, -beyond_all, beyond_all));
+}
+
+void set_scalars(const std::array<double, 4>& linear, TetRecord& record) {
+    record.scalar = finite_float(linear[0]);
+    record.scalar_per_z = finite_float(linear[1]);
+    record.scalar_per_column = finite_float(linear[2]);
+    record.scalar_per_row = finite_float(linear[3]);
 }
 
 // Returns a bound on the optical depth of all runs through a part.
@@ -170,9 +178,9 @@ double TetProjector::inverted(double value) const {
     return window_.perspective() ? -1 / value : value;
 }
 
-// Of (value - origin) * scale.
-GradientRecord::Component TetProjector::linear(const PartField& field, double origin, double scale,
-                                               const TetRecord& record) const {
+// Returns the linear function (value - origin) * scale.
+TetProjector::Linear TetProjector::linear(const PartField& field, double origin, double scale,
+                                          const TetRecord& record) const {
     const double x = (record.center[0] - window_.middle().x) * window_.view().pixel,
                  y = (record.center[1] - window_.middle().y) * window_.view().pixel,
                  // Shaders measure depths from here. center_z is rounded, by much of a small tet
@@ -181,21 +189,23 @@ GradientRecord::Component TetProjector::linear(const PartField& field, double or
     const glm::dvec3 direction = window_.perspective() ? glm::dvec3(x, y, 1) : glm::dvec3(0, 0, 1);
     const glm::dvec3 center = window_.perspective() ? z * direction : glm::dvec3(x, y, z);
     const glm::dvec3 gradient = field.gradient() * scale;
-    return {finite_float((field.at(center) - origin) * scale),
-            finite_float(glm::dot(gradient, direction)),
-            finite_float(gradient.x * window_.view().pixel),
-            finite_float(gradient.y * window_.view().pixel)};
+    return {(field.at(center) - origin) * scale, glm::dot(gradient, direction),
+            gradient.x * window_.view().pixel, gradient.y * window_.view().pixel};
 }
 
-// Sets the scalar as (scalar - origin) / width.
-void TetProjector::set_scalars(const PartField& field, double origin, double width,
-                               TetRecord& record) const {
-    const auto [at_center, per_z, per_column, per_row] =
-        linear(field, origin, width > 0 ? 1 / width : 0, record);
-    record.scalar = at_center;
-    record.scalar_per_z = per_z;
-    record.scalar_per_column = per_column;
-    record.scalar_per_row = per_row;
+bool TetProjector::set_whole(const PartField& field, TetRecord& record) const {
+    const double width = range_.hi - range_.lo;
+    const auto normalised = [&](double value) { return (value - range_.lo) / width; };
+    const double least = normalised(field.least()), largest = normalised(field.largest());
+    const double shrink = far_scale(least, largest), scale = (1 / width) * shrink;
+    const Linear exact = linear(field, range_.lo, scale, record);
+    set_scalars(exact, record);
+    record.limits = {static_cast<float>(least * shrink), static_cast<float>(largest * shrink)};
+    const std::array rounded{record.scalar, record.scalar_per_z, record.scalar_per_column,
+                             record.scalar_per_row};
+    for (std::size_t i = 0; i < exact.size(); ++i)
+        record.low[i] = finite_float(exact[i] - static_cast<double>(rounded[i]));
+    return !runs_beyond({field.least(), field.largest()}, range_, far_for_floats);
 }
 
 void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corners,
@@ -206,13 +216,17 @@ void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corn
             const glm::vec3& gradient = gradients_[static_cast<std::size_t>(tet[i])];
             values[i] = static_cast<double>(gradient[static_cast<int>(axis)]);
         }
-        lit.components[axis] = linear(PartField(corners, values, nullptr), 0, 1, record);
+        const auto [at_center, per_z, per_column, per_row] =
+            linear(PartField(corners, values, nullptr), 0, 1, record);
+        lit.components[axis] = {finite_float(at_center), finite_float(per_z),
+                                finite_float(per_column), finite_float(per_row)};
     }
 }
 
 void TetProjector::set_part(const PartField& field, const LinearPiece& piece,
                             TetRecord& record) const {
-    set_scalars(field, field.least(), field.largest() - field.least(), record);
+    const double width = field.largest() - field.least();
+    set_scalars(linear(field, field.least(), width > 0 ? 1 / width : 0, record), record);
     const DepthPlane before_all{-beyond_all, 0, 0, true};
     const DepthPlane lower = field.cut_low() ? level_plane(field, field.least()) : before_all;
     DepthPlane upper = before_all;
@@ -274,16 +288,12 @@ std::optional<FragmentKind> TetProjector::project(const TetPart& part, TetRecord
     if (outline.count == 0 ||
         pixel_bounds(outline.points(), margin_, view().width, view().height).empty())
         return std::nullopt;
-    const bool plain =
+    bool plain =
         set_depths(tet, signer_.signs(static_cast<std::size_t>(part.tet)), corners, extent, record);
     if (piece != nullptr) {
         set_part(field, *piece, record);
     } else {
-        set_scalars(field, range_.lo, range_.hi - range_.lo, record);
-        const auto normalised = [&](double value) {
-            return static_cast<float>((value - range_.lo) / (range_.hi - range_.lo));
-        };
-        record.limits = {normalised(field.least()), normalised(field.largest())};
+        plain = set_whole(field, record) && plain;
     }
     record.number = part_number(part, tets_.size());
     if (lit != nullptr) set_gradients(tet, corners, record, *lit);

@@ -76,10 +76,12 @@ class TetProjector {
     bool set_depths(const Tet& tet, FaceSigns signs, const std::array<Seen, 4>& corners,
                     const Extent& extent, TetRecord& record) const;
     double inverted(double value) const;
-    // A linear function in the form that a GradientRecord has.
-    GradientRecord::Component linear(const PartField& field, double origin, double scale,
-                                     const TetRecord& record) const;
-    void set_scalars(const PartField& field, double origin, double width, TetRecord& record) const;
+    // A linear function: at the center, per z, per column and per row.
+    using Linear = std::array<double, 4>;
+    Linear linear(const PartField& field, double origin, double scale,
+                  const TetRecord& record) const;
+    // Returns whether float32 is good enough for the scalars.
+    bool set_whole(const PartField& field, TetRecord& record) const;
     void set_gradients(const Tet& tet, const std::array<Seen, 4>& corners, const TetRecord& record,
                        GradientRecord& lit) const;
     void set_part(const PartField& field, const LinearPiece& piece, TetRecord& record) const;

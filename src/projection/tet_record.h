@@ -40,7 +40,9 @@ struct alignas(16) TetRecord {
     // is a front in front of everything.
     std::array<float, 3> lower_cut;  // depth, per column, per row
     float upper_cut;                 // depth
-    std::array<float, 4> low, high;  // colour and extinction at these scalars
+    // Colour and extinction at these scalars. Whole tet: `low` is what `scalar` and the three
+    // numbers behind it lack of double precision; only TetProjector sets it.
+    std::array<float, 4> low, high;
 
     bool has_lower_cut() const { return cuts(lower_cut_is_front, lower_cut); }
     bool has_upper_cut() const {

@@ -121,24 +121,66 @@ class CarefulDepths {
         };
         const Doubles<D> rows = each_half(moved, to_doubles(d, row));
         const auto depth = [&](std::size_t face) HWY_ATTR {
-            const auto plane = [&](auto x, auto y) HWY_ATTR {
-                const auto sum = [&](const TetRecord::Pairs& pairs) {
-                    return hn::Set(dd, static_cast<double>(pairs.high[face]) +
-                                           static_cast<double>(pairs.low[face]));
-                };
-                return hn::Add(
-                    hn::Add(sum(record_.depth), hn::Mul(sum(record_.depth_per_column), x)),
-                    hn::Mul(sum(record_.depth_per_row), y));
-            };
-            return to_floats(
-                d, Doubles<D>{plane(columns.low, rows.low), plane(columns.high, rows.high)});
+            return to_floats(d, Doubles<D>{plane(dd, face, columns.low, rows.low),
+                                           plane(dd, face, columns.high, rows.high)});
         };
         const auto nearest = hn::Set(d, fragments_.near_depth - record_.center_depth);
         return order_depths_from(record_.fronts & 7u, nearest, depth(0), depth(1), depth(2),
                                  depth(3));
     }
 
+    // A double for each of half of the lanes: where rays are inside, and the scalar's ends there,
+    // not clamped. `column`, `row`: from the record's center.
+    template <class VD>
+    struct ExactSpan {
+        VD length;  // along z
+        VD front, back;
+    };
+    template <class VD>
+    HWY_INLINE ExactSpan<VD> exact_at(bool perspective, VD column, VD row) const {
+        const typename Doubles<D>::Tag dd;
+        const VD x = move(dd, column, record_.center[0], fragments_.image_middle.x,
+                          fragments_.ray_perturbation.x),
+                 y = move(dd, row, record_.center[1], fragments_.image_middle.y,
+                          fragments_.ray_perturbation.y);
+        const auto set = [&](float value) { return hn::Set(dd, static_cast<double>(value)); };
+        const InsideSpan<VD> span = order_depths_from(
+            record_.fronts & 7u, set(fragments_.near_depth - record_.center_depth),
+            plane(dd, 0, x, y), plane(dd, 1, x, y), plane(dd, 2, x, y), plane(dd, 3, x, y));
+        const auto exact = [&](std::size_t i, float rounded) {
+            return hn::Set(dd, static_cast<double>(rounded) + static_cast<double>(record_.low[i]));
+        };
+        const VD origin = exact(0, record_.scalar), per_z = exact(1, record_.scalar_per_z);
+        const VD aside = hn::Add(hn::Mul(exact(2, record_.scalar_per_column), x),
+                                 hn::Mul(exact(3, record_.scalar_per_row), y));
+        const VD one = hn::Set(dd, 1.0), center = set(record_.center_depth);
+        const auto z_of = [&](VD depth) HWY_ATTR {
+            const VD most = hn::Set(dd, -1e-30);
+            return hn::Div(hn::Set(dd, -1.0), hn::Min(hn::Add(center, depth), most));
+        };
+        const VD z_front = perspective ? z_of(span.enter) : one,
+                 z_back = perspective ? z_of(span.leave) : one;
+        const VD z_center = perspective ? z_of(hn::Zero(dd)) : one;
+        const auto scalar = [&](VD depth, VD z) HWY_ATTR {
+            const VD from_center = hn::Mul(hn::Mul(depth, z), z_center);
+            return hn::Add(hn::Add(origin, hn::Mul(from_center, per_z)), hn::Mul(z, aside));
+        };
+        const VD length = hn::Mul(hn::Mul(hn::Sub(span.leave, span.enter), z_front), z_back);
+        return {length, scalar(span.enter, z_front), scalar(span.leave, z_back)};
+    }
+
   private:
+    // The depth of a face, from the record's center.
+    template <class DD, class VD>
+    HWY_INLINE VD plane(DD dd, std::size_t face, VD x, VD y) const {
+        const auto sum = [&](const TetRecord::Pairs& pairs) {
+            return hn::Set(
+                dd, static_cast<double>(pairs.high[face]) + static_cast<double>(pairs.low[face]));
+        };
+        return hn::Add(hn::Add(sum(record_.depth), hn::Mul(sum(record_.depth_per_column), x)),
+                       hn::Mul(sum(record_.depth_per_row), y));
+    }
+
     template <class DD, class VD>
     HWY_INLINE VD move(DD dd, VD place, float center, float middle, double shift) const {
         const auto from_middle =
@@ -259,6 +301,46 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
                                        hn::Vec<D> aside, hn::Vec<D> slant) {
     return run_between(d, shader, record, find_ends(d, shader, fragments, record, span, slant),
                        aside);
+}
+
+// Whether scalars of the tet are computed in double precision: tets that run far outside the window
+// are careful (facts/far_scalars.h).
+HWY_INLINE bool has_exact_scalars(const TetFragments& fragments, const PartArea& area) {
+    return fragments.windowed && area.careful;
+}
+
+// The run of a ray through a careful tet. In float32 a scalar within the window would be a small
+// difference of large numbers. `slanted`: lengths along rays are longer than differences of z.
+template <class D, class Shader>
+HWY_INLINE TetRun<hn::Vec<D>> find_exact_run(D d, const Shader& shader,
+                                             const TetFragments& fragments, const TetRecord& record,
+                                             const InsideSpan<hn::Vec<D>>& span, hn::Vec<D> column,
+                                             hn::Vec<D> row, bool slanted) {
+    using V = hn::Vec<D>;
+    const CarefulDepths<D> depths(d, fragments, record);
+    const Doubles<D> columns = to_doubles(d, column), rows = to_doubles(d, row);
+    const auto low = depths.exact_at(shader.perspective, columns.low, rows.low),
+               high = depths.exact_at(shader.perspective, columns.high, rows.high);
+    V length = to_floats(d, Doubles<D>{low.length, high.length});
+    if (slanted) {
+        const V pixel = hn::Set(d, fragments.pixel_size);
+        const auto from_middle = [&](V place, float center, float middle) HWY_ATTR {
+            return hn::Mul(hn::Add(place, hn::Set(d, center - middle)), pixel);
+        };
+        const V x = from_middle(column, record.center[0], fragments.image_middle.x),
+                y = from_middle(row, record.center[1], fragments.image_middle.y);
+        const V square = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+        length = hn::Mul(length, hn::Sqrt(hn::Add(hn::Set(d, 1.0f), square)));
+    }
+    if (shader.opacity_only) length = hn::Mul(length, hn::Set(d, fragments.depth_scale));
+    const V least = hn::Set(d, record.limits[0]), largest = hn::Set(d, record.limits[1]);
+    const auto scalar = [&](const auto& of_low, const auto& of_high) HWY_ATTR {
+        const V found = to_floats(d, Doubles<D>{of_low, of_high});
+        return hn::Min(hn::Max(found, least), largest);
+    };
+    const auto met = hn::Gt(span.leave, span.enter);
+    return {scalar(low.front, high.front), scalar(low.back, high.back),
+            hn::IfThenElseZero(met, length)};
 }
 
 }  // namespace lamina::HWY_NAMESPACE

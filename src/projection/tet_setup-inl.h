@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "facts/far_scalars.h"
 #include "projection/face_planes-inl.h"
 #include "projection/point_vectors-inl.h"
 #include "projection/tet_record.h"
@@ -36,7 +37,7 @@ class TetVectors {
         if (parts) {
             set_part();
         } else {
-            set_whole();
+            good = hn::And(good, set_whole());
         }
         if (lit) set_gradients();
         store_whole(lanes_.limits[2], fronts_);
@@ -267,11 +268,17 @@ class TetVectors {
         }
     }
 
-    void set_whole() {
+    // Returns true where float32 is good enough for the scalars (facts/far_scalars.h).
+    MD set_whole() {
         const VD origin = set(view_.range.lo), width = set(view_.range.hi - view_.range.lo);
         set_scalars(origin, width);
-        store(lanes_.limits[0], hn::Div(hn::Sub(least_, origin), width));
-        store(lanes_.limits[1], hn::Div(hn::Sub(largest_, origin), width));
+        const VD least = hn::Div(hn::Sub(least_, origin), width),
+                 largest = hn::Div(hn::Sub(largest_, origin), width);
+        store(lanes_.limits[0], least);
+        store(lanes_.limits[1], largest);
+        const VD most = hn::Max(hn::Neg(least), hn::Sub(largest, one()));
+        const MD meets = hn::And(hn::Lt(least, one()), hn::Gt(largest, hn::Zero(d_)));
+        return hn::Le(most, hn::IfThenElse(meets, set(far_for_floats), set(farthest_normalised)));
     }
 
     void set_part() {

@@ -57,6 +57,7 @@ TileProjectRenderer::TileProjectRenderer(const SceneMesh& mesh,
     tables_->set(fragments_);
     fragments_.perspective = !plan_.orthographic;
     fragments_.colored = !plan_.single_color;
+    fragments_.windowed = plan_.windowed;
     fragments_.divided =
         fragments_.perspective && plan_.interpolation == Interpolation::perspective;
     fragments_.output = output_of(plan_);
@@ -176,7 +177,7 @@ void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<cons
 
 void TileProjectRenderer::set_light() {
     const Stage stage("gradients");
-    gradients_ = StoredGradients(gradients_of(mesh_));
+    gradients_ = StoredGradients(gradients_of(mesh_), *plan_.lighting->smallest_gradient);
     light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend, faint_share_of_tets);
     fragments_.light = &*light_;
     fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);

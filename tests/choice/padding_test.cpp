@@ -49,6 +49,20 @@ TEST(Padding, OfTwoKinds) {
     EXPECT_TRUE(found.below && found.above);
 }
 
+// Where a single value may mark missing data, as a vertex of a mesh does, it may be rare.
+TEST(Padding, MayBeRareIfItIsFarAway) {
+    for (const double value : {-9999., -32768., 32767., 1e20}) {
+        const ValueDistribution all = with(scan(), value, 1e-6);
+        EXPECT_TRUE(find_padding(all, false).values.empty()) << value;
+        EXPECT_EQ(find_padding(all, false, 0).values, std::vector{value}) << value;
+        EXPECT_EQ(find_markers(all), std::vector{value}) << value;
+    }
+    const ValueDistribution near = with(scan(), -2000, 1e-6);  // a quarter of the range below
+    EXPECT_TRUE(find_padding(near, false, 0).values.empty());
+    EXPECT_TRUE(find_markers(ValueDistribution(scan())).empty());
+    EXPECT_TRUE(find_markers(ValueDistribution()).empty());
+}
+
 TEST(Padding, IsNoneOfThese) {
     const auto none = [](const ValueDistribution& all) {
         return find_padding(all, true).values.empty();

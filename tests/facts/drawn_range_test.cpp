@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "support/transfer_functions.h"
@@ -51,6 +52,48 @@ TEST(ExactRange, EndsAtTheDistanceOfFloats) {
     const ValueRange bytes = exact_range(step, {0, 65535}, SampleType::uint16);
     EXPECT_LE(bytes.hi - bytes.lo, 16);
     EXPECT_EQ(bytes.lo, std::floor(bytes.lo));
+}
+
+constexpr std::array field{.1, .2, .4, .5, .7, .9, 9.97e36};
+
+TEST(MeshWindow, HoldsWhatChangesWithAMargin) {
+    const ValueRange window = mesh_window(narrow(), field, {-3, 60000});
+    EXPECT_LT(window.lo, 100);
+    EXPECT_GT(window.hi, 104);
+    EXPECT_LE(window.hi - window.lo, 5);
+}
+
+TEST(MeshWindow, EndsWhereTheDataDo) {
+    const ValueRange window = mesh_window(narrow(), field, {101, 9.97e36});
+    EXPECT_EQ(window.lo, 101);
+    EXPECT_GT(window.hi, 104);
+    EXPECT_LE(window.hi, 105);
+    EXPECT_EQ(mesh_window(test::smooth(), field, {0, 1}), (ValueRange{0, 1}));
+}
+
+TEST(MeshWindow, IsTheRangeIfNothingChangesThere) {
+    EXPECT_EQ(mesh_window(narrow(), field, {200, 300}), (ValueRange{200, 300}));
+    const auto one = TransferFunction::linear({knot(5, {1, 1, 1}, 1)});
+    EXPECT_EQ(mesh_window(one, field, {0, 10}), (ValueRange{0, 10}));
+}
+
+// A step has no width: the values around it say how far they are apart.
+TEST(MeshWindow, OfAStepIsAsWideAsTheValuesNearIt) {
+    const auto step = TransferFunction::linear({knot(.5, {1, 1, 1}, 0), knot(.5, {1, 1, 1}, 1)});
+    const ValueRange window = mesh_window(step, field, {.1, 9.97e36});
+    EXPECT_LT(window.lo, .5);
+    EXPECT_GT(window.hi, .5);
+    EXPECT_LE(window.hi - window.lo, 1);
+    EXPECT_GE(window.hi - window.lo, .1);
+}
+
+TEST(DrawnRange, OfOneValueDividesItWithoutRounding) {
+    for (const double value : {0., 17181., -17181., 1e-30}) {
+        const ValueRange range = drawn_range(narrow(), {value, value});
+        const double width = range.hi - range.lo;
+        EXPECT_EQ(range.lo, value);
+        EXPECT_EQ(std::exp2(std::round(std::log2(width))), width) << value;
+    }
 }
 
 }  // namespace

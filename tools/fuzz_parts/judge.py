@@ -41,13 +41,28 @@ class Judge:
         pixels = size["width"] * size["height"]
         self.program = Program(lamina, folder, seconds * max(1, pixels / MANY_PIXELS))
         self.verdict = Verdict(made.seed, made.labels, self.program.findings, commands=self.program.commands)
-        self.optics = transfer.Optics(made.scene["transfer_function"])
+        self.optics = None
+        if made.scene["transfer_function"] != "auto":
+            self.take_optics()
         self.lit = "lighting" in made.scene
-        if self.lit:
-            self.optics.brightest = lights.brightest(made.scene["lighting"], self.optics.brightest)
         self.render = made.scene["render"]
         self.max_error = self.render.get("max_error", 1)
         self.rays = cameras.Rays(made.scene["camera"], size["width"], size["height"])
+
+    def take_optics(self):
+        self.optics = transfer.Optics(self.made.scene["transfer_function"])
+        if "lighting" in self.made.scene:
+            self.optics.brightest = lights.brightest(self.made.scene["lighting"], self.optics.brightest)
+
+    def choose_transfer_function(self):
+        """Takes the one that lamina chooses; False where it chooses none."""
+        chosen = self.program.chosen_scene("chosen_scene.json")
+        if chosen is None:
+            return False
+        self.made.scene["transfer_function"] = chosen["transfer_function"]
+        self.made.write(self.folder)
+        self.take_optics()
+        return True
 
     def check(self, name, error, bound, text=""):
         """In parts of full scale; error and bound as arrays of the same shape, or numbers."""
@@ -64,6 +79,9 @@ class Judge:
 
     def run(self):
         self.made.write(self.folder)
+        if self.optics is None and not self.choose_transfer_function():
+            self.verdict.refusal = getattr(self.program, "refusal", "")
+            return self.verdict
         traced = self.program.render("traced", TRACE, ".npy")
         drawn = self.program.render("drawn", self.made.arguments)
         if drawn is None:

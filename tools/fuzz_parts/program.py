@@ -85,6 +85,20 @@ class Program:
                                  f"least {found.picture.min():.3g}")
         return found
 
+    def chosen_scene(self, name):
+        """The scene with what lamina chooses for it; None where it ended in an error."""
+        command = [str(self.lamina), "scene", "scene.json", "-o", name]
+        self.commands.append(shlex.join(command))
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * self.seconds,
+                              preexec_fn=self.limit)
+        if done.returncode == 0:
+            return json.loads((self.folder / name).read_text())
+        lines = done.stderr.decode("utf-8", "replace").splitlines()
+        self.refusal = lines[-1] if lines else ""
+        if done.returncode != 1 or not self.refusal.startswith("lamina: "):
+            self.report("crash", f"scene: exit code {done.returncode}: {self.refusal}")
+        return None
+
     def ended_well(self, name, found, picture, stats):
         """Whether there is a picture; reports what is wrong."""
         text = " | ".join(found.messages[:4])[:400]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from . import cameras, clips, lights, meshes, transfer, volumes
+from . import cameras, clips, lights, markers, meshes, transfer, volumes
 from .dice import Dice
 
 
@@ -179,6 +179,63 @@ def mesh_scene(seed, dice, lit):
     return made
 
 
-def make(seed, lit=False):
+class Values:
+    """Data as far as their range counts."""
+
+    def __init__(self, value_range):
+        self.value_range = value_range
+
+    def finite_range(self):
+        return self.value_range
+
+
+def marked_scene(seed, lit):
+    """A mesh with values far from all others (markers.py)."""
+    dice = Dice(seed + (1 << 35))
+    mesh = meshes.make(dice, world_scale(dice))
+    shown = markers.window(mesh, dice) if dice.chance(0.2) else markers.mark(mesh, dice)
+    corner = mesh.points.min(0)
+    edges = numpy.diag(mesh.points.max(0) - corner)
+    name, files = meshes.files(mesh, dice)
+    scene = {"version": 1, "mesh": name}
+    if not numpy.isfinite(mesh.values).all():
+        scene["nan"] = "transparent"
+        mesh.kind += ", NaN"
+    made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
+    made = assembled(seed, dice, Values(shown), corner, edges, made, lit)
+    if dice.chance(0.15):
+        made.scene["transfer_function"], made.labels["transfer"] = "auto", "auto"
+    elif dice.chance(0.2):  # the values far away show, too
+        point = dict(made.scene["transfer_function"]["points"][-1])
+        point["value"] = float(numpy.nanmax(mesh.values))
+        if point["value"] > made.scene["transfer_function"]["points"][-1]["value"]:
+            made.scene["transfer_function"]["points"].append(point)
+    made.scene["render"] = projecting(dice)
+    made.arguments += omissions(dice) if dice.chance(0.5) else []
+    return made
+
+
+def flat_volume_scene(seed, lit):
+    """Samples of one value, and a table of many points around it: what is left out of such a scene is easy to miss."""
+    dice = Dice(seed + (1 << 35))
+    size = [dice.whole(2, 4) for _ in range(3)]
+    kind = dice.pick("int16", "uint16", "float")
+    value = float(dice.whole(1000, 32000))
+    samples = numpy.full(size, value).astype(volumes.TYPES[kind])
+    steps, origin = volumes.steps_and_origin(size, dice, world_scale(dice))
+    volume = volumes.Volume(samples, kind, [dice.chance(0.5) for _ in range(3)], origin, steps, "flat")
+    low, high = volume.corners()
+    made = RandomScene(seed, {"version": 1, "volume": "volume.nrrd"}, {"volume.nrrd": volumes.nrrd(volume, dice)}, [],
+                       volume=volume, labels={"data": f"{kind} flat"})
+    made = assembled(seed, dice, Values((value - 1, value + 1)), volume.to_world(low), steps * (high - low), made, lit)
+    made.scene["render"] = slicing(dice)
+    made.scene["render"]["slice"]["classification"] = dice.pick("preintegrated", "preintegrated", "post", "exact")
+    made.arguments += ["--no-omit"]
+    return made
+
+
+def make(seed, lit=False, marked=False):
+    if marked:
+        return flat_volume_scene(seed, lit) if seed % 10 == 0 else marked_scene(seed, lit)
     dice = Dice(seed)
     return volume_scene(seed, dice, lit) if dice.chance(0.68) else mesh_scene(seed, dice, lit)
