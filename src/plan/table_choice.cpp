@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "facts/drawn_range.h"
 #include "facts/world_unit.h"
 #include "optics/linear_pieces.h"
 #include "optics/preintegration_table.h"
@@ -167,9 +168,11 @@ int affordable_layers(const TablePlan& table, double knots, double wanted) {
 double table_error(const Scene& scene, const Facts& facts, int slabs, const TablePlan& plan) {
     const double unit = world_unit(box_diagonal(facts.grid));
     const TransferFunction transfer_function = in_units(scene.transfer_function, unit);
-    const auto table = preintegration_table(
-        transfer_function, {facts.range.lo, facts.range.hi, plan.max_length, plan.scalar_nodes,
-                            plan.length_layers, plan.colored, plan.lit});
+    // The table that is drawn: of samples of one value, it is wider than their range.
+    const ValueRange range = drawn_range(scene.transfer_function, facts.range);
+    const auto table = preintegration_table(transfer_function,
+                                            {range.lo, range.hi, plan.max_length, plan.scalar_nodes,
+                                             plan.length_layers, plan.colored, plan.lit});
     const MostLight light = most_light(scene);
     const auto looked_up = [&](const Segment& segment) {
         return table->lookup_lit(segment.front, segment.back, segment.length);

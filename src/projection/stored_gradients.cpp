@@ -13,10 +13,12 @@ double largest_component(const glm::dvec3& g) {
     return std::max({std::abs(g.x), std::abs(g.y), std::abs(g.z)});
 }
 
-// Gradients longer than so many usual or smallest ones are shortened. Between such a gradient and
-// a usual one, less than 1e-12 of a ray has a direction that this changes; and smallest_square()
-// has room for its square.
+// Gradients longer than so many usual or smallest ones do not count for the unit, so that usual ones
+// have room for their squares.
 constexpr double most_usual = 0x1p44;
+
+// Longer ones, in the unit, are shortened: float32 has no larger numbers.
+constexpr double longest = 0x1p120;
 
 // Returns the median, without those of no length.
 double usual_length(std::span<const glm::dvec3> gradients) {
@@ -44,8 +46,8 @@ StoredGradients::StoredGradients(std::span<const glm::dvec3> gradients, double s
         scale = std::exp2(std::clamp(-std::ceil(std::log2(largest)) - 1, -1000., 1000.));
     at_points.reserve(gradients.size());
     for (const glm::dvec3& g : gradients) {
-        const double length = largest_component(g);
-        at_points.emplace_back(length > most ? g * (most / length) * scale : g * scale);
+        const double length = largest_component(g) * scale;
+        at_points.emplace_back(length > longest ? g * scale * (longest / length) : g * scale);
     }
 }
 

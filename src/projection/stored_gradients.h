@@ -19,10 +19,19 @@ struct StoredGradients {
     // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
     StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
 
-    // Times `scale`; the longest has a length of at most 1. Those around a value that marks missing
-    // data may be 1e30 times as long as others: they are shortened, so that the others are numbers.
+    // Times `scale`, which makes usual ones at most as long as 1. Those around a value that marks
+    // missing data may be far longer: tets bring them down (scale_of_tet()).
     std::vector<glm::vec3> at_points;
     double scale = 1;  // a power of two
+
+    // The largest component of a tet's gradients after it was scaled: lengths are then below 1.
+    static constexpr double most_of_tet = 0.5;
+    // The factor for all gradients of a tet, of which `largest` is the largest component. Light
+    // depends on directions, which stay. Lengths count where they are near the smallest gradient:
+    // in a tet that is scaled that is less than 1e-12 of it.
+    static double scale_of_tet(double largest) {
+        return largest > most_of_tet ? most_of_tet / largest : 1;
+    }
 
     // The square of a smallest gradient in this unit. It is kept to what float32 can square:
     // outside, all or nothing is lit.

@@ -8,6 +8,7 @@
 
 #include "facts/far_scalars.h"
 #include "optics/front_weights.h"
+#include "projection/stored_gradients.h"
 
 namespace lamina {
 namespace {
@@ -210,6 +211,12 @@ bool TetProjector::set_whole(const PartField& field, TetRecord& record) const {
 
 void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corners,
                                  const TetRecord& record, GradientRecord& lit) const {
+    double largest_of_tet = 0;
+    for (const std::int32_t corner : tet) {
+        const glm::vec3& gradient = gradients_[static_cast<std::size_t>(corner)];
+        largest_of_tet = std::max(largest_of_tet, largest(glm::dvec3(gradient)));
+    }
+    const double scale = StoredGradients::scale_of_tet(largest_of_tet);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         PartField::Values values;
         for (std::size_t i = 0; i < 4; ++i) {
@@ -217,7 +224,7 @@ void TetProjector::set_gradients(const Tet& tet, const std::array<Seen, 4>& corn
             values[i] = static_cast<double>(gradient[static_cast<int>(axis)]);
         }
         const auto [at_center, per_z, per_column, per_row] =
-            linear(PartField(corners, values, nullptr), 0, 1, record);
+            linear(PartField(corners, values, nullptr), 0, scale, record);
         lit.components[axis] = {finite_float(at_center), finite_float(per_z),
                                 finite_float(per_column), finite_float(per_row)};
     }

@@ -17,6 +17,7 @@
 #include "facts/far_scalars.h"
 #include "projection/face_planes-inl.h"
 #include "projection/point_vectors-inl.h"
+#include "projection/stored_gradients.h"
 #include "projection/tet_record.h"
 #include "projection/tet_setup_lanes.h"
 
@@ -250,11 +251,20 @@ class TetVectors {
             view_.perspective ? Point{x, y, one()} : Point{hn::Zero(d_), hn::Zero(d_), one()};
         const Point center = view_.perspective ? scaled(direction, z) : Point{x, y, z};
         const Point from_corner = center - seen_[0];
+        VD largest = hn::Zero(d_);
+        for (const auto& corners : lanes_.gradient) {
+            for (const Row& corner : corners) largest = hn::Max(largest, hn::Abs(load(corner)));
+        }
+        // As StoredGradients::scale_of_tet().
+        const VD most = set(StoredGradients::most_of_tet);
+        const VD scale = hn::IfThenElse(hn::Gt(largest, most), hn::Div(most, largest), one());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto& corners = lanes_.gradient[axis];
-            const VD first = load(corners[0]);
-            const VD v1 = hn::Sub(load(corners[1]), first), v2 = hn::Sub(load(corners[2]), first),
-                     v3 = hn::Sub(load(corners[3]), first);
+            const auto value = [&](std::size_t i)
+                                   HWY_ATTR { return hn::Mul(load(corners[i]), scale); };
+            const VD first = value(0);
+            const VD v1 = hn::Sub(value(1), first), v2 = hn::Sub(value(2), first),
+                     v3 = hn::Sub(value(3), first);
             const auto sum = [&](VD a, VD b, VD c) HWY_ATTR {
                 return hn::Mul(inverse,
                                hn::Add(hn::Add(hn::Mul(v1, a), hn::Mul(v2, b)), hn::Mul(v3, c)));

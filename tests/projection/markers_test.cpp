@@ -69,9 +69,17 @@ TEST_P(Markers, CostNoDigitsWithAnyColoring) {
     scene.camera.projection = Projection::orthographic;
     scene.camera.height = 1.6;
     EXPECT_LE(error(mesh, scene), promised);
-    scene.lighting = Lighting{};
-    scene.lighting->smallest_gradient = .05;
-    EXPECT_LE(error(mesh, scene), scene.max_error);
+}
+
+// Gradients around a marker are longer than others by as much as it is larger.
+TEST_P(Markers, LeaveLightAsItIs) {
+    for (const double marker : {-9999., 9.97e36}) {
+        const SceneMesh mesh = marked_mesh(marker, 100);
+        Scene scene = marked_scene(colorful(20, 0));
+        scene.lighting = Lighting{};
+        scene.lighting->smallest_gradient = .05;
+        EXPECT_LE(error(mesh, scene), scene.max_error) << marker;
+    }
 }
 
 // A table's own error is what the plan says; scalars add no more than with other ways.

@@ -119,10 +119,18 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.tree = {4};
         for (const SegmentSource source : sources) compile(plan, source, true, true, 1);
     }
+    for (ProjectPlan plan : geometry_plans()) {
+        plan.windowed = true;
+        for (const SegmentSource source :
+             {SegmentSource::table, SegmentSource::cut_table, SegmentSource::analytic})
+            compile(plan, source, false, true, 4);
+    }
     const std::size_t unlit = seen.size();
-    for (const ProjectPlan& plan : lit_plans()) {
+    for (ProjectPlan plan : lit_plans()) {
         for (const SegmentSource source : {SegmentSource::parts, SegmentSource::analytic})
             for (const bool filtered : {false, true}) compile(plan, source, false, filtered, 1);
+        plan.windowed = true;
+        compile(plan, SegmentSource::analytic, false, false, 1);
     }
     for (ProjectPlan plan : output_plans()) {
         plan.lighting = lit_plans().front().lighting;
