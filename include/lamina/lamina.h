@@ -10,6 +10,7 @@
 #include "lamina/context_choice.h"
 #include "lamina/data_files.h"
 #include "lamina/error.h"
+#include "lamina/error_figure.h"
 #include "lamina/error_norms.h"
 #include "lamina/frame_statistics.h"
 #include "lamina/image.h"

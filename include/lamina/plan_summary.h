@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "lamina/error_figure.h"
 #include "lamina/scene.h"
 
 namespace lamina {
@@ -18,12 +18,9 @@ struct PlanSummary {
 
     Method method = Method::slice;
     Target target = Target::float32;
-    int slabs = 0;     // of slicing
-    double error = 0;  // in 1/255, of what was chosen, as far as it was measured
-    // In 1/255, below 255: what the picture is expected to miss the truth by at most, with what
-    // compositing rounds. None where a part of it is not known: slabs, tables or trees that the
-    // scene states and nothing was measured of, and targets of fewer bits than float32 for tets.
-    std::optional<double> expected_error;
+    int slabs = 0;  // of slicing
+    // The picture's error with what compositing rounds, below 255.
+    ErrorFigure error;
     std::vector<LeftOut> left_out;
 };
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Sequence, Tuple, Optional
 
 from typing import overload
 import numpy
@@ -11,7 +11,9 @@ class Drawn:
     @property
     def array(self) -> numpy.ndarray: ...
     @property
-    def error(self) -> float: ...
+    def error(self) -> Optional[float]: ...
+    @property
+    def error_kind(self) -> str: ...
     @property
     def explanation(self) -> str: ...
     @property

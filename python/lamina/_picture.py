@@ -55,10 +55,18 @@ class Picture:
         return self._array
 
     @property
-    def error(self) -> float:
-        """Of what was chosen ("auto"): the largest error that the choice may leave, in 1/255, as far as it was measured
-        or bounded; of a traced picture: the tracer's own estimate."""
+    def error(self) -> float | None:
+        """The largest error of the picture, in 1/255, of any pixel and channel; ``None`` if it is unknown: the scene
+        states something that nothing was measured of, or tets of the mesh overlap. ``error_kind`` says how it is known.
+        """
         return self._drawn.error
+
+    @property
+    def error_kind(self) -> str:
+        """How ``error`` is known. ``"derived"``: a bound, no pixel is worse. ``"trials"``: found with the number of slabs
+        that was chosen, on rays of the view. ``"sampled"``: found on rays of the view and tets of the mesh.
+        ``"estimated"``: by the tracer, of a traced picture. ``"unknown"``."""
+        return self._drawn.error_kind
 
     @property
     def plan(self) -> Plan:

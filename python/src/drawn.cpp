@@ -36,14 +36,19 @@ py::array Drawn::array() const {
     return truth ? array_of(truth) : array_of(picture);
 }
 
-double Drawn::error() const {
-    return truth || scene.method == Method::trace ? statistics.trace_error : plan.error;
+std::optional<double> Drawn::error() const {
+    return is_traced() ? statistics.trace_error : plan.error.known();
+}
+
+std::string Drawn::error_kind() const {
+    return is_traced() ? "estimated" : name_of(plan.error.kind);
 }
 
 void bind_drawn(py::module_& module) {
     py::class_<Drawn>(module, "Drawn")
         .def_property_readonly("array", &Drawn::array)
         .def_property_readonly("error", &Drawn::error)
+        .def_property_readonly("error_kind", &Drawn::error_kind)
         .def_readonly("scene", &Drawn::scene)
         .def_property_readonly("traced", [](const Drawn& drawn) { return drawn.truth != nullptr; })
         .def_property_readonly("target",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct Drawn {
     std::vector<std::string> warnings;
 
     py::array array() const;
-    double error() const;  // in 1/255: the plan's, or the tracer's estimate
+    bool is_traced() const { return truth || scene.method == Method::trace; }
+    // In 1/255: the plan's, or the tracer's estimate; none if it is unknown.
+    std::optional<double> error() const;
+    std::string error_kind() const;  // a word of ErrorKind, or "estimated" by the tracer
 };
 
 void bind_drawn(py::module_& module);

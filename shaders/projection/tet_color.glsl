@@ -13,18 +13,22 @@ vec4 tet_color() {
     TetRun run = find_run();
     float front = clamp(run.front, 0.0, 1.0), back = clamp(run.back, 0.0, 1.0);
 #ifdef WINDOWED
-    // The run before the window, within it and behind it, where the transfer function is constant.
+    // The run before the window, within it and behind it, where the transfer function is constant. In a loop, because
+    // LLVM takes minutes for three copies of the look-ups.
+    vec3 lengths = vec3(0.0, run.world_length, 0.0);
     if (front != back && (front != run.front || back != run.back)) {
         float per_scalar = run.world_length / abs(run.back - run.front);
-        float before = per_scalar * abs(front - run.front), behind = per_scalar * abs(run.back - back);
-        vec4 sum = vec4(0.0);
-        if (before > 0.0) sum = color_within(front, front, before);
-        sum += (1.0 - sum.a) * color_within(front, back, per_scalar * abs(back - front));
-        if (behind > 0.0) sum += (1.0 - sum.a) * color_within(back, back, behind);
-        return sum;
+        lengths = per_scalar * vec3(abs(front - run.front), abs(back - front), abs(run.back - back));
     }
-#endif
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 3; ++i) {
+        if (i != 1 && !(lengths[i] > 0.0)) continue;
+        sum += (1.0 - sum.a) * color_within(i < 2 ? front : back, i > 0 ? back : front, lengths[i]);
+    }
+    return sum;
+#else
     return color_within(front, back, run.world_length);
+#endif
 }
 #endif
 

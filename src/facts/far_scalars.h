@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tets whose scalar runs far outside the window that is drawn, as the tets around a value that
-// marks missing data do (docs/precision.md, "Meshes").
+// marks missing data do (docs/precision.md, "Exact segments").
 #pragma once
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "facts/drawn_range.h"
 #include "facts/far_scalars.h"
+#include "mesh/mesh_overlap.h"
 #include "mesh/scalar_range.h"
 #include "scene/camera.h"
 #include "scene/coloring.h"
@@ -47,6 +48,10 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts = measure_data(scene, mesh);
+    // Other orders are there to be studied, with what they get wrong.
+    const ProjectOrder order = scene.project.order;
+    if (order == ProjectOrder::automatic || order == ProjectOrder::exact)
+        facts.overlapping_tets = measure_overlap(mesh, facts.convexity);
     measure_view(scene, mesh, facts);
     measure_rays(scene, mesh, facts);
     return facts;
@@ -79,6 +84,10 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     return facts;
 }
 
+std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity) {
+    return convexity == Convexity::none ? count_overlapping_tets(mesh.mesh) : 0;
+}
+
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     const View view(scene.camera, scene.width, scene.height);
     facts.orthographic = view.projection == Projection::orthographic;
@@ -89,8 +98,8 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     facts.trial_rays.clear();
-    const bool integrated = scene.method == Method::project && facts.parts > 0 &&
-                            scene.project.coloring == Coloring::preintegrated && !facts.constant;
+    const bool integrated =
+        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
     if (!integrated) return;
     const TetPieces pieces(scene.transfer_function,
                            drawn_range(scene.transfer_function, facts.range));

@@ -27,6 +27,7 @@ struct MeshFacts {
     double shortest_edge = 0, longest_edge = 0;  // world units
     double diagonal = 0;                         // diagonal of the bounding box, world units
     Convexity convexity = Convexity::none;
+    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_overlap.h)
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction
@@ -55,8 +56,18 @@ struct MeshFacts {
     struct Run {
         double front, back;  // scalars
         double length;       // world units
+        double edge = 0;     // longest one of the tet, world units
     };
     std::vector<std::vector<Run>> trial_rays;
+    // What was found on trial rays, in 1/255.
+    struct TrialError {
+        double segments = 0;  // of integrating runs
+        double places = 0;    // more, of faces that are not quite in their places
+        std::int64_t rays = 0;
+
+        friend bool operator==(const TrialError&, const TrialError&) = default;
+    };
+    TrialError last_error;  // on the rays of an earlier view, if there are none for this one
 };
 
 // Makes MeshFacts::trial_rays from rays of the view, and from tets of the mesh one by one.
@@ -67,9 +78,12 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, con
 // does not say how to treat them, or where no value is finite.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
-// The same in three steps: the facts of the mesh and the transfer function; those of the view
+// The same in steps: the facts of the mesh and the transfer function; those of the view
 // except for rays; trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
+// What measure_data() leaves out, because it takes longer and depends on the mesh alone:
+// overlapping_tets.
+std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 

@@ -16,8 +16,21 @@ namespace {
 // So many rays along each side of the picture: enough to meet what fills a thousandth of it.
 constexpr int rays_along_side = 32;
 
+double longest_edge(const TetMesh& mesh, std::int32_t number) {
+    const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
+    const auto corner = [&](std::size_t i) {
+        return mesh.points()[static_cast<std::size_t>(tet[i])];
+    };
+    double longest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j)
+            longest = std::max(longest, glm::distance(corner(i), corner(j)));
+    }
+    return longest;
+}
+
 std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column, int row,
-                                    std::span<const double> scalar) {
+                                    const TetMesh& mesh, std::span<const double> scalar) {
     const View::Ray ray = view.ray(column, row);
     walk.aim(ray.origin, ray.direction);
     const double length_per_depth = glm::length(ray.direction);
@@ -27,7 +40,8 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     for (const TetSegment& segment : segments) {
         if (segment.in.at < 0 || !(segment.out.at > segment.in.at)) continue;
         const MeshFacts::Run run{segment.in.interpolate(scalar), segment.out.interpolate(scalar),
-                                 (segment.out.at - segment.in.at) * length_per_depth};
+                                 (segment.out.at - segment.in.at) * length_per_depth,
+                                 longest_edge(mesh, segment.tet)};
         if (std::isfinite(run.front) && std::isfinite(run.back)) runs.push_back(run);
     }
     return runs;
@@ -53,8 +67,8 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
         const auto [low, high] = std::ranges::minmax_element(*seen[i], {}, value);
         const double length = glm::distance(points[static_cast<std::size_t>(*low)],
                                             points[static_cast<std::size_t>(*high)]);
-        rays.push_back({{value(*low), value(*high), length}});
-        rays.push_back({{value(*high), value(*low), length}});
+        rays.push_back({{value(*low), value(*high), length, length}});
+        rays.push_back({{value(*high), value(*low), length, length}});
     }
 }
 
@@ -69,9 +83,10 @@ std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, cons
     parallel_for(rows, 1, [&](std::int64_t row) {
         RayWalk walk(mesh.mesh, boundary);
         for (int column = 0; column < columns; ++column) {
-            rays[static_cast<std::size_t>(row * columns + column)] = runs_of(
-                walk, view, (2 * column + 1) * view.width / (2 * columns),
-                static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.scalar.values);
+            rays[static_cast<std::size_t>(row * columns + column)] =
+                runs_of(walk, view, (2 * column + 1) * view.width / (2 * columns),
+                        static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.mesh,
+                        mesh.scalar.values);
         }
     });
     std::erase_if(rays, [](const auto& ray) { return ray.empty(); });

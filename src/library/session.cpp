@@ -127,15 +127,10 @@ PlanSummary Session::plan() {
         if (plan.method == Method::slice) {
             summary.target = plan.slice.target;
             summary.slabs = plan.slice.slabs;
-            summary.error = plan.slice.found_error() + plan.slice.error_bound.value_or(0);
-            summary.expected_error = plan.slice.expected_error();
         } else {
             summary.target = plan.project.target;
-            summary.error = plan.project.segment_error;
-            summary.expected_error = plan.project.expected_error(parts_->scene.project);
         }
-        // A bound of full scale says nothing.
-        if (summary.expected_error >= 255.) summary.expected_error.reset();
+        summary.error = plan.error();
         for (const Omission& omission : plan.omitted)
             summary.left_out.push_back({omission.name, omission.reason});
     });

@@ -108,7 +108,7 @@ void explain_compositing(const SlicePlan& slice, const Facts& facts, const Row& 
         row("tree", text);
     }
     if (slice.error_bound) {
-        row("error",
+        row("roundings",
             fmt::format("at most {:.3g} / 255: {}", *slice.error_bound, slice.tree_reason));
     }
 }
@@ -159,15 +159,9 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
     if (project.source == SegmentSource::parts) {
         row("parts", fmt::format("{} visible tets cut at the transfer function's points into {}",
                                  facts.tets - facts.transparent_tets, facts.parts));
-        if (!project.single_color) {
-            row("weight error",
-                fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
-        }
     }
     if (project.source == SegmentSource::table || project.source == SegmentSource::cut_table) {
         row("table", text_of_table(project));
-        row("table error",
-            fmt::format("{:.2g} / 255 {}", project.segment_error, project.segment_reason));
     }
     if (project.emulation) row("codes", text_of_codes(project));
     if (project.dither != ProjectDither::none) row("dither", name_of(project.dither));
@@ -191,9 +185,8 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                         slice.slabs, facts.near_depth, facts.far_depth,
                         facts.voxels_along_view / slice.slabs));
         if (slice.slab_trial) {
-            row("slab error", fmt::format("{:.2g} / 255 found on {} rays, {} of them traced",
-                                          slice.slab_trial->error, slice.slab_trial->rays,
-                                          slice.slab_trial->traced));
+            row("trials", fmt::format("{} rays, {} of them traced", slice.slab_trial->rays,
+                                      slice.slab_trial->traced));
         }
         row("target", with_reason(name_of(slice.target), slice.target_reason));
         row("classification",
@@ -212,14 +205,14 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
         explain_compositing(slice, facts, row);
         if (slice.uses_table()) {
             row("table",
-                fmt::format("{0} x {0} scalars, {1} lengths{2}", slice.table.scalar_nodes,
-                            slice.table.length_layers, slice.table.colored ? ", coloured" : ""));
-            row("table error",
-                fmt::format("{:.2g} / 255 at most on rays all over this view and on segments of "
-                            "all pieces",
-                            slice.table.error));
+                fmt::format(
+                    "{0} x {0} scalars, {1} lengths{2}; off by {3:.2g} / 255 on rays all over "
+                    "this view and segments of all pieces",
+                    slice.table.scalar_nodes, slice.table.length_layers,
+                    slice.table.colored ? ", coloured" : "", slice.table.error));
         }
     }
+    if (plan.method != Method::trace) row("error", text_of(plan.error()));
     return text + work_and_left_out(plan);
 }
 
@@ -234,6 +227,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         row("context", capabilities.renderer);
         explain_projection(plan.project, facts, capabilities.tiles, row);
     }
+    if (plan.method != Method::trace) row("error", text_of(plan.error()));
     return text + work_and_left_out(plan);
 }
 

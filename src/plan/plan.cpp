@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/unreachable.h"
 #include "plan/classification_choice.h"
 #include "plan/lit_check.h"
 #include "plan/picture_limits.h"
@@ -17,6 +18,28 @@ namespace {
 const Omission no_context{"context", "the tracer runs on the processor: no OpenGL context is made"};
 
 }  // namespace
+
+ErrorFigure SlicePlan::error() const {
+    const bool bounded = nothing_visible || integrates_cells();
+    if ((!bounded && !slab_trial) || !rounding_bound) return {};
+    const double value = found_error() + *rounding_bound;
+    // A figure of full scale says nothing.
+    if (value >= 255) return {};
+    if (bounded) return {ErrorKind::derived, value, 0};
+    return {ErrorKind::trials, value, slab_trial->rays};
+}
+
+ErrorFigure Plan::error() const {
+    switch (method) {
+        case Method::slice:
+            return slice.error();
+        case Method::project:
+            return project.error;
+        case Method::trace:
+            return {};
+    }
+    unreachable_enum();
+}
 
 SlicePlan without_remarks(SlicePlan plan) {
     plan.slab_trial.reset();

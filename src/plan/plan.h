@@ -11,6 +11,7 @@
 #include "compositing/dither.h"
 #include "facts/facts.h"
 #include "facts/mesh_facts.h"
+#include "lamina/error_figure.h"
 #include "lamina/scene.h"
 #include "plan/capabilities.h"
 #include "plan/classification_choice.h"
@@ -106,13 +107,8 @@ struct SlicePlan : CompositingPlan {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // With the bound on roundings, where both are known: nothing was measured of slabs that the
-    // scene states.
-    std::optional<double> expected_error() const {
-        const bool measured = nothing_visible || integrates_cells() || slab_trial.has_value();
-        if (!measured || !rounding_bound) return {};
-        return found_error() + *rounding_bound;
-    }
+    // With the bound on roundings. Nothing was measured of slabs that the scene states.
+    ErrorFigure error() const;
     bool has_tree(NodeArithmetic nodes) const { return tree && tree->nodes == nodes; }
     bool ends_early() const { return opaque_depth < std::numeric_limits<double>::infinity(); }
     // Whether segments are integrated from the scalars at both ends and in the middle. Otherwise
@@ -143,6 +139,9 @@ struct Plan {
     ProjectPlan project;  // for Method::project
     Work work;            // predicted work of a frame
     std::vector<Omission> omitted;
+
+    // The picture's error; unknown of Method::trace, which estimates its own.
+    ErrorFigure error() const;
 };
 
 // Throws Error where the context cannot do what the scene asks for, and names the limit. `trials`:

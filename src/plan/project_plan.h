@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "facts/mesh_facts.h"
+#include "lamina/error_figure.h"
 #include "lamina/lighting.h"
 #include "lamina/project_settings.h"
 #include "optics/segment_table.h"
@@ -35,6 +38,8 @@ struct ProjectPlan : CompositingPlan {
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
     OrderMethod visibility = OrderMethod::exact;
+    // Tets that hide one another in rings are ordered pixel by pixel (visibility/ring_order.h).
+    bool solve_rings = false;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
     std::uint32_t seed = 1;     // of dithering and stochastic rounding
@@ -55,8 +60,8 @@ struct ProjectPlan : CompositingPlan {
     bool windowed = false;
     SegmentTableRequest table;  // for SegmentSource::table
     TablePlan aligned;          // for SegmentSource::cut_table
-    double segment_error = 0;   // measured on rays of the view, in 1/255
-    std::string segment_reason;
+    MeshFacts::TrialError trial_error;
+    ErrorFigure error;                 // of the picture
     std::optional<Lighting> lighting;  // what is drawn lit has its smallest gradient
     // Runs along which light bends by more are cut.
     double most_bend = 0;
@@ -64,18 +69,6 @@ struct ProjectPlan : CompositingPlan {
 
     // Whether the program, not the blending unit, rounds opacity to codes.
     bool in_codes() const { return emulation.has_value() || dither != ProjectDither::none; }
-
-    // In 1/255, where tets are integrated, sorted and composited as they should be.
-    std::optional<double> expected_error(const ProjectSettings& settings) const {
-        const bool integrated = source != SegmentSource::mean && source != SegmentSource::vertices;
-        const bool straight = (orthographic || interpolation == Interpolation::perspective) &&
-                              thickness == Thickness::exact;
-        const bool sorted = settings.order == ProjectOrder::automatic ||
-                            settings.order == ProjectOrder::exact || single_color;
-        if (!integrated || !straight || !sorted || target != Target::float32 || !tree.empty())
-            return {};
-        return segment_error + light_error;
-    }
 
     friend bool operator==(const ProjectPlan&, const ProjectPlan&) = default;
 };

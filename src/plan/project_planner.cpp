@@ -18,6 +18,7 @@
 #include "optics/opacity.h"
 #include "optics/preintegration_table.h"
 #include "plan/light_choice.h"
+#include "plan/scalar_window.h"
 #include "plan/tree_check.h"
 #include "scene/coloring.h"
 
@@ -27,6 +28,18 @@ namespace {
 // Scene files have no near plane: it is the eye's plane, moved by so much of the mesh's diagonal
 // (docs/numerics.md, section 7).
 constexpr double near_share = 1e-6;
+
+// What float32 arithmetic adds to the error of a picture, in 1/255: the same as for exact segments
+// of volumes (plan/classification_choice.h).
+constexpr double float_error = 0.05;
+
+// By this share of a tet's longest edge faces are taken to be out of their places, at both ends of
+// a run. The bound is 9e-6 (docs/stability.md); planes of doubles relative to a near pixel keep
+// most faces far below it.
+constexpr double placing_share = 1e-6;
+
+// A figure of more, in 1/255, is no figure: few rays tell little of pictures that are so far off.
+constexpr double most_figure = 64;
 
 // What a table may add to the picture's error, in 1/255.
 constexpr double most_segment_error = 0.5;
@@ -40,14 +53,6 @@ constexpr std::int64_t most_parts = 8;
 
 // Of a transfer function: with more, a table takes longer to build than it saves.
 constexpr std::size_t most_table_points = 200;
-
-// Scalars are normalised to the window of what shows if the whole range is so many times as wide:
-// below, no more than 3 of float32's 24 bits are at stake.
-constexpr double least_narrowing = 8;
-
-// Tets are cut into parts, however many, if the whole range is so many times as wide as most pieces
-// of the transfer function and no window holds these: float32 would have 1e-3 of a piece.
-constexpr double narrow_pieces = 0x1p12;
 
 // Of fewer tets one may fill the picture, and a face of it be met at a grazing angle by many rays:
 // their faces are always found in double, which takes some third longer.
@@ -86,6 +91,7 @@ class ProjectPlanner {
         choose_source();
         // Leaves take so many parts each: there, more parts would be another picture.
         if (plan_.source == SegmentSource::parts && settings_.tree) plan_.draw_transparent = false;
+        plan_.error = picture_error();
         return std::move(plan_);
     }
 
@@ -166,6 +172,11 @@ class ProjectPlanner {
                 break;
         }
         const bool asked = settings_.order == ProjectOrder::automatic;
+        // Other orders are there to be studied, with what they get wrong. `mpvo` of a convex mesh
+        // is what `auto` takes.
+        plan_.solve_rings =
+            asked || settings_.order == ProjectOrder::exact ||
+            (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
         if (asked && scene_.target == Target::float32 && !scene_.lighting &&
             leave_out(
                 facts_.single_color, "order",
@@ -215,21 +226,45 @@ class ProjectPlanner {
         }
     }
 
+    // Nothing was measured of what is drawn wrong on purpose, to be studied; nor is there a right
+    // picture of tets that overlap.
+    ErrorFigure picture_error() const {
+        if (plan_.nothing_visible) return {ErrorKind::derived, 0, 0};
+        const bool integrated =
+            plan_.source != SegmentSource::mean && plan_.source != SegmentSource::vertices;
+        const bool straight =
+            (plan_.orthographic || plan_.interpolation == Interpolation::perspective) &&
+            plan_.thickness == Thickness::exact;
+        const bool sorted = settings_.order == ProjectOrder::automatic ||
+                            settings_.order == ProjectOrder::exact || plan_.single_color;
+        const bool stored = plan_.target == Target::float32 && plan_.tree.empty();
+        if (!integrated || !straight || !sorted || !stored || facts_.overlapping_tets > 0)
+            return {};
+        const MeshFacts::TrialError& found = plan_.trial_error;
+        // A picture is linear in its colours.
+        const double brightest = std::max(largest_drawn_color(scene_, facts_.max_color), 1.0);
+        const double value = brightest * float_error + sampling_margin * found.segments +
+                             found.places + plan_.light_error;
+        if (value > most_figure) return {};
+        return {ErrorKind::sampled, value, found.rays};
+    }
+
     void choose_integral() {
         if (leave_out(facts_.constant && facts_.non_finite == 0 && !scene_.lighting, "scalars",
                       "the transfer function is constant over the mesh: opacity has a "
                       "closed form of the length alone")) {
             plan_.source = SegmentSource::constant;
+            plan_.trial_error = error_of(exact_integral());
         } else if (settings_.coloring == Coloring::analytic) {
             take_window();
             plan_.source = SegmentSource::analytic;
+            plan_.trial_error = error_of(exact_integral());
         } else if (plan_.nothing_visible) {
             return;
         } else if (settings_.table) {
             take_window();
             plan_.table = request_of(*settings_.table);
-            plan_.segment_error = error_of(plan_.table);
-            plan_.segment_reason = "as the scene asks";
+            plan_.trial_error = error_of(plan_.table);
         } else {
             choose_table();
         }
@@ -249,64 +284,61 @@ class ProjectPlanner {
     }
 
     // Normalises scalars to the window of what shows, if that is far narrower than the range of the
-    // data (docs/precision.md, "Meshes").
+    // data (docs/precision.md, "Exact segments").
     void take_window() {
-        const double width = facts_.window.hi - facts_.window.lo;
-        plan_.windowed = (drawn_.hi - drawn_.lo) / least_narrowing > width;
+        plan_.windowed = is_far_narrower(facts_.window, drawn_);
         if (plan_.windowed) plan_.range = facts_.window;
-    }
-
-    // Whether tets have to be cut at the transfer function's points, because no other way keeps the
-    // scalar's digits: something shows at a value far from the others, and most pieces are narrow.
-    bool needs_parts() const {
-        std::vector<double> widths;
-        for_each_linear_piece(scene_.transfer_function.knots(), drawn_.lo, drawn_.hi,
-                              [&](const LinearPiece& piece) {
-                                  if (piece.at_from.extinction > 0 || piece.at_to.extinction > 0)
-                                      widths.push_back(piece.to - piece.from);
-                              });
-        if (widths.empty()) return false;
-        const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-        std::ranges::nth_element(widths, middle);
-        return *middle * narrow_pieces < drawn_.hi - drawn_.lo;
     }
 
     // The exact integral of a run whose length is in the plan's units.
     using Lookup = std::function<SegmentIntegral(const MeshFacts::Run&)>;
 
-    // In 1/255: the largest difference in colour or opacity that a way of integrating tets makes on
-    // the trial rays.
-    double error_of(const Lookup& lookup) const {
-        std::vector<double> errors(facts_.trial_rays.size());
+    Lookup exact_integral() const {
+        return [this](const MeshFacts::Run& run) {
+            return integrate_segment(*transfer_function_, run.front, run.back, run.length);
+        };
+    }
+
+    // In 1/255, on the trial rays: the largest difference in colour or opacity that a way of
+    // integrating tets makes, and how much more it is if faces are not quite in their places.
+    // Without rays it is what was found last.
+    MeshFacts::TrialError error_of(const Lookup& lookup) const {
+        if (facts_.trial_rays.empty()) return facts_.last_error;
+        struct OfRay {
+            double segments = 0, both = 0;
+        };
+        std::vector<OfRay> errors(facts_.trial_rays.size());
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
             const auto ray = static_cast<std::size_t>(index);
-            glm::dvec4 exact(0), found(0);
+            glm::dvec4 exact(0), found(0), moved(0);
+            double sign = 1;
             for (MeshFacts::Run run : facts_.trial_rays[ray]) {
                 run.length *= plan_.unit;
                 append(exact,
                        integrate_segment(*transfer_function_, run.front, run.back, run.length));
-                for_each_run_of_window(
-                    run, [&](const MeshFacts::Run& part) { append(found, lookup(part)); });
+                for_each_run_of_window(run, plan_.range, [&](const MeshFacts::Run& part) {
+                    append(found, lookup(part));
+                });
+                const double change = sign * 2 * placing_share * run.edge * plan_.unit;
+                append(moved, integrate_segment(*transfer_function_, run.front, run.back,
+                                                std::max(run.length + change, 0.0)));
+                sign = -sign;
             }
-            for (int channel = 0; channel < 4; ++channel)
-                errors[ray] = std::max(errors[ray], std::abs(exact[channel] - found[channel]));
+            errors[ray] = {largest_of(exact - found), 0};
+            errors[ray].both = errors[ray].segments + largest_of(exact - moved);
         });
-        return errors.empty() ? 0 : 255 * *std::ranges::max_element(errors);
+        MeshFacts::TrialError largest{0, 0, std::ssize(errors)};
+        double both = 0;
+        for (const OfRay& error : errors) {
+            largest.segments = std::max(largest.segments, 255 * error.segments);
+            both = std::max(both, 255 * error.both);
+        }
+        largest.places = std::max(both - largest.segments, 0.0);
+        return largest;
     }
 
-    // Calls visit() with the parts of a run before the window, within it and behind it, as they are
-    // drawn if the plan has one; their scalars lie in it.
-    template <typename Visit>
-    void for_each_run_of_window(const MeshFacts::Run& run, const Visit& visit) const {
-        const auto& [lo, hi] = plan_.range;
-        const double in = std::clamp(run.front, lo, hi), out = std::clamp(run.back, lo, hi);
-        if (!plan_.windowed || in == out) return visit(MeshFacts::Run{in, out, run.length});
-        const auto length = [&](double from, double to) {
-            return run.length * ((to - from) / (run.back - run.front));
-        };
-        if (in != run.front) visit(MeshFacts::Run{in, in, length(run.front, in)});
-        visit(MeshFacts::Run{in, out, length(in, out)});
-        if (out != run.back) visit(MeshFacts::Run{out, out, length(out, run.back)});
+    static double largest_of(const glm::dvec4& v) {
+        return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), std::abs(v.w)});
     }
 
     // Puts a segment behind what a ray has met.
@@ -314,7 +346,7 @@ class ProjectPlanner {
         sum += (1 - sum.a) * glm::dvec4(segment.color, segment.alpha);
     }
 
-    double error_of(const SegmentTableRequest& wanted) const {
+    MeshFacts::TrialError error_of(const SegmentTableRequest& wanted) const {
         const auto table = segment_table(*transfer_function_, wanted);
         return error_of([&](const MeshFacts::Run& run) {
             return table->lookup(run.front, run.back, run.length);
@@ -323,20 +355,21 @@ class ProjectPlanner {
 
     void choose_table() {
         const bool whole = plan_.geometry == ProjectGeometry::triangles;
-        plan_.segment_reason = fmt::format("at most on {} rays of this view and tets of this mesh",
-                                           facts_.trial_rays.size());
         take_window();
         const bool few = facts_.parts <= most_parts * (facts_.tets - facts_.transparent_tets);
-        const bool cut = plan_.windowed ? few && facts_.far_tets == 0 : few || needs_parts();
+        const bool narrow = has_narrow_pieces(scene_.transfer_function, drawn_);
+        const bool cut = plan_.windowed ? few && facts_.far_tets == 0 : few || narrow;
         if (!whole && cut) {
             plan_.windowed = false;
             plan_.range = drawn_;
             plan_.source = SegmentSource::parts;
-            plan_.segment_error = plan_.single_color ? 0 : error_of_parts();
+            plan_.trial_error =
+                error_of(plan_.single_color ? exact_integral() : integral_of_parts());
         } else if (plan_.plain && !scene_.lighting && try_cut_table()) {
             plan_.source = SegmentSource::cut_table;
         } else {
             plan_.source = SegmentSource::analytic;  // slower, and right whatever the scene
+            plan_.trial_error = error_of(exact_integral());
         }
     }
 
@@ -348,14 +381,14 @@ class ProjectPlanner {
         const int layers = static_cast<int>(std::clamp(std::ceil(depth) + 1, 2.0, 9.0));
         plan_.aligned = {256, plan_.single_color ? 1 : layers, facts_.longest_edge * plan_.unit,
                          !plan_.single_color};
-        plan_.segment_error = error_of_aligned();
-        return plan_.segment_error <=
+        plan_.trial_error = error_of_aligned();
+        return plan_.trial_error.segments <=
                std::min(most_segment_error, scene_.max_error / 2) / sampling_margin;
     }
 
-    double error_of_parts() const {
-        const FrontWeightTable& weights = FrontWeightTable::get();
-        return error_of([&](const MeshFacts::Run& run) {
+    // As parts of tets are drawn (projection/tet_color-inl.h).
+    Lookup integral_of_parts() const {
+        return [this, &weights = FrontWeightTable::get()](const MeshFacts::Run& run) {
             SegmentIntegral segment;
             for_each_linear_piece(
                 transfer_function_->knots(), run.front, run.back, [&](const LinearPiece& piece) {
@@ -373,10 +406,10 @@ class ProjectPlanner {
                     segment.alpha += (1 - segment.alpha) * alpha;
                 });
             return segment;
-        });
+        };
     }
 
-    double error_of_aligned() const {
+    MeshFacts::TrialError error_of_aligned() const {
         const auto table = preintegration_table(*transfer_function_, request_of(plan_.aligned));
         return error_of([&](const MeshFacts::Run& run) {
             return table->lookup(run.front, run.back, run.length);
@@ -403,8 +436,8 @@ class ProjectPlanner {
 
 ProjectPlan without_remarks(ProjectPlan plan) {
     plan.target_reason.clear();
-    plan.segment_error = 0;
-    plan.segment_reason.clear();
+    plan.trial_error = {};
+    plan.error = {};
     return plan;
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/project_drawing.h"
 
+#include <fmt/format.h>
+
 #include "base/unreachable.h"
+#include "base/warning.h"
 #include "projection/project_renderer.h"
 #include "scene/clipped_mesh.h"
 
@@ -30,6 +33,7 @@ void ProjectDrawing::clip_mesh(const Scene& scene) {
     clip_ = scene.clip;
     lit_ = lit;
     mesh_ = clipped_mesh(whole_, clip_, lit, name_of_mesh(scene));
+    overlapping_tets_.reset();
     clipped_away_ = mesh_ == nullptr;
     if (clipped_away_) mesh_ = whole_;
 }
@@ -38,6 +42,23 @@ void ProjectDrawing::measure_data(const Scene& scene) {
     clip_mesh(scene);
     facts_ = lamina::measure_data(scene, *mesh_);
     facts_.clipped_away = clipped_away_;
+    measure_overlap(scene);
+}
+
+// Orders but these two are there to be studied, with what they get wrong.
+void ProjectDrawing::measure_overlap(const Scene& scene) {
+    const ProjectOrder order = scene.project.order;
+    if (order != ProjectOrder::automatic && order != ProjectOrder::exact) return;
+    if (!overlapping_tets_) {
+        overlapping_tets_ = lamina::measure_overlap(*mesh_, facts_.convexity);
+        if (*overlapping_tets_ > 0) {
+            warn(
+                fmt::format("{}: {} tets overlap others: these have no right order, and the error "
+                            "of a picture is unknown where a ray meets them",
+                            name_of_mesh(scene), *overlapping_tets_));
+        }
+    }
+    facts_.overlapping_tets = *overlapping_tets_;
 }
 
 // Trial rays choose between a table whose nodes lie on the transfer function's points and
@@ -49,6 +70,7 @@ void ProjectDrawing::measure_view(const Scene& scene, const Plan* planned) {
                          planned->project.source != SegmentSource::cut_table;
     if (settled) {
         facts_.trial_rays.clear();
+        facts_.last_error = planned->project.trial_error;
     } else {
         measure_rays(scene, *mesh_, facts_);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "facts/mesh_facts.h"
@@ -28,12 +29,14 @@ class ProjectDrawing : public Drawing {
 
   private:
     void clip_mesh(const Scene& scene);
+    void measure_overlap(const Scene& scene);
 
     std::shared_ptr<const SceneMesh> whole_;
     std::shared_ptr<const SceneMesh> mesh_;  // what the clip leaves; where that is nothing, whole_
     Clip clip_;
     bool lit_ = false;
     bool clipped_away_ = false;
+    std::optional<std::int64_t> overlapping_tets_;  // of mesh_, once they are counted
     MeshFacts facts_;
 };
 

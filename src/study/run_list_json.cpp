@@ -84,6 +84,10 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
     }
     try {
         RunList list;
+        for (const char* const key : {"title", "rounds", "frames", "scenes", "swept", "baselines",
+                                      "dropped", "data", "runs", "study"}) {
+            if (!document.contains(key)) fail("it has no \"{}\"", key);
+        }
         document.at("title").get_to(list.title);
         document.at("rounds").get_to(list.rounds);
         document.at("frames").get_to(list.frames);

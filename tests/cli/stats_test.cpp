@@ -82,7 +82,7 @@ TEST_F(Stats, EveryKeyThatIsWrittenIsDocumented) {
     add_render({"render.trace.of=mesh"}, {"--method", "trace"});
     // These would be missed only if the runs above lost their point.
     for (const char* key :
-         {"slab_error", "tree", "emulate", "dither", "table", "upload", "order", "error_estimate",
+         {"kind", "rays", "tree", "emulate", "dither", "table", "upload", "order", "error_estimate",
           "mesh_error", "boundary_tree", "cycles", "kept_views"})
         EXPECT_TRUE(keys.contains(key)) << key;
     const std::set<std::string> known = documented();

@@ -56,7 +56,7 @@ void check_slicing(const SlicePlan& plan) {
 
 void check_projection(const ProjectPlan& plan) {
     require_finite(plan.near_depth, "the near plane");
-    require_finite(plan.segment_error, "the error of segments");
+    require_finite(plan.trial_error.segments, "the error of segments");
     require(plan.nothing_visible || plan.range.lo < plan.range.hi, "an empty range");
     require_finite(plan.table.max_length, "the table's length");
     require_finite(plan.aligned.max_length, "the table's length");

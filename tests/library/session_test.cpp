@@ -49,9 +49,9 @@ TEST(Session, DrawsAVolumeInMemoryWithoutACopy) {
     EXPECT_LE(error_of(picture, session.trace()).linf, .053);
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
     EXPECT_EQ(session.plan().slabs, 1);
-    EXPECT_EQ(session.plan().error, .05);
-    EXPECT_GT(session.plan().expected_error.value(), .05);  // roundings come on top
-    EXPECT_LT(session.plan().expected_error.value(), .06);
+    EXPECT_EQ(session.plan().error.kind, ErrorKind::derived);
+    EXPECT_GT(session.plan().error.value, .05);  // roundings come on top
+    EXPECT_LT(session.plan().error.value, .06);
     EXPECT_NE(session.explanation().find("slabs"), std::string::npos);
     EXPECT_EQ(session.statistics().drawn_by.substr(0, 4), "cpu:");
     EXPECT_TRUE(session.take_warnings().empty());
@@ -66,10 +66,11 @@ TEST(Session, SaysWhatErrorIsExpectedWhereThatIsKnown) {
     const auto expected = [&] {
         Session session(scene, volume, native);
         const PlanSummary plan = session.plan();
-        if (plan.expected_error) {
-            EXPECT_LE(error_of(session.draw(), session.trace()).linf, *plan.expected_error);
+        const std::optional<double> error = plan.error.known();
+        if (error) {
+            EXPECT_LE(error_of(session.draw(), session.trace()).linf, *error);
         }
-        return plan.expected_error;
+        return error;
     };
     const double blended = expected().value();
     scene.slice.tree = TreeSettings{.factors = {8, 8}};
@@ -100,10 +101,10 @@ TEST(Session, DrawsAMeshInMemory) {
     // Opacity in closed form, colour by weights good to 1 / 255 in all but rounding.
     EXPECT_LE(error_of(picture, session.trace()).linf, 1);
     EXPECT_GT(error_of(picture, PreciseImage(50, 40)).linf, 20);
-    EXPECT_LE(session.plan().expected_error.value(), 1);
+    EXPECT_LE(session.plan().error.known().value(), 1);
     scene.project.interpolation = Interpolation::linear;
     session.set_scene(scene);
-    EXPECT_FALSE(session.plan().expected_error);
+    EXPECT_FALSE(session.plan().error.known());
 }
 
 TEST(Session, ClipsAreSetAndTakenBack) {

@@ -91,15 +91,15 @@ TEST_P(Markers, CostNoDigitsOfTables) {
     const ProjectPlan plan = plan_of(mesh, scene, capabilities()).project;
     EXPECT_TRUE(plan.windowed);
     // The table is tried on rays of the picture and tets of the mesh, which are a sample.
-    EXPECT_LE(error(mesh, scene), 1.5 * plan.segment_error + promised);
+    EXPECT_LE(error(mesh, scene), 1.5 * plan.trial_error.segments + promised);
 }
 
 // The window has no width of its own if nothing but a step shows.
 TEST_P(Markers, LeaveStepsWhereTheyAre) {
     for (const double marker : {-9999., 9.97e36}) {
         const SceneMesh mesh = marked_mesh(marker, 100);
-        const auto step = TransferFunction::linear(
-            {knot(.5, {1, .5, 0}, 0), knot(.5, {1, .5, 0}, 2), knot(.5, {1, .5, 0}, 2)});
+        const auto step =
+            TransferFunction::linear({knot(.5, {1, .5, 0}, 0), knot(.5, {1, .5, 0}, 2)});
         EXPECT_LE(error(mesh, marked_scene(step)), promised) << marker;
     }
 }

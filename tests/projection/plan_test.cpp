@@ -40,13 +40,14 @@ TEST(ProjectPlan, UsesWhatTheTransferFunctionNeeds) {
     const Plan single =
         plan_for(TransferFunction::linear({knot(0, {1, 0, 0}, .2), knot(1, {1, 0, 0}, .9)}));
     EXPECT_EQ(single.project.source, SegmentSource::parts);
-    EXPECT_EQ(single.project.segment_error, 0);
+    EXPECT_EQ(single.project.trial_error.segments, 0);
     EXPECT_TRUE(leaves_out(single, "color"));
     const Plan both = plan_for(colored);
     EXPECT_EQ(both.project.source, SegmentSource::parts);
     EXPECT_EQ(both.project.visibility, OrderMethod::mpvo);  // a box is convex
-    EXPECT_GT(both.project.segment_error, 0);
-    EXPECT_LE(both.project.segment_error, .008);  // 3e-5 of the weights, times the change of colour
+    EXPECT_GT(both.project.trial_error.segments, 0);
+    EXPECT_LE(both.project.trial_error.segments,
+              .008);  // 3e-5 of the weights, times the change of colour
     const Plan hidden = plan_for(TransferFunction::linear({knot(0, {1, 1, 1}, 0)}));
     EXPECT_TRUE(hidden.project.nothing_visible);
 }
@@ -68,7 +69,7 @@ TEST(ProjectPlan, ManyPointsAndTrianglesUseTables) {
     capabilities.max_texture_size = 1024;
     const Plan many = plan_of(large, wanted, capabilities);
     EXPECT_EQ(many.project.source, SegmentSource::cut_table);
-    EXPECT_LE(many.project.segment_error, .4);  // .5 less what sampling may miss
+    EXPECT_LE(many.project.trial_error.segments, .4);  // .5 less what sampling may miss
     const Plan triangles = plan_for(
         colored, [](Scene& scene) { scene.project.geometry = ProjectGeometry::triangles; });
     EXPECT_EQ(triangles.project.source, SegmentSource::cut_table);

@@ -229,7 +229,7 @@ TEST(LinearOpacity, ProjectedTetsIntegrateIt) {
         SceneRenderer frames(scene_of(given, Method::project), mesh(), tile_capabilities());
         // Beside what the plan claims, weights of coloured parts are polynomials, good to 3e-5, and
         // sums of tens of fragments are rounded to float32.
-        const double claimed = frames.plan().project.segment_error / 255 + 3e-5 + 1e-5;
+        const double claimed = frames.plan().project.trial_error.segments / 255 + 3e-5 + 1e-5;
         expect_near(frames.draw_picture(), given, claimed, "projected");
     }
 }

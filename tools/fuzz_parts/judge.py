@@ -220,8 +220,8 @@ class Judge:
         by = f" by {plan['slabs']} slabs"
         table = plan.get("table", {}) if straight else {}
         # Tables hold opacity exactly, and colour as well as is found on some rays, which is no bound.
-        if "error" in table:
-            self.check("table", error.max(1), bound + 1.5 * table["error"] / 255, by)
+        if "off_on_trial_rays" in table:
+            self.check("table", error.max(1), bound + 1.5 * table["off_on_trial_rays"] / 255, by)
         self.check("straight" if straight else "slabs", error[:, 3] if table else error.max(1), bound, by)
 
     def codes(self, drawn, plan, rounding):
@@ -267,7 +267,12 @@ class Judge:
                     and drawn.stats["counts"]["pairs_in_wrong_order"] == 0)
         if not promised:
             return
-        claimed = plan.get("weight_error", plan.get("table", {}).get("error", 0)) / 255
+        figure = drawn.stats["error"]
+        if figure["kind"] == "unknown":  # the scene says something that nothing was measured of, or tets overlap
+            return
+        claimed = figure["value"] / 255
+        self.check("figure", numpy.abs(drawn.picture - traced).max(2), claimed + 1e-7,
+                   f" by {plan['source']}, {plan['geometry']}, {figure['kind']} on {figure.get('rays', 0)} rays")
         if plan["source"] == "table":
             claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
         # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).

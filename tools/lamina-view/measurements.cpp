@@ -44,6 +44,7 @@ void Measurements::start() {
 
 std::string Measurements::text(const std::string& name, const Shown& shown) const {
     const double seconds = now_seconds() - seconds_;
+    const std::optional<double> expected = shown.plan.error.known();
     const nlohmann::ordered_json line = {
         {"name", name},
         {"seconds", seconds},
@@ -53,8 +54,7 @@ std::string Measurements::text(const std::string& name, const Shown& shown) cons
         {"share_traced", shown.share_traced},
         {"linf", shown.error.linf},
         {"l2", shown.error.l2},
-        {"expected", shown.plan.expected_error ? nlohmann::ordered_json(*shown.plan.expected_error)
-                                               : nlohmann::ordered_json()}};
+        {"expected", expected ? nlohmann::ordered_json(*expected) : nlohmann::ordered_json()}};
     return line.dump();
 }
 

@@ -19,8 +19,7 @@ std::string in_255ths(double error) {
 }
 
 std::string expected_text(const PlanSummary& plan) {
-    if (!plan.expected_error) return {};
-    return fmt::format(", expected at most {}", in_255ths(*plan.expected_error));
+    return ", error " + text_of(plan.error);
 }
 
 }  // namespace

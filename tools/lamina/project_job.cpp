@@ -31,7 +31,7 @@ class ProjectMethod : public FrameMethod {
         stats.counts["cycles"] = order.cycles;
         stats.counts["cyclic_tets"] = order.cyclic_tets;
         stats.counts["pairs_in_wrong_order"] = order.broken;
-        if (order.cycles > 0) {
+        if (order.broken > 0) {
             request_.message(fmt::format(
                 "{} tets hide one another in {} rings: {} pairs are drawn in the wrong order",
                 order.cyclic_tets, order.cycles, order.broken));

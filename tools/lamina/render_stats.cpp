@@ -51,7 +51,6 @@ Json project_to_json(const ProjectPlan& project) {
                         {"nodes", name_of(NodeArithmetic::fixed)},
                         {"scattered", project.scattered}};
     }
-    if (project.source == SegmentSource::parts) json["weight_error"] = project.segment_error;
     if (project.source == SegmentSource::table) {
         const SegmentTableRequest& table = project.table;
         json["table"] = {{"scalars", table.scalar_nodes},
@@ -59,13 +58,11 @@ Json project_to_json(const ProjectPlan& project) {
                          {"mapping", name_of(table.mapping)},
                          {"store", name_of(table.store)},
                          {"format", name_of(table.format)},
-                         {"colored", table.colored},
-                         {"error", project.segment_error}};
+                         {"colored", table.colored}};
     } else if (project.source == SegmentSource::cut_table) {
         json["table"] = {{"scalars", project.aligned.scalar_nodes},
                          {"lengths", project.aligned.length_layers},
-                         {"colored", project.aligned.colored},
-                         {"error", project.segment_error}};
+                         {"colored", project.aligned.colored}};
     }
     return json;
 }
@@ -74,7 +71,6 @@ Json slice_to_json(const SlicePlan& slice) {
     Json json{{"method", name_of(Method::slice)}};
     json["target"] = name_of(slice.target);
     json["slabs"] = slice.slabs;
-    if (slice.slab_trial) json["slab_error"] = slice.slab_trial->error;
     json["classification"] = name_of(slice.classification);
     json["order"] = name_of(slice.order);
     json["sampling"] = word_of(slice.sampling);
@@ -98,7 +94,7 @@ Json slice_to_json(const SlicePlan& slice) {
         json["table"] = {{"scalars", slice.table.scalar_nodes},
                          {"lengths", slice.table.length_layers},
                          {"colored", slice.table.colored},
-                         {"error", slice.table.error}};
+                         {"off_on_trial_rays", slice.table.error}};
     }
     return json;
 }
@@ -116,6 +112,13 @@ Json actual_work(const RenderStats& stats, const Plan& plan) {
     if (plan.method == Method::project) json["tets_drawn"] = stats.tets_drawn;
     if (plan.method != Method::trace)
         json["bytes"] = stats.on_tiles ? stats.bytes_host : stats.bytes_gpu;
+    return json;
+}
+
+Json to_json(const ErrorFigure& error) {
+    Json json{{"kind", name_of(error.kind)}, {"value", nullptr}};
+    if (const auto known = error.known()) json["value"] = *known;
+    if (error.rays > 0) json["rays"] = error.rays;
     return json;
 }
 
@@ -163,6 +166,7 @@ nlohmann::ordered_json to_json(const RenderStats& stats, const Plan& plan) {
     json["peak_rss_mb"] = static_cast<double>(peak_resident_memory()) / (1 << 20);
     json["context"] = stats.context;
     json["plan"] = plan_to_json(plan);
+    if (plan.method != Method::trace) json["error"] = to_json(plan.error());
     json["omitted"] = Json::array();
     for (const Omission& omission : plan.omitted) {
         json["omitted"].push_back({{"name", omission.name},

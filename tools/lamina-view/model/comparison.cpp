@@ -21,7 +21,7 @@ void Comparison::pin(const Scene& scene, const Shown& shown) {
                                                             .picture = shown.full,
                                                             .screen = shown.full_screen,
                                                             .statistics = shown.statistics,
-                                                            .expected = shown.plan.expected_error});
+                                                            .expected = shown.plan.error.known()});
 }
 
 void Comparison::unpin() {

@@ -19,8 +19,7 @@ void PrecisionInSight::follow(const Document& document, const Shown& shown) {
     comparison.follow(shown);
     if (is_of(document, shown) && shown.full_revisions != recorded_) {
         recorded_ = shown.full_revisions;
-        attempts.add(document.scene(), *shown.resolved, shown.plan.expected_error,
-                     shown.statistics);
+        attempts.add(document.scene(), *shown.resolved, shown.plan.error.known(), shown.statistics);
     }
     if (shown.full_revisions == recorded_) attempts.measured(shown.share_traced, shown.error);
 }

@@ -26,12 +26,8 @@ ImVec4 text_color() {
 }
 
 void draw_expected(const Shown& shown) {
-    const std::optional<double>& expected = shown.plan.expected_error;
-    if (expected)
-        line("expected", fmt::format("at most {:.3g} / 255", *expected), text_color());
-    else
-        line("expected", "not known: the scene states a part of it that nothing was measured of",
-             theme::dim);
+    const ErrorFigure& expected = shown.plan.error;
+    line("expected", text_of(expected), expected.known() ? text_color() : theme::dim);
 }
 
 void draw_measured(const Shown& shown, double wanted) {

@@ -62,9 +62,7 @@ void PlanPanel::draw(PanelContext& context) {
     }
     fact("target", name_of(shown.plan.target));
     if (shown.plan.method == Method::slice) fact("slabs", std::to_string(shown.plan.slabs));
-    if (shown.plan.expected_error)
-        fact("expected error",
-             in_255ths(*shown.plan.expected_error) + " of " + in_255ths(scene.max_error));
+    fact("error", text_of(shown.plan.error));
     left_out(shown.plan);
     if (!shown.explanation.empty() &&
         ImGui::TreeNodeEx("Explanation", ImGuiTreeNodeFlags_SpanAvailWidth)) {

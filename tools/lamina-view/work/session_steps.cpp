@@ -257,7 +257,7 @@ void SessionSteps::draw_pinned(const std::stop_token& stop) {
         drawn->resolved = session_->resolved_scene();
         drawn->statistics = session_->statistics();
         drawn->expected =
-            drawn->scene.method == Method::trace ? std::nullopt : session_->plan().expected_error;
+            drawn->scene.method == Method::trace ? std::nullopt : session_->plan().error.known();
         session_->take_warnings();
         shown_.pinned = std::move(drawn);
     } catch (const Error& error) {
