@@ -18,8 +18,8 @@
 #include "gl/api.h"
 #include "gl/check.h"
 #include "projection/fan_geometry.h"
-#include "projection/ray_perturbation.h"
 #include "projection/silhouette_geometry.h"
+#include "scene/ray_perturbation.h"
 
 namespace lamina {
 namespace {
@@ -159,7 +159,8 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
     tets_drawn_ = 0;
     if (!stream_) return;
     Stage ordering("order");
-    const auto parts = parts_->sorted(*order_, eye_of(view), plan_.scattered);
+    const DrawOrder<TetPart> parts =
+        parts_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
     order_ms_ = ordering.end();
     Stage drawing("draw");
     for (auto& program : programs_) {
@@ -204,7 +205,7 @@ void GlProjectRenderer::set_light(gl::Program& program, const View& view) const 
                 glm::vec2(gradients_.smallest_square(*plan_.lighting), plan_.most_bend));
 }
 
-void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& view,
+void GlProjectRenderer::draw_parts(const DrawOrder<TetPart>& parts, const View& view,
                                    Progress* progress) {
     std::optional<FanGeometry> fans;
     std::optional<SilhouetteGeometry> silhouettes;
@@ -224,13 +225,13 @@ void GlProjectRenderer::draw_parts(std::span<const TetPart> parts, const View& v
     }
     stream_->start_frame();
     if (tree_) {
-        GlTetLeaves leaves(plan_, *stream_, geometry, parts, programs);
+        GlTetLeaves leaves(plan_, *stream_, geometry, parts, parts_->count(), programs);
         tree_->draw(leaves, target_, progress);
         tets_drawn_ = leaves.drawn();
         return;
     }
     const CompositingState state(plan_, false, target_);
-    tets_drawn_ = stream_->draw(geometry, parts, programs, [&] {
+    tets_drawn_ = stream_->draw(geometry, parts, target_.height(), programs, [&] {
         if (progress != nullptr) progress->advance();
     });
 }

@@ -69,7 +69,7 @@ class GlProjectRenderer : public ProjectRenderer {
     void make_tree();
     void set_view(gl::Program& program, const View& view) const;
     void set_light(gl::Program& program, const View& view) const;
-    void draw_parts(std::span<const TetPart> parts, const View& view, Progress* progress);
+    void draw_parts(const DrawOrder<TetPart>& parts, const View& view, Progress* progress);
 
     const SceneMesh& mesh_;
     TransferFunction transfer_function_;  // in the plan's units

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "executors/tree_leaves.h"
 #include "gl/program.h"
@@ -14,10 +13,11 @@ namespace lamina {
 // The tets of one frame, or their cell fragments, as the samples of a compositing tree.
 class GlTetLeaves : public TreeLeaves {
   public:
-    // `parts`: back to front. The programs must draw opacity alone (OPACITY_ONLY). All arguments
-    // must outlive it.
+    // `samples`: of the tree (parts_of_leaf). The programs must draw opacity alone (OPACITY_ONLY).
+    // All arguments must outlive it.
     GlTetLeaves(const CompositingPlan& plan, GlTetStream& stream, const TetGeometry& geometry,
-                std::span<const TetPart> parts, const GlTetStream::Programs& programs);
+                const DrawOrder<TetPart>& parts, std::int64_t samples,
+                const GlTetStream::Programs& programs);
 
     void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
     std::int64_t drawn() const { return drawn_; }
@@ -26,7 +26,8 @@ class GlTetLeaves : public TreeLeaves {
     const CompositingPlan& plan_;
     GlTetStream& stream_;
     const TetGeometry& geometry_;
-    std::span<const TetPart> parts_;
+    DrawOrder<TetPart> parts_;
+    std::int64_t samples_;
     const GlTetStream::Programs& programs_;
     std::int64_t drawn_ = 0;
 };

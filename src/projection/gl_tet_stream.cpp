@@ -31,6 +31,19 @@ const void* offset_of(std::size_t index) {
     return reinterpret_cast<const void*>(index * sizeof(std::uint32_t));
 }
 
+// Draws in these pixels alone; null: in all.
+void set_scissor(const PixelArea* pixels, int rows) {
+    const auto& api = gl::api();
+    if (pixels == nullptr) {
+        api.Disable(GL_SCISSOR_TEST);
+        return;
+    }
+    api.Enable(GL_SCISSOR_TEST);
+    api.Scissor(pixels->first_column, rows - 1 - pixels->last_row,
+                pixels->last_column - pixels->first_column + 1,
+                pixels->last_row - pixels->first_row + 1);
+}
+
 }  // namespace
 
 GlTetStream::GlTetStream(const TetGeometry::Size& size, std::span<const Attribute> attributes,
@@ -75,18 +88,24 @@ std::size_t GlTetStream::batch_count(std::size_t parts) const {
     return (parts + batch_parts_ - 1) / batch_parts_;
 }
 
-std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetPart> parts,
-                               const Programs& programs, const std::function<void()>& batch_done) {
+std::int64_t GlTetStream::draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts,
+                               int rows, const Programs& programs,
+                               const std::function<void()>& batch_done) {
+    const std::size_t count = parts.items.size();
     std::int64_t drawn = 0;
     std::int32_t last_tet = none;
-    for (std::size_t first = 0; first < parts.size(); first += batch_parts_) {
-        const auto batch_parts = parts.subspan(first, std::min(batch_parts_, parts.size() - first));
+    for (std::size_t first = 0; first < count; first += batch_parts_) {
+        const DrawOrder<TetPart> batch_order =
+            parts.part(first, std::min(batch_parts_, count - first));
+        const std::span<const TetPart> batch_parts = batch_order.items;
+        const bool one_by_one = barriers_ || !batch_order.limited.empty();
         Batch& batch = batches_[next_batch_++ % batches_.size()];
         Stage waiting("wait for buffer");
         batch.drawn.wait();
         waiting.end();
         Stage writing("geometry");
         writing.count("parts", static_cast<double>(batch_parts.size()));
+        part_indices_.assign(one_by_one ? batch_parts.size() : 0, 0);
         write(geometry, batch_parts, batch);
         write_ms_ += writing.end();
         for (std::size_t i = 0; i < chunks_of(batch_parts.size()); ++i) {
@@ -100,8 +119,8 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
         batch.vertex_array.bind();
         if (size_.has_record) batch.records.bind_storage(0);
         if (size_.has_gradient) batch.gradients.bind_storage(1);
-        if (barriers_) {
-            submit_with_barriers(batch_parts.size(), programs);
+        if (one_by_one) {
+            submit_one_by_one(batch_order, rows, programs);
         } else {
             submit(chunks_of(batch_parts.size()), programs);
         }
@@ -115,7 +134,6 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry, std::span<const TetP
 }
 
 void GlTetStream::write(const TetGeometry& geometry, std::span<const TetPart> parts, Batch& batch) {
-    if (barriers_) part_indices_.assign(parts.size(), 0);
     parallel_for(static_cast<std::int64_t>(chunks_of(parts.size())), 4, [&](std::int64_t chunk) {
         write_chunk(geometry, parts, static_cast<std::size_t>(chunk), batch);
     });
@@ -146,7 +164,7 @@ void GlTetStream::write_chunk(const TetGeometry& geometry, std::span<const TetPa
             if (chunk.first_tet == none) chunk.first_tet = parts[i].tet;
         }
         chunk.kind = std::max(chunk.kind, written.kind);
-        if (barriers_) part_indices_[i] = static_cast<int>(written.indices);
+        if (!part_indices_.empty()) part_indices_[i] = static_cast<int>(written.indices);
     }
     chunk.indices = static_cast<int>(index - first * size_.indices);
 }
@@ -173,19 +191,27 @@ void GlTetStream::submit(std::size_t chunks, const Programs& programs) {
     }
 }
 
-void GlTetStream::submit_with_barriers(std::size_t parts, const Programs& programs) const {
+void GlTetStream::submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
+                                    const Programs& programs) const {
+    const auto& api = gl::api();
+    const PixelArea* limit = nullptr;
     std::size_t index = 0;
-    for (std::size_t i = 0; i < parts; ++i) {
+    for (std::size_t i = 0; i < parts.items.size(); ++i) {
         if (i % chunk_parts == 0) {
             index = i * size_.indices;
             program_of(chunks_[i / chunk_parts], programs)->use();
         }
         const int count = part_indices_[i];
         if (count == 0) continue;
-        gl::api().DrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
-        gl::api().TextureBarrier();
+        if (const PixelArea* const pixels = parts.pixels(i); pixels != limit) {
+            limit = pixels;
+            set_scissor(limit, rows);
+        }
+        api.DrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
+        if (barriers_) api.TextureBarrier();
         index += static_cast<std::size_t>(count);
     }
+    if (limit != nullptr) set_scissor(nullptr, rows);
 }
 
 }  // namespace lamina

@@ -13,6 +13,7 @@
 #include "gl/timeline.h"
 #include "gl/vertex_array.h"
 #include "projection/tet_geometry.h"
+#include "visibility/draw_order.h"
 
 namespace lamina {
 
@@ -38,10 +39,10 @@ class GlTetStream {
 
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; several may be
                                                                 // the same program
-    // Draws cell fragments in their order with the state that is bound. Ctrl-C ends it between
-    // batches, and `batch_done` is called after each batch. Returns how many tets were drawn, that
-    // is, cover the centre of a pixel.
-    std::int64_t draw(const TetGeometry& geometry, std::span<const TetPart> parts,
+    // Draws cell fragments in their order with the state that is bound; the viewport is the
+    // picture. Ctrl-C ends it between batches, and `batch_done` is called after each batch. Returns
+    // how many tets were drawn, that is, cover the centre of a pixel. `rows`: of the picture.
+    std::int64_t draw(const TetGeometry& geometry, const DrawOrder<TetPart>& parts, int rows,
                       const Programs& programs, const std::function<void()>& batch_done);
 
     std::size_t batch_count(std::size_t parts) const;
@@ -70,7 +71,8 @@ class GlTetStream {
                      std::size_t number, const Batch& batch);
     static const gl::Program* program_of(const Chunk& chunk, const Programs& programs);
     void submit(std::size_t chunks, const Programs& programs);
-    void submit_with_barriers(std::size_t parts, const Programs& programs) const;
+    void submit_one_by_one(const DrawOrder<TetPart>& parts, int rows,
+                           const Programs& programs) const;
 
     TetGeometry::Size size_;
     bool barriers_ = false;
@@ -79,7 +81,8 @@ class GlTetStream {
     // Goes on from draw to draw, so that a draw of few tets need not wait.
     std::size_t next_batch_ = 0;
     std::vector<Chunk> chunks_;
-    // Number of indices of each cell fragment of the batch, for barriers.
+    // Number of indices of each cell fragment of the batch, if these are submitted one by one: with
+    // barriers between them, or if some are drawn in some pixels alone.
     std::vector<int> part_indices_;
     std::vector<int> counts_;  // number of indices of each chunk of one draw
     std::vector<const void*> offsets_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "projection/tet_record.h"
+#include "scene/pixel_area.h"
 #include "tiles/tile_grid.h"
 
 namespace lamina {
@@ -22,11 +23,6 @@ struct PartOutline {
     std::array<float, 4> at_first{none, none, none, none}, per_row{};
     // A bit for each bound that is a least column; the other bounds are greatest columns.
     std::uint8_t least = 0;
-};
-
-// The rectangle of pixels that a tet may cover, rows from the top of the picture.
-struct PixelArea {
-    std::int32_t first_column, last_column, first_row, last_row;
 };
 
 // The outline of a tet with 1 to 3 front faces whose depths are found in float32. `image_rows`:

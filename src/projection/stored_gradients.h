@@ -19,8 +19,9 @@ struct StoredGradients {
     // `gradients`: in scalar units per world unit. `smallest`: the light's smallest gradient.
     StoredGradients(std::span<const glm::dvec3> gradients, double smallest);
 
-    // Times `scale`, which makes usual ones at most as long as 1. Those around a value that marks
-    // missing data may be far longer: tets bring them down (scale_of_tet()).
+    // Times `scale`, which depends on the smallest gradient alone: usual ones are then far below 1.
+    // Those around a value that marks missing data may be longer: tets bring them down
+    // (scale_of_tet()).
     std::vector<glm::vec3> at_points;
     double scale = 1;  // a power of two
 
@@ -28,7 +29,8 @@ struct StoredGradients {
     static constexpr double most_of_tet = 0.5;
     // The factor for all gradients of a tet, of which `largest` is the largest component. Light
     // depends on directions, which stay. Lengths count where they are near the smallest gradient:
-    // in a tet that is scaled that is less than 1e-12 of it.
+    // in a tet that is scaled, with gradients of 2^38 of it and more, that is less than 1e-11 of
+    // the tet.
     static double scale_of_tet(double largest) {
         return largest > most_of_tet ? most_of_tet / largest : 1;
     }

@@ -26,6 +26,11 @@ class TriangleDrawing {
 
     void draw(const TriangleRecord& triangle, const PartArea& area) {
         const int rows_a_vector = static_cast<int>(hn::Lanes(d_)) / TileGrid::block;
+        const auto center = [&](int pixel)
+                                HWY_ATTR { return hn::Set(d_, static_cast<float>(pixel) + 0.5f); };
+        const Centers pixels{center(area.first_column), center(area.last_column),
+                             center(fragments_.image_rows - 1 - area.last_row),
+                             center(fragments_.image_rows - 1 - area.first_row)};
         for_each_block(blocks_of(area, tile_.area), [&](int column, int row_of_block) HWY_ATTR {
             const Vector columns = hn::Add(
                 lane_columns_, hn::Set(d_, static_cast<float>(tile_.area.column + column) + 0.5f));
@@ -34,7 +39,7 @@ class TriangleDrawing {
                 const float first =
                     static_cast<float>(fragments_.image_rows - tile_.area.row - row) - 0.5f;
                 const Vector rows = hn::Sub(hn::Set(d_, first), lane_rows_);
-                draw_at(triangle, columns, rows,
+                draw_at(triangle, pixels, columns, rows,
                         static_cast<std::size_t>(TileGrid::place(column, row)));
             }
         });
@@ -42,12 +47,19 @@ class TriangleDrawing {
     std::int64_t fragments() const { return count_; }
 
   private:
-    HWY_INLINE void draw_at(const TriangleRecord& triangle, Vector columns, Vector rows,
-                            std::size_t place) {
+    // Window coordinates of the first and last pixel centres of an area.
+    struct Centers {
+        Vector left, right, lowest, highest;
+    };
+    HWY_INLINE void draw_at(const TriangleRecord& triangle, const Centers& pixels, Vector columns,
+                            Vector rows, std::size_t place) {
         const auto weights = corner_weights_at(d_, triangle, columns, rows);
         if (!weights.any) return;
         const auto sum = hn::Add(weights.corner[0], hn::Add(weights.corner[1], weights.corner[2]));
-        const auto covered = hn::Gt(sum, hn::Zero(d_));
+        const auto in_columns =
+            hn::And(hn::Ge(columns, pixels.left), hn::Le(columns, pixels.right));
+        const auto in_rows = hn::And(hn::Ge(rows, pixels.lowest), hn::Le(rows, pixels.highest));
+        const auto covered = hn::And(hn::Gt(sum, hn::Zero(d_)), hn::And(in_columns, in_rows));
         count_ += static_cast<std::int64_t>(hn::CountTrue(d_, covered));
         const Fragment<Vector> color = color_of(triangle, weights, place);
         const Fragment<Vector> seen{

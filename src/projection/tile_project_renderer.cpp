@@ -12,7 +12,7 @@
 #include "base/stage.h"
 #include "executors/light_cuts.h"
 #include "facts/world_unit.h"
-#include "projection/ray_perturbation.h"
+#include "scene/ray_perturbation.h"
 
 namespace lamina {
 namespace {
@@ -122,8 +122,9 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     clear();
     if (!parts_) return;
     Stage ordering("order");
-    const auto parts = parts_->sorted(*order_, eye_of(view), plan_.scattered);
-    ordering.count("parts", static_cast<double>(parts.size()));
+    const DrawOrder<TetPart> parts =
+        parts_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
+    ordering.count("parts", static_cast<double>(parts.items.size()));
     order_ms_ = ordering.end();
     Stage drawing("draw");
     set_view(view);
@@ -144,17 +145,18 @@ void TileProjectRenderer::draw(const View& view, Progress* progress) {
     draw_ms_ = drawing.end();
 }
 
-void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
+void TileProjectRenderer::draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                                      TileTetTree::Node* leaf, Progress* progress) {
+    const std::size_t count = parts.items.size();
     const auto project_batch = [&](std::size_t batch) {
         const std::size_t first = batch * parts_a_batch();
-        if (first >= parts.size()) return;
+        if (first >= count) return;
         const Stage setting_up("set-up");
-        project(projectors, parts.subspan(first, std::min(parts_a_batch(), parts.size() - first)),
+        project(projectors, parts.part(first, std::min(parts_a_batch(), count - first)),
                 *batches_[batch % 2]);
     };
     project_batch(0);
-    for (std::size_t batch = 0; batch < batch_count(parts.size()); ++batch) {
+    for (std::size_t batch = 0; batch < batch_count(count); ++batch) {
         const TileBatch& projected = *batches_[batch % 2];
         count_tets(projected);
         parallel_invoke([&] { project_batch(batch + 1); }, [&] { draw(projected, leaf); });
@@ -163,14 +165,12 @@ void TileProjectRenderer::draw_parts(const Projectors& projectors, std::span<con
 }
 
 // The samples of a ray are the parts, the last one the farthest.
-void TileProjectRenderer::draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
+void TileProjectRenderer::draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                                     Progress* progress) {
     const auto draw_leaf = [&](const SampleSpan& span, double depth_scale,
                                TileTetTree::Node& leaf) {
         fragments_.depth_scale = static_cast<float>(depth_scale);
-        const auto first = static_cast<std::size_t>(static_cast<int>(parts.size()) - span.end());
-        draw_parts(projectors, parts.subspan(first, static_cast<std::size_t>(span.count)), &leaf,
-                   nullptr);
+        draw_parts(projectors, parts_of_leaf(parts, span, parts_->count()), &leaf, nullptr);
     };
     tree_->draw(std::ref(draw_leaf), image_, progress);
 }
@@ -221,27 +221,30 @@ void TileProjectRenderer::clear() {
     std::ranges::fill(fragment_counts_, 0);
 }
 
-void TileProjectRenderer::project(const Projectors& projectors, std::span<const TetPart> parts,
+void TileProjectRenderer::project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                                   TileBatch& batch) const {
+    const std::size_t count = parts.items.size();
     parallel_for(static_cast<std::int64_t>(batch.chunk_count()), 1, [&](std::int64_t number) {
         const std::size_t first =
-            std::min(static_cast<std::size_t>(number) * parts_a_chunk(), parts.size());
-        project_chunk(projectors,
-                      parts.subspan(first, std::min(parts_a_chunk(), parts.size() - first)),
+            std::min(static_cast<std::size_t>(number) * parts_a_chunk(), count);
+        project_chunk(projectors, parts.part(first, std::min(parts_a_chunk(), count - first)),
                       batch.chunk(static_cast<std::size_t>(number)));
     });
 }
 
 void TileProjectRenderer::project_chunk(const Projectors& projectors,
-                                        std::span<const TetPart> parts,
+                                        const DrawOrder<TetPart>& order,
                                         TileBatch::Chunk& chunk) const {
     chunk.clear();
-    if (is_fan()) {
-        for (const TetPart& part : parts) project_fan(projectors.fans, part, chunk);
-        return;
-    }
-    if (!plan_.plain) {
-        for (const TetPart& part : parts) project_doubtful(projectors.careful, part, chunk);
+    const std::span<const TetPart> parts = order.items;
+    if (is_fan() || !plan_.plain) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (is_fan()) {
+                project_fan(projectors.fans, parts[i], order.pixels(i), chunk);
+            } else {
+                project_doubtful(projectors.careful, parts[i], order.pixels(i), chunk);
+            }
+        }
         return;
     }
     for (std::size_t first = 0; first < parts.size(); first += TetSetup::most_parts) {
@@ -253,21 +256,22 @@ void TileProjectRenderer::project_chunk(const Projectors& projectors,
         GradientRecord* const lit = chunk.next_gradient();
         projectors.setup.set_up(group, parts.subspan(first + group.size()), records, lit, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
+            const PixelArea* const limit = order.pixels(first + i);
             if (done.outcomes[i] == TetSetup::Outcome::done) {
                 if (&chunk.next() != &records[i]) {
                     chunk.next() = records[i];
                     if (lit != nullptr) *chunk.next_gradient() = lit[i];
                 }
-                add(done.areas[i], group[i].tet, chunk);
+                add(done.areas[i], group[i].tet, limit, chunk);
             } else if (done.outcomes[i] == TetSetup::Outcome::doubtful) {
-                project_doubtful(projectors.careful, group[i], chunk);
+                project_doubtful(projectors.careful, group[i], limit, chunk);
             }
         }
     }
 }
 
 void TileProjectRenderer::project_doubtful(const TetProjector& projector, const TetPart& part,
-                                           TileBatch::Chunk& chunk) const {
+                                           const PixelArea* limit, TileBatch::Chunk& chunk) const {
     const TileGrid& grid = image_.grid();
     ScreenOutline outline;
     const auto kind = projector.project(part, chunk.next(), outline, chunk.next_gradient());
@@ -279,11 +283,11 @@ void TileProjectRenderer::project_doubtful(const TetProjector& projector, const 
           grid.height() - 1 - bounds.first_row},
          true,
          plan_.plain && *kind == FragmentKind::thin ? PartDepth::thin : PartDepth::any},
-        part.tet, chunk);
+        part.tet, limit, chunk);
 }
 
 void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& part,
-                                      TileBatch::Chunk& chunk) const {
+                                      const PixelArea* limit, TileBatch::Chunk& chunk) const {
     std::array<FanVertex, FanGeometry::most_vertices> vertices;
     std::array<std::uint32_t, FanGeometry::most_indices> indices;
     const TetGeometry::Written written = fans.write(
@@ -303,13 +307,24 @@ void TileProjectRenderer::project_fan(const FanGeometry& fans, const TetPart& pa
               grid.height() - 1 - bounds.first_row},
              false,
              PartDepth::any},
-            part.tet, chunk);
+            part.tet, limit, chunk);
     }
 }
 
-void TileProjectRenderer::add(const PartArea& area, std::int32_t tet,
+void TileProjectRenderer::add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
                               TileBatch::Chunk& chunk) const {
     constexpr int edge = TileGrid::edge;
+    if (limit != nullptr) {
+        PartArea limited = area;
+        static_cast<PixelArea&>(limited) = common_pixels(area, *limit);
+        if (limited.empty()) return;
+        limited.bounded = true;
+        // The outline is relative to the area's first pixel.
+        if (!is_fan() && !area.careful)
+            limited.outline = outline_of(chunk.next(), limited, image_.grid().height());
+        add(limited, tet, nullptr, chunk);
+        return;
+    }
     chunk.add(area, tet);
     for (int row = area.first_row / edge; row <= area.last_row / edge; ++row) {
         for (int column = area.first_column / edge; column <= area.last_column / edge; ++column)

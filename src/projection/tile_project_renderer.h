@@ -75,18 +75,21 @@ class TileProjectRenderer : public ProjectRenderer {
     void set_light();
     void set_view(const View& view);
     void clear();
-    void draw_parts(const Projectors& projectors, std::span<const TetPart> parts,
+    void draw_parts(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                     TileTetTree::Node* leaf, Progress* progress);
-    void draw_tree(const Projectors& projectors, std::span<const TetPart> parts,
+    void draw_tree(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                    Progress* progress);
-    void project(const Projectors& projectors, std::span<const TetPart> parts,
+    void project(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                  TileBatch& batch) const;
-    void project_chunk(const Projectors& projectors, std::span<const TetPart> parts,
+    void project_chunk(const Projectors& projectors, const DrawOrder<TetPart>& parts,
                        TileBatch::Chunk& chunk) const;
+    // `limit`: the pixels in which the part is drawn; null for all.
     void project_doubtful(const TetProjector& projector, const TetPart& part,
-                          TileBatch::Chunk& chunk) const;
-    void project_fan(const FanGeometry& fans, const TetPart& part, TileBatch::Chunk& chunk) const;
-    void add(const PartArea& area, std::int32_t tet, TileBatch::Chunk& chunk) const;
+                          const PixelArea* limit, TileBatch::Chunk& chunk) const;
+    void project_fan(const FanGeometry& fans, const TetPart& part, const PixelArea* limit,
+                     TileBatch::Chunk& chunk) const;
+    void add(const PartArea& area, std::int32_t tet, const PixelArea* limit,
+             TileBatch::Chunk& chunk) const;
     void count_tets(const TileBatch& batch);
     void draw(const TileBatch& batch, TileTetTree::Node* leaf);
     void draw_tile(const TileBatch& batch, std::size_t tile, TileTetTree::Node* leaf);

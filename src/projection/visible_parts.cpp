@@ -87,16 +87,39 @@ std::span<const TetPart> VisibleParts::list_tets(std::span<const std::int32_t> o
     return parts_;
 }
 
-std::span<const TetPart> VisibleParts::sorted(VisibilityOrder& order, const Eye& eye,
-                                              bool scattered) {
-    if (is_scattered_) return parts_;
+DrawOrder<TetPart> VisibleParts::sorted(VisibilityOrder& order, const View& view, bool scattered,
+                                        bool solve_rings) {
+    if (is_scattered_) return {parts_, {}};
     Stage sorting("sort");
-    const auto tets = order.sort(eye, [&] { look_from(eye); });
+    const Eye eye = eye_of(view);
+    const auto look = [&] { look_from(eye); };
+    const DrawOrder<std::int32_t> tets = solve_rings
+                                             ? order.sort_pixels(view, look)
+                                             : DrawOrder<std::int32_t>{order.sort(eye, look), {}};
     sorting.end();
     const Stage listing("parts");
-    list_tets(tets);
+    list_tets(tets.items);
+    limit(tets);
     if (scattered) scatter();
-    return parts_;
+    return {parts_, limited_};
+}
+
+// Translates the runs of tets into runs of their cell fragments.
+void VisibleParts::limit(const DrawOrder<std::int32_t>& order) {
+    limited_.clear();
+    std::size_t place = 0, parts = 0;  // so many parts come before that place
+    const auto go_to = [&](std::size_t end) {
+        while (place < end) parts += parts_of(order.items[place++]);
+        return parts;
+    };
+    for (const LimitedRun& run : order.limited) {
+        if (run.first / block > place / block) {
+            place = run.first / block * block;
+            parts = firsts_[run.first / block];
+        }
+        const std::size_t first = go_to(run.first), end = go_to(run.end);
+        if (first < end) limited_.push_back({first, end, run.pixels});
+    }
 }
 
 void VisibleParts::scatter() {
@@ -160,6 +183,14 @@ double VisibleParts::scalar_at_eye(const Tet& tet, const Eye& eye) const {
     const PartField field(corners, values, nullptr);
     if (!eye.at_infinity) return field.at(eye.position);
     return glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY : INFINITY;
+}
+
+DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
+                                 std::int64_t samples) {
+    const auto count = static_cast<std::int64_t>(parts.items.size());
+    const auto before = [&](int sample) { return sample * count / samples; };
+    return parts.part(static_cast<std::size_t>(count - before(leaf.end())),
+                      static_cast<std::size_t>(before(leaf.end()) - before(leaf.first)));
 }
 
 }  // namespace lamina

@@ -5,10 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "compositing/tree_shape.h"
 #include "facts/tet_pieces.h"
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
 #include "projection/tet_part.h"
+#include "scene/camera.h"
+#include "visibility/draw_order.h"
 #include "visibility/visibility_order.h"
 
 namespace lamina {
@@ -25,12 +28,16 @@ class VisibleParts {
     // Lists the cell fragments of tets that are in visibility order. The list is valid until the
     // next call, which takes no memory. Parallel.
     std::span<const TetPart> list(std::span<const std::int32_t> order, const Eye& eye);
-    // Sorts the tets for this eye, then lists their cell fragments. `scattered` (the same in every
+    // Sorts the tets for this view, then lists their cell fragments. `scattered` (the same in every
     // call): the list has a random order that is the same for every view, so that cell fragments of
     // one region come to lie in different leaves of a tree. The list of the first view then stays
-    // valid.
-    std::span<const TetPart> sorted(VisibilityOrder& order, const Eye& eye, bool scattered);
-    std::int64_t count() const { return count_; }  // length of every list
+    // valid. `solve_rings`: each pixel has an order of its own if it needs one
+    // (VisibilityOrder::sort_pixels).
+    DrawOrder<TetPart> sorted(VisibilityOrder& order, const View& view, bool scattered,
+                              bool solve_rings);
+    // The number of cell fragments; lists are longer if tets are listed for several parts of the
+    // picture.
+    std::int64_t count() const { return count_; }
 
   private:
     struct TetSpan {
@@ -40,6 +47,7 @@ class VisibleParts {
 
     void look_from(const Eye& eye);  // parallel
     std::span<const TetPart> list_tets(std::span<const std::int32_t> order);
+    void limit(const DrawOrder<std::int32_t>& order);
     void scatter();
     std::int64_t parts_in(const TetPieces::Span& span) const;
     std::size_t parts_of(std::int32_t tet) const;
@@ -57,7 +65,13 @@ class VisibleParts {
     std::vector<TetPart> parts_;
     // Number of the first cell fragment of each block of tets, and the end.
     std::vector<std::size_t> firsts_;
+    std::vector<LimitedRun> limited_;  // of the last list
     bool is_scattered_ = false;
 };
+
+// The cell fragments of a tree's leaf. The tree's samples, of which the first is the nearest, are
+// VisibleParts::count(); a longer list is shared out in proportion.
+DrawOrder<TetPart> parts_of_leaf(const DrawOrder<TetPart>& parts, const SampleSpan& leaf,
+                                 std::int64_t samples);
 
 }  // namespace lamina

@@ -6,83 +6,63 @@
 #include "base/interrupt.h"
 
 namespace lamina {
-namespace {
-
-// The most edges that are examined in the search for cycles, and again while edges are taken back.
-// Where tets overlap everywhere there may be more cycles than can be broken in acceptable time.
-constexpr std::int64_t most_work = 200'000'000;
-
-}  // namespace
-
-CycleBreaker::Broken CycleBreaker::order(const OrderGraph& graph, std::span<std::int32_t> members,
-                                         std::span<const std::int32_t> components, std::int32_t id,
-                                         std::span<std::int32_t> nodes) {
-    std::sort(members.begin(), members.end());
-    for (std::size_t i = 0; i < members.size(); ++i)
-        nodes[static_cast<std::size_t>(members[i])] = static_cast<std::int32_t>(i);
-    collect(graph, members, components, id, nodes);
+CycleBreaker::Order CycleBreaker::order(std::size_t nodes, std::span<const Edge> edges,
+                                        std::int64_t work) {
+    most_work_ = work;
+    collect(nodes, edges);
     work_ = 0;
-    drop_edges();
+    drop_links();
     work_ = 0;
     take_back();
-
-    members_.assign(members.begin(), members.end());
-    for (std::size_t i = 0; i < members.size(); ++i)
-        members[static_cast<std::size_t>(nodes_[i].place)] = members_[i];
+    places_.resize(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) places_[i] = nodes_[i].place;
     Broken broken;
-    for (const Edge& edge : edges_) {
-        if (node(edge.from).place < node(edge.to).place) continue;
+    for (const Link& link : links_) {
+        if (node(link.from).place < node(link.to).place) continue;
         ++broken.edges;
-        broken.area += edge.area;
+        broken.area += link.area;
     }
-    return broken;
+    return {places_, broken};
 }
 
-void CycleBreaker::collect(const OrderGraph& graph, std::span<const std::int32_t> members,
-                           std::span<const std::int32_t> components, std::int32_t id,
-                           std::span<const std::int32_t> nodes) {
-    edges_.clear();
-    nodes_.assign(members.size() + 1, {});
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        nodes_[i].out = nodes_[i].next = static_cast<std::int32_t>(edges_.size());
-        const std::int32_t tet = members[i];
-        for (std::int32_t edge = graph.first_edge(tet); edge != OrderGraph::no_edge;
-             edge = graph.next_edge(tet, edge)) {
-            const auto nearer = static_cast<std::size_t>(graph.nearer(tet, edge));
-            if (components[nearer] != id) continue;
-            add(static_cast<std::int32_t>(i), nodes[nearer], graph.area(tet, edge));
-        }
+void CycleBreaker::collect(std::size_t nodes, std::span<const Edge> edges) {
+    links_.clear();
+    nodes_.assign(nodes + 1, {});
+    auto next = edges.begin();
+    for (std::size_t i = 0; i < nodes; ++i) {
+        nodes_[i].out = nodes_[i].next = static_cast<std::int32_t>(links_.size());
+        for (; next != edges.end() && next->from == static_cast<std::int32_t>(i); ++next)
+            add(*next);
     }
-    nodes_.back().out = static_cast<std::int32_t>(edges_.size());
+    nodes_.back().out = static_cast<std::int32_t>(links_.size());
     list_entering();
 }
 
-// Several pairs of faces may make one tet hide another. They are one edge.
-void CycleBreaker::add(std::int32_t from, std::int32_t to, double area) {
-    for (auto at = static_cast<std::size_t>(node(from).out); at < edges_.size(); ++at) {
-        if (edges_[at].to != to) continue;
-        edges_[at].area += area;
-        edges_[at].left += area;
+void CycleBreaker::add(const Edge& edge) {
+    for (auto at = static_cast<std::size_t>(node(edge.from).out); at < links_.size(); ++at) {
+        if (links_[at].to != edge.to) continue;
+        links_[at].area += edge.area;
+        links_[at].left += edge.area;
         return;
     }
-    edges_.push_back({from, to, area, area, true});
+    links_.push_back({edge.from, edge.to, edge.area, edge.area, true});
 }
 
 void CycleBreaker::list_entering() {
-    for (const Edge& edge : edges_) ++node(edge.to + 1).in;
+    for (const Link& edge : links_) ++node(edge.to + 1).in;
     for (std::size_t i = 1; i < nodes_.size(); ++i) nodes_[i].in += nodes_[i - 1].in;
-    entering_.resize(edges_.size());
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(edges_.size()); ++i)
-        entering_[static_cast<std::size_t>(node(edge(i).to).in++)] = i;
+    entering_.resize(links_.size());
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(links_.size()); ++i)
+        entering_[static_cast<std::size_t>(node(link(i).to).in++)] = i;
     // Each list's start has moved to its end, which is where the next list started.
     for (std::size_t i = nodes_.size() - 1; i > 0; --i) nodes_[i].in = nodes_[i - 1].in;
     nodes_[0].in = 0;
 }
 
 // Searches for cycles depth first, subtracts the smallest area left on each cycle from all its
-// edges, and drops the edges with nothing left. What is kept has no cycle. A node gets its place,
+// links, and drops the links with nothing left. What is kept has no cycle. A node gets its place,
 // the nearest first, when all nearer nodes are done.
-void CycleBreaker::drop_edges() {
+void CycleBreaker::drop_links() {
     dropped_.clear();
     path_.clear();
     const auto count = static_cast<std::int32_t>(nodes_.size()) - 1;
@@ -94,19 +74,19 @@ void CycleBreaker::drop_edges() {
             Node& top = node(index);
             const std::int32_t end = node(index + 1).out;
             while (top.next < end &&
-                   (!edge(top.next).kept || node(edge(top.next).to).state == State::done))
+                   (!link(top.next).kept || node(link(top.next).to).state == State::done))
                 ++top.next;
             if (top.next == end) {
                 top.state = State::done;
                 top.place = --place;
                 path_.pop_back();
-            } else if (const std::int32_t to = edge(top.next).to; node(to).state == State::fresh) {
+            } else if (const std::int32_t to = link(top.next).to; node(to).state == State::fresh) {
                 push(to);
-            } else if (work_ < most_work) {
+            } else if (work_ < most_work_) {
                 check_interrupt();
                 thin_cycle(node(to).depth);
             } else {
-                edge(top.next).kept = false;
+                link(top.next).kept = false;
                 dropped_.push_back(top.next);
             }
         }
@@ -119,17 +99,17 @@ void CycleBreaker::push(std::int32_t index) {
     path_.push_back(index);
 }
 
-// The cycle is the path from depth `first` to its end, and the edge back. The search goes on from
-// the first edge of the path that is dropped.
+// The cycle is the path from depth `first` to its end, and the link back. The search goes on from
+// the first link of the path that is dropped.
 void CycleBreaker::thin_cycle(std::int32_t first) {
     const auto begin = path_.begin() + first;
     work_ += path_.end() - begin;
-    const auto edge_of = [&](std::int32_t index) -> Edge& { return edge(node(index).next); };
+    const auto edge_of = [&](std::int32_t index) -> Link& { return link(node(index).next); };
     double least = edge_of(*begin).left;
     for (auto at = begin; at != path_.end(); ++at) least = std::min(least, edge_of(*at).left);
     auto cut = path_.end();
     for (auto at = begin; at != path_.end(); ++at) {
-        Edge& passed = edge_of(*at);
+        Link& passed = edge_of(*at);
         passed.left -= least;
         if (passed.left > 0) continue;
         passed.kept = false;
@@ -140,27 +120,27 @@ void CycleBreaker::thin_cycle(std::int32_t first) {
     path_.erase(cut + 1, path_.end());
 }
 
-// Takes dropped edges back, the largest first, where they close no cycle.
+// Takes dropped links back, the largest first, where they close no cycle.
 void CycleBreaker::take_back() {
     std::sort(dropped_.begin(), dropped_.end(), [&](std::int32_t a, std::int32_t b) {
-        return edge(a).area != edge(b).area ? edge(a).area > edge(b).area : a < b;
+        return link(a).area != link(b).area ? link(a).area > link(b).area : a < b;
     });
     for (const std::int32_t index : dropped_) {
         check_interrupt();
-        Edge& dropped = edge(index);
+        Link& dropped = link(index);
         dropped.kept = node(dropped.from).place < node(dropped.to).place ||
-                       (work_ < most_work && keep(dropped));
+                       (work_ < most_work_ && keep(dropped));
     }
 }
 
-// Changes the places so that the edge is kept with all others, if that is possible (Pearce and
+// Changes the places so that the link is kept with all others, if that is possible (Pearce and
 // Kelly, A dynamic topological sort algorithm for directed acyclic graphs, 2007).
-bool CycleBreaker::keep(const Edge& edge) {
+bool CycleBreaker::keep(const Link& kept) {
     nearer_.clear();
     farther_.clear();
-    const std::int32_t first = node(edge.to).place, last = node(edge.from).place;
-    const bool free = mark_nearer(edge.to, last);
-    if (free) mark_farther(edge.from, first);
+    const std::int32_t first = node(kept.to).place, last = node(kept.from).place;
+    const bool free = mark_nearer(kept.to, last);
+    if (free) mark_farther(kept.from, first);
     for (const auto* marked : {&nearer_, &farther_})
         for (const std::int32_t index : *marked) node(index).marked = false;
     if (!free) return false;
@@ -170,14 +150,14 @@ bool CycleBreaker::keep(const Edge& edge) {
     std::sort(nearer_.begin(), nearer_.end(), by_place);
     std::sort(farther_.begin(), farther_.end(), by_place);
     farther_.insert(farther_.end(), nearer_.begin(), nearer_.end());
-    places_.clear();
-    for (const std::int32_t index : farther_) places_.push_back(node(index).place);
-    std::sort(places_.begin(), places_.end());
-    for (std::size_t i = 0; i < places_.size(); ++i) node(farther_[i]).place = places_[i];
+    free_.clear();
+    for (const std::int32_t index : farther_) free_.push_back(node(index).place);
+    std::sort(free_.begin(), free_.end());
+    for (std::size_t i = 0; i < free_.size(); ++i) node(farther_[i]).place = free_[i];
     return true;
 }
 
-// Collects the nodes that kept edges lead to before place `end`. Returns false if the node at that
+// Collects the nodes that kept links lead to before place `end`. Returns false if the node at that
 // place is among them.
 bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     nearer_.push_back(from);
@@ -185,12 +165,12 @@ bool CycleBreaker::mark_nearer(std::int32_t from, std::int32_t end) {
     for (std::size_t i = 0; i < nearer_.size(); ++i) {
         work_ += node(nearer_[i] + 1).out - node(nearer_[i]).out;
         for (std::int32_t at = node(nearer_[i]).out; at < node(nearer_[i] + 1).out; ++at) {
-            if (!edge(at).kept) continue;
-            Node& to = node(edge(at).to);
+            if (!link(at).kept) continue;
+            Node& to = node(link(at).to);
             if (to.place == end) return false;
             if (to.place > end || to.marked) continue;
             to.marked = true;
-            nearer_.push_back(edge(at).to);
+            nearer_.push_back(link(at).to);
         }
     }
     return true;
@@ -202,7 +182,7 @@ void CycleBreaker::mark_farther(std::int32_t from, std::int32_t end) {
     for (std::size_t i = 0; i < farther_.size(); ++i) {
         work_ += node(farther_[i] + 1).in - node(farther_[i]).in;
         for (std::int32_t at = node(farther_[i]).in; at < node(farther_[i] + 1).in; ++at) {
-            const Edge& entering = edge(entering_[static_cast<std::size_t>(at)]);
+            const Link& entering = link(entering_[static_cast<std::size_t>(at)]);
             if (!entering.kept) continue;
             Node& other = node(entering.from);
             if (other.place < end || other.marked) continue;

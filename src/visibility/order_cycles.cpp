@@ -7,6 +7,10 @@
 namespace lamina {
 namespace {
 
+// The most edges that are visited to break the cycles of a component: some seconds. If tets overlap
+// everywhere, there may be more cycles than can be broken in acceptable time.
+constexpr std::int64_t most_work = 200'000'000;
+
 constexpr std::int32_t complete = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
@@ -26,7 +30,7 @@ void OrderCycles::forget() {
     remembers_ = false;
 }
 
-OrderCycles::Found OrderCycles::order(const OrderGraph& graph) {
+OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings) {
     const auto counts = graph.farther_counts();
     reserve(counts.size());
     forget();
@@ -40,18 +44,40 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph) {
     }
 
     Found found;
-    // The numbers are not needed any more, so the breaker may use their memory.
     for (std::size_t id = 0; id < cyclic_.size(); ++id) {
-        const auto [first, end] = cyclic_[id];
-        const CycleBreaker::Broken broken =
-            breaker_.order(graph, std::span(memory_).subspan(first, end - first), components_,
-                           static_cast<std::int32_t>(id), numbers_);
         ++found.cycles;
-        found.cyclic_tets += static_cast<std::int64_t>(end - first);
+        found.cyclic_tets += static_cast<std::int64_t>(cyclic_[id].end - cyclic_[id].first);
+        if (!break_rings) continue;
+        const CycleBreaker::Broken broken = break_ring(graph, static_cast<std::int32_t>(id));
         found.broken.edges += broken.edges;
         found.broken.area += broken.area;
     }
     return found;
+}
+
+// Reorders the tets of the component. The search is over, so its numbers may serve as nodes.
+CycleBreaker::Broken OrderCycles::break_ring(const OrderGraph& graph, std::int32_t component) {
+    const auto [first, end] = cyclic_[static_cast<std::size_t>(component)];
+    const auto members = std::span(memory_).subspan(first, end - first);
+    std::sort(members.begin(), members.end());
+    members_.assign(members.begin(), members.end());
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        numbers_[static_cast<std::size_t>(members_[i])] = static_cast<std::int32_t>(i);
+    edges_.clear();
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const std::int32_t tet = members_[i];
+        for (std::int32_t edge = graph.first_edge(tet); edge != OrderGraph::no_edge;
+             edge = graph.next_edge(tet, edge)) {
+            const auto nearer = static_cast<std::size_t>(graph.nearer(tet, edge));
+            if (components_[nearer] != component) continue;
+            edges_.push_back(
+                {static_cast<std::int32_t>(i), numbers_[nearer], graph.area(tet, edge)});
+        }
+    }
+    const CycleBreaker::Order order = breaker_.order(members_.size(), edges_, most_work);
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        members[static_cast<std::size_t>(order.places[i])] = members_[i];
+    return order.broken;
 }
 
 void OrderCycles::search(const OrderGraph& graph, std::int32_t root) {

@@ -12,8 +12,10 @@ namespace lamina {
 
 // Orders tets among which there are cycles. The strongly connected components of the graph (Tarjan,
 // Depth-first search and linear graph algorithms, 1972) are ordered without breaking a constraint.
-// Inside each component CycleBreaker breaks constraints of small seen area. Memory (28 bytes a tet)
-// is taken at the first use, and more only for larger cycles.
+// Inside each component CycleBreaker breaks constraints of small seen area, which bounds the area
+// of the view where the order is wrong: on a ray that meets no broken constraint, each tet comes
+// before the next nearer one. Memory (28 bytes a tet) is taken at the first use, and more only for
+// larger cycles.
 class OrderCycles {
   public:
     static constexpr std::int32_t none = -1;
@@ -25,7 +27,8 @@ class OrderCycles {
     };
     // Orders all tets whose farther count is above zero. No edge may lead from such a tet to
     // another tet. The time is linear in their number (n log n in a component).
-    Found order(const OrderGraph& graph);
+    // `break_rings`: the tets of each component are ordered, too; else they are in no order.
+    Found order(const OrderGraph& graph, bool break_rings = true);
 
     // The tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }
@@ -43,6 +46,7 @@ class OrderCycles {
     void search(const OrderGraph& graph, std::int32_t root);
     void visit(const OrderGraph& graph, std::int32_t tet);
     void finish(std::int32_t tet);
+    CycleBreaker::Broken break_ring(const OrderGraph& graph, std::int32_t component);
 
     std::vector<std::int32_t> numbers_;  // order of discovery, from 1; 0 for a tet not found yet
     std::vector<std::int32_t> lowest_;   // lowest number that a tet's subtree reaches
@@ -58,6 +62,8 @@ class OrderCycles {
     std::int32_t found_ = 0;
     bool remembers_ = false;
     CycleBreaker breaker_;
+    std::vector<CycleBreaker::Edge> edges_;  // of one component
+    std::vector<std::int32_t> members_;
 };
 
 }  // namespace lamina

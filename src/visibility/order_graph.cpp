@@ -55,15 +55,22 @@ void OrderGraph::link_gaps() {
     }
 }
 
-double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
-    if (edge >= faces) {
-        const OpenFaceConstraint& gap = gap_edges_[static_cast<std::size_t>(edge - faces)];
-        const auto corners = [&](std::int32_t open_face) {
-            return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(open_face)]);
-        };
-        return seen_overlap(eye_, corners(gap.exit), corners(gap.entry));
+OrderGraph::Passage OrderGraph::passage(std::int32_t tet, std::int32_t edge) const {
+    if (edge < faces) {
+        const Triangle face = mesh_.corners({tet, edge});
+        return {face, face, true};
     }
-    return seen_area(eye_, mesh_.corners({tet, edge}));
+    const OpenFaceConstraint& gap = gap_edges_[static_cast<std::size_t>(edge - faces)];
+    const auto corners = [&](std::int32_t open_face) {
+        return mesh_.corners(mesh_.open_faces()[static_cast<std::size_t>(open_face)]);
+    };
+    return {corners(gap.exit), corners(gap.entry), false};
+}
+
+double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
+    const Passage passed = passage(tet, edge);
+    return passed.shared ? seen_area(eye_, passed.exit)
+                         : seen_overlap(eye_, passed.exit, passed.entry);
 }
 
 }  // namespace lamina

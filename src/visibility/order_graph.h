@@ -51,6 +51,13 @@ class OrderGraph {
     }
     // The seen area (seen_area.h) of the face, or of the overlap of the two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
+    // The triangles that a ray along the edge passes: the exit of the nearer tet and the entry of
+    // the farther one, which are one and the same for a shared face.
+    struct Passage {
+        Triangle exit, entry;
+        bool shared;
+    };
+    Passage passage(std::int32_t tet, std::int32_t edge) const;
 
   private:
     static constexpr std::int32_t faces = 4;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -11,6 +12,14 @@
 #include "visibility/view_distance.h"
 
 namespace lamina {
+namespace {
+
+// Projection cuts tets at a near plane of 1e-6 of the mesh's diagonal (plan/project_planner.cpp):
+// what it draws lies beyond half of that.
+constexpr double near_share = 0.5e-6;
+
+}  // namespace
+
 const char* name_of(OrderMethod method) {
     switch (method) {
         case OrderMethod::mpvo:
@@ -44,13 +53,47 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
-        parallel_invoke([&] { farthest_first_ ? sort_farthest_first() : sort_topologically(); },
+        parallel_invoke([&] { farthest_first_ ? sort_farthest_first() : sort_topologically(true); },
                         meanwhile);
         return order_;
     }
     if (method_ == OrderMethod::centroid) sort_centroids(eye);
     meanwhile();
     return order_;
+}
+
+DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
+                                                     const std::function<void()>& meanwhile) {
+    if (!graph_ || farthest_first_) return {sort(eye_of(view), meanwhile), {}};
+    report_ = {};
+    cycles_.forget();
+    graph_->look_from(eye_of(view));
+    parallel_invoke([&] { sort_topologically(false); }, meanwhile);
+    if (report_.cycles == 0) return {order_, {}};
+    solve_rings(view);
+    return rings_->order();
+}
+
+// Tets in no ring come first, then rings and tets between them (sort_topologically).
+void VisibilityOrder::solve_rings(const View& view) {
+    const Stage solving("rings");
+    rings_.emplace(*graph_, view,
+                   near_share * glm::distance(mesh_.bounds().min, mesh_.bounds().max));
+    const auto tets = std::span<const std::int32_t>(order_);
+    for (std::size_t first = 0; first < tets.size();) {
+        const std::int32_t ring = cycles_.component(tets[first]);
+        std::size_t end = first + 1;
+        while (end < tets.size() && cycles_.component(tets[end]) == ring) ++end;
+        const auto run = tets.subspan(first, end - first);
+        if (ring == OrderCycles::none) {
+            rings_->add(run);
+        } else {
+            rings_->add_ring(run, cycles_);
+        }
+        first = end;
+    }
+    report_.broken = rings_->overlapping_pairs();
+    report_.broken_area = 0;
 }
 
 // VTK's vtkCellCenterDepthSort takes the depth along the camera's axis for perspective views, too.
@@ -74,15 +117,15 @@ void VisibilityOrder::sort_centroids(const Eye& eye) {
 void VisibilityOrder::sort_farthest_first() {
     const std::int64_t broken = farthest_first_->sort(*graph_, order_);
     if (broken == 0) return;
-    find_cycles();  // for the report alone: the order is the search's
+    find_cycles(false);  // for the report alone: the order is the search's
     report_.broken = broken;
     report_.broken_area = 0;
 }
 
-void VisibilityOrder::sort_topologically() {
+void VisibilityOrder::sort_topologically(bool break_rings) {
     const std::size_t drawn = draw_free();
     if (drawn == order_.size()) return;
-    find_cycles();
+    find_cycles(break_rings);
     const auto rest = cycles_.sequence();
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
@@ -115,8 +158,8 @@ std::size_t VisibilityOrder::draw_free() {
     return drawn;
 }
 
-void VisibilityOrder::find_cycles() {
-    const OrderCycles::Found found = cycles_.order(*graph_);
+void VisibilityOrder::find_cycles(bool break_rings) {
+    const OrderCycles::Found found = cycles_.order(*graph_, break_rings);
     report_.cycles = found.cycles;
     report_.cyclic_tets = found.cyclic_tets;
     report_.broken = found.broken.edges;

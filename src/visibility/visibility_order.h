@@ -4,14 +4,18 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/eye.h"
 #include "mesh/tet_mesh.h"
+#include "scene/camera.h"
+#include "visibility/draw_order.h"
 #include "visibility/farthest_first.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
+#include "visibility/ring_order.h"
 
 namespace lamina {
 
@@ -29,7 +33,7 @@ struct OrderReport {
     std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
     std::int64_t cyclic_tets = 0;  // number of tets in these
     // Pairs of tets in a wrong order (exact; all of them are within cycles), or faces (mpvo of a
-    // nonconvex mesh).
+    // nonconvex mesh). After sort_pixels(): those that are left, because the tets overlap.
     std::int64_t broken = 0;
     // For exact: the seen area (seen_area.h) of these pairs, which bounds the area of the view in
     // which the order is wrong. 0 for mpvo's guess.
@@ -50,6 +54,12 @@ class VisibilityOrder {
     // one core.
     std::span<const std::int32_t> sort(
         const Eye& eye, const std::function<void()>& meanwhile = [] {});
+    // The same for the pixels of a view: tets that hide one another in rings are listed several
+    // times, so that every pixel is right whose ray meets no overlap (ring_order.h). It is for
+    // `exact`, and for `mpvo` of a convex mesh; with other methods rings stay as sort(eye) has
+    // them.
+    DrawOrder<std::int32_t> sort_pixels(
+        const View& view, const std::function<void()>& meanwhile = [] {});
     std::span<const std::int32_t> order() const { return order_; }  // result of the last sort()
 
     OrderMethod method() const { return method_; }
@@ -64,9 +74,10 @@ class VisibilityOrder {
     };
     void sort_centroids(const Eye& eye);
     void sort_farthest_first();
-    void sort_topologically();
+    void sort_topologically(bool break_rings);
     std::size_t draw_free();
-    void find_cycles();
+    void find_cycles(bool break_rings);
+    void solve_rings(const View& view);
 
     const TetMesh& mesh_;
     OrderMethod method_;
@@ -75,6 +86,7 @@ class VisibilityOrder {
     std::unique_ptr<FarthestFirst> farthest_first_;  // mpvo of a nonconvex mesh
     std::vector<Distance> distances_;                // centroid
     OrderCycles cycles_;
+    std::optional<RingOrder> rings_;  // of the last view with rings
     OrderReport report_;
 };
 

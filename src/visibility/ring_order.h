@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/camera.h"
+#include "visibility/cycle_breaker.h"
+#include "visibility/draw_order.h"
+#include "visibility/order_cycles.h"
+#include "visibility/order_graph.h"
+#include "visibility/seen_polygon.h"
+
+namespace lamina {
+
+// Orders tets that hide one another in rings. No order of whole tets is right for all pixels of a
+// ring, but each is right for the pixels whose rays meet none of the constraints that it breaks:
+//
+//   order the tets; break constraints of small seen area (cycle_breaker.h)
+//   W = rectangle around the pixels that see a broken constraint
+//   draw the tets in this order in all pixels but W
+//   in W do the same with those tets and constraints that are seen there;
+//     if W is more than half of the pixels: in each half of W
+//     if W is one pixel: draw the tets by where its ray meets them
+//
+// Kraus and Ertl (Cell-projection of cyclic meshes, 2001, which is [10] of Kraus 2004) order such
+// tets by rendering them in layers.
+class RingOrder {
+  public:
+    // `near`: what lies nearer to the eye's plane is not seen (perspective views). The graph must
+    // outlive it.
+    RingOrder(const OrderGraph& graph, const View& view, double near);
+
+    // Appends tets that are in no ring, in their order.
+    void add(std::span<const std::int32_t> tets) {
+        tets_.insert(tets_.end(), tets.begin(), tets.end());
+    }
+    // Appends the tets of a ring, a component of `cycles`.
+    void add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles);
+
+    DrawOrder<std::int32_t> order() const { return {tets_, limited_}; }
+    // The number of pairs of tets that overlap on a pixel's ray. No order is right for these.
+    std::int64_t overlapping_pairs() const;
+
+  private:
+    struct Member {
+        std::int32_t tet;
+        PixelArea pixels;  // that may see it
+    };
+    // Tet `farther` comes before tet `nearer` (indices into Problem::tets) where `seen` is seen.
+    struct Constraint {
+        std::int32_t farther, nearer;
+        SeenPolygon seen;
+    };
+    // Tets that are to be ordered for some pixels.
+    struct Problem {
+        PixelArea pixels;
+        std::vector<Member> tets;
+        std::vector<Constraint> constraints;  // ascending `farther`
+    };
+    struct Solution {
+        std::vector<std::int32_t> order;  // indices of tets, back to front
+        PixelArea wrong;                  // around the pixels for which it is wrong
+    };
+
+    PixelArea picture() const;
+    SeenPolygon seen_through(std::int32_t tet, std::int32_t edge) const;
+    Solution sorted(const Problem& problem);
+    void solve(const Problem& problem);
+    void draw(const Problem& problem, std::span<const std::int32_t> order, const PixelArea& pixels);
+    void draw_around(const Problem& problem, const Solution& solution);
+    void draw_pixel(const Problem& problem, const PixelArea& pixel);
+
+    const OrderGraph& graph_;
+    PixelFinder finder_;
+    CycleBreaker breaker_;
+    std::vector<CycleBreaker::Edge> edges_;
+    std::vector<std::int32_t> tets_;
+    std::vector<LimitedRun> limited_;
+    std::vector<std::pair<std::int32_t, std::int32_t>> overlapping_;
+};
+
+}  // namespace lamina

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tets that hide one another in rings, and tets that overlap.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamina/lighting.h"
+#include "mesh/ray_walk.h"
+#include "mesh_files/mesh_file.h"
+#include "projection/projection_fixture.h"
+#include "support/carved_mesh.h"
+#include "support/needle_soup.h"
+
+namespace lamina {
+namespace {
+
+class Rings : public ProjectionTest {
+  protected:
+    struct Drawn {
+        Image picture;
+        OrderReport order;
+    };
+    Drawn draw(const SceneMesh& mesh, const Scene& scene) const {
+        const auto renderer = make_renderer(mesh, scene, capabilities());
+        renderer->draw(View(scene.camera, scene.width, scene.height));
+        return {renderer->read(), renderer->order_report()};
+    }
+};
+
+// Many colours, so that the order shows.
+TransferFunction colors() {
+    return TransferFunction::linear({knot(0, {1, .1, 0}, 2), knot(.3, {0, 1, .2}, 9),
+                                     knot(.7, {.1, 0, 1}, 4), knot(1, {1, 1, .3}, 12)});
+}
+
+MeshData valued(MeshData mesh) {
+    MeshScalar scalar{"s", {}};
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        scalar.values.push_back(static_cast<double>(i * 7 % 11) / 10);
+    mesh.point_scalars = {scalar};
+    return mesh;
+}
+
+Scene scene_at(const glm::dvec3& eye, const glm::dvec3& center) {
+    Scene scene = projection_scene(colors(), 120, 90);
+    scene.camera.eye = eye;
+    scene.camera.center = center;
+    scene.camera.fov_y = 36;
+    return scene;
+}
+
+struct RingScene {
+    MeshData mesh;
+    Scene scene;
+};
+
+std::vector<RingScene> ring_scenes() {
+    std::vector<RingScene> scenes;
+    scenes.push_back({valued(test::three_sticks({.3, .2, .25})), scene_at({.2, .1, 6}, {0, 0, 0})});
+    scenes.push_back({valued(test::twisted_prism(20)), scene_at({.1, .03, 5}, {0, 0, 0})});
+    for (const std::uint32_t seed : {1u, 2u, 3u}) {
+        scenes.push_back(
+            {test::needle_soup(150, seed, 1.1, .03), scene_at({.5, .4, 3}, {.5, .5, .5})});
+    }
+    return scenes;
+}
+
+// .05 / 255 is what float32 is promised to add (plan/project_planner.cpp).
+constexpr double most = .05;
+
+TEST_P(Rings, AreDrawnAsTheTracerSeesThem) {
+    Lighting light;
+    light.lights = {{.direction = glm::dvec3(.3, .5, 1)}};
+    light.smallest_gradient = .1;
+    for (const RingScene& each : ring_scenes()) {
+        const SceneMesh mesh = scene_mesh(each.mesh);
+        for (const bool lit : {false, true}) {
+            for (const ProjectOrder order : {ProjectOrder::automatic, ProjectOrder::exact}) {
+                Scene scene = each.scene;
+                scene.project.order = order;
+                if (lit) scene.lighting = light;
+                const Drawn drawn = draw(mesh, scene);
+                EXPECT_GT(drawn.order.cycles, 0);
+                EXPECT_EQ(drawn.order.broken, 0);
+                // Light is integrated to max_error.
+                EXPECT_LE(image_error(drawn.picture, trace(mesh, scene)).all.linf,
+                          lit ? scene.max_error : most);
+            }
+        }
+    }
+}
+
+// Triangles are placed on a rasteriser's grid, and so is the order's difference: the same picture
+// with rings ordered tet by tet is far off.
+TEST_P(Rings, AreDrawnByTrianglesToo) {
+    for (const RingScene& each : ring_scenes()) {
+        const SceneMesh mesh = scene_mesh(each.mesh);
+        Scene scene = each.scene;
+        scene.project.geometry = ProjectGeometry::triangles;
+        const auto errors = image_error(draw(mesh, scene).picture, trace(mesh, scene));
+        scene.project.order = ProjectOrder::centroid;
+        const auto wrong = image_error(draw(mesh, scene).picture, trace(mesh, scene));
+        EXPECT_LT(errors.all.l2, .5 * wrong.all.l2);
+        EXPECT_LT(errors.all.l2, 1);
+    }
+}
+
+TEST_P(Rings, AreTheSameInEveryTarget) {
+    const RingScene each = ring_scenes().front();
+    const SceneMesh mesh = scene_mesh(each.mesh);
+    Scene scene = each.scene;
+    const Image exact = draw(mesh, scene).picture;
+    for (const Target target : {Target::float16, Target::fixed16, Target::fixed8}) {
+        scene.target = target;
+        // A pixel has three tets at most, whose parts are some ten fragments.
+        EXPECT_LE(image_error(draw(mesh, scene).picture, exact).all.linf, 10);
+    }
+}
+
+// Where the mesh does not overlap itself, rays are right although it does elsewhere.
+TEST_P(Rings, OfAMeshThatOverlapsAreWrongOnOverlappingRaysAlone) {
+    const char* const folder = std::getenv("LAMINA_DATA");
+    if (folder == nullptr) GTEST_SKIP() << "needs LAMINA_DATA";
+    MeshData data = read_mesh(std::filesystem::path(folder) / "can.vtu");
+    const double low = 2006.42, high = 5221.33;
+    for (double& value : data.point_scalars.front().values) value = (value - low) / (high - low);
+    const SceneMesh mesh = scene_mesh(std::move(data));
+    Scene scene = scene_at({25, 20, 8}, {0, 0, -6});
+    scene.width = 200;
+    scene.height = 150;
+    const Plan plan = plan_of(mesh, scene, capabilities());
+    EXPECT_EQ(plan.project.error.kind, ErrorKind::unknown);
+    const Drawn drawn = draw(mesh, scene);
+    EXPECT_GT(drawn.order.broken, 0);
+    const Image traced = trace(mesh, scene);
+    const View view(scene.camera, scene.width, scene.height);
+    const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
+    RayWalk walk(mesh.mesh, tree);
+    int wrong = 0;
+    for (int row = 0; row < scene.height; ++row) {
+        for (int column = 0; column < scene.width; ++column) {
+            const auto first = 4 * static_cast<std::size_t>(row * scene.width + column);
+            double error = 0;
+            for (std::size_t i = first; i < first + 4; ++i)
+                error = std::max(error, 255. * std::abs(drawn.picture.rgba[i] - traced.rgba[i]));
+            if (error <= most) continue;
+            ++wrong;
+            const View::Ray ray = view.ray(column, row);
+            walk.aim(ray.origin, ray.direction);
+            EXPECT_TRUE(walk.overlapping()) << column << ", " << row << ": " << error;
+        }
+    }
+    EXPECT_GT(wrong, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothEngines, Rings, both_engines, engine_name);
+
+}  // namespace
+}  // namespace lamina
