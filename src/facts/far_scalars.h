@@ -24,7 +24,8 @@ inline constexpr double far_for_parts = 128;
 // either case, and where it lies stays exact.
 inline constexpr double farthest_normalised = 0x1p30;
 
-// Whether a range of scalars meets the window and also reaches more than `far` widths beyond it.
+// Tells whether a range of scalars meets the window and also reaches more than `far` widths beyond
+// it.
 inline bool runs_beyond(const ValueRange& scalars, const ValueRange& window, double far) {
     const double most = far * (window.hi - window.lo);
     return scalars.lo < window.hi && scalars.hi > window.lo &&

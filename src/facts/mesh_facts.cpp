@@ -48,9 +48,7 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts = measure_data(scene, mesh);
-    // Other orders are there to be studied, with what they get wrong.
-    const ProjectOrder order = scene.project.order;
-    if (order == ProjectOrder::automatic || order == ProjectOrder::exact)
+    if (is_right_order(scene.project.order))
         facts.overlapping_tets = measure_overlap(mesh, facts.convexity);
     measure_view(scene, mesh, facts);
     measure_rays(scene, mesh, facts);

@@ -59,7 +59,7 @@ struct MeshFacts {
         double edge = 0;     // longest one of the tet, world units
     };
     std::vector<std::vector<Run>> trial_rays;
-    // What was found on trial rays, in 1/255.
+    // Errors that were found on trial rays, in 1/255.
     struct TrialError {
         double segments = 0;  // of integrating runs
         double places = 0;    // more, of faces that are not quite in their places
@@ -70,6 +70,12 @@ struct MeshFacts {
     TrialError last_error;  // on the rays of an earlier view, if there are none for this one
 };
 
+// Whether an order is asked for that is right on every ray. The others are there to be studied,
+// with what they get wrong.
+inline bool is_right_order(ProjectOrder order) {
+    return order == ProjectOrder::automatic || order == ProjectOrder::exact;
+}
+
 // Makes MeshFacts::trial_rays from rays of the view, and from tets of the mesh one by one.
 std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, const SceneMesh& mesh,
                                                          const TetPieces& pieces);
@@ -78,11 +84,11 @@ std::vector<std::vector<MeshFacts::Run>> find_trial_rays(const Scene& scene, con
 // does not say how to treat them, or where no value is finite.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
-// The same in steps: the facts of the mesh and the transfer function; those of the view
+// These measure in steps: the facts of the mesh and the transfer function; those of the view
 // except for rays; trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
-// What measure_data() leaves out, because it takes longer and depends on the mesh alone:
-// overlapping_tets.
+// Returns MeshFacts::overlapping_tets, which measure_data() leaves out: it takes longer, and
+// depends on the mesh alone.
 std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);

@@ -14,6 +14,7 @@
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
+#include "mesh/rounded_plane.h"
 
 namespace lamina {
 namespace {
@@ -26,13 +27,12 @@ constexpr std::int64_t looks_a_face = 60;
 // Lines through parts of a mesh: of so many parts at most.
 constexpr std::int64_t most_lines = 500, lines_per_task = 8;
 
-using Triangle = std::array<glm::dvec3, 3>;
-
 bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
     return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
-// Whether the edge from p to q passes through the inside of a triangle, from one side to the other.
+// Tells whether the edge from p to q passes through the inside of a triangle, from one side to the
+// other.
 bool pierces(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
     const auto& [a, b, c] = triangle;
     if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;

@@ -29,7 +29,7 @@ namespace {
 // (docs/numerics.md, section 7).
 constexpr double near_share = 1e-6;
 
-// What float32 arithmetic adds to the error of a picture, in 1/255: the same as for exact segments
+// Error that float32 arithmetic adds to a picture, in 1/255: the same as for exact segments
 // of volumes (plan/classification_choice.h).
 constexpr double float_error = 0.05;
 
@@ -172,10 +172,9 @@ class ProjectPlanner {
                 break;
         }
         const bool asked = settings_.order == ProjectOrder::automatic;
-        // Other orders are there to be studied, with what they get wrong. `mpvo` of a convex mesh
-        // is what `auto` takes.
+        // `auto` takes `mpvo` for a convex mesh, where it is right.
         plan_.solve_rings =
-            asked || settings_.order == ProjectOrder::exact ||
+            is_right_order(settings_.order) ||
             (settings_.order == ProjectOrder::mpvo && facts_.convexity != Convexity::none);
         if (asked && scene_.target == Target::float32 && !scene_.lighting &&
             leave_out(
@@ -235,8 +234,7 @@ class ProjectPlanner {
         const bool straight =
             (plan_.orthographic || plan_.interpolation == Interpolation::perspective) &&
             plan_.thickness == Thickness::exact;
-        const bool sorted = settings_.order == ProjectOrder::automatic ||
-                            settings_.order == ProjectOrder::exact || plan_.single_color;
+        const bool sorted = plan_.solve_rings || plan_.single_color;
         const bool stored = plan_.target == Target::float32 && plan_.tree.empty();
         if (!integrated || !straight || !sorted || !stored || facts_.overlapping_tets > 0)
             return {};

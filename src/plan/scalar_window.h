@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window of a mesh's scalars (facts/drawn_range.h) means for ways to integrate tets.
+// Ways to integrate tets depend on the window of a mesh's scalars (facts/drawn_range.h).
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline bool is_far_narrower(const ValueRange& window, const ValueRange& range) {
 // of the transfer function and no window holds these: float32 would have 1e-3 of a piece.
 inline constexpr double narrow_pieces = 0x1p12;
 
-// Whether most pieces that show something are so narrow beside the range.
+// Tells whether most pieces that show something are so narrow beside the range.
 inline bool has_narrow_pieces(const TransferFunction& transfer_function, const ValueRange& range) {
     std::vector<double> widths;
     for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,

@@ -303,8 +303,8 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
                        aside);
 }
 
-// Whether scalars of the tet are computed in double precision: tets that run far outside the window
-// are careful (facts/far_scalars.h).
+// Tells whether scalars of the tet are computed in double precision: tets that run far outside the
+// window are careful (facts/far_scalars.h).
 HWY_INLINE bool has_exact_scalars(const TetFragments& fragments, const PartArea& area) {
     return fragments.windowed && area.careful;
 }

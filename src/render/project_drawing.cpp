@@ -45,10 +45,8 @@ void ProjectDrawing::measure_data(const Scene& scene) {
     measure_overlap(scene);
 }
 
-// Orders but these two are there to be studied, with what they get wrong.
 void ProjectDrawing::measure_overlap(const Scene& scene) {
-    const ProjectOrder order = scene.project.order;
-    if (order != ProjectOrder::automatic && order != ProjectOrder::exact) return;
+    if (!is_right_order(scene.project.order)) return;
     if (!overlapping_tets_) {
         overlapping_tets_ = lamina::measure_overlap(*mesh_, facts_.convexity);
         if (*overlapping_tets_ > 0) {

@@ -7,7 +7,7 @@
 
 namespace lamina::study {
 
-// What is wrong with a record that lamina did not write.
+// Text about a record that lamina did not write.
 inline constexpr const char* strange_record =
     "a record lacks a key, or a key has a value of another kind";
 

@@ -84,22 +84,22 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
     }
     try {
         RunList list;
-        for (const char* const key : {"title", "rounds", "frames", "scenes", "swept", "baselines",
-                                      "dropped", "data", "runs", "study"}) {
+        const auto required = [&](const char* key) -> const nlohmann::json& {
             if (!document.contains(key)) fail("it has no \"{}\"", key);
-        }
-        document.at("title").get_to(list.title);
-        document.at("rounds").get_to(list.rounds);
-        document.at("frames").get_to(list.frames);
-        document.at("scenes").get_to(list.scenes);
+            return document.at(key);
+        };
+        required("title").get_to(list.title);
+        required("rounds").get_to(list.rounds);
+        required("frames").get_to(list.frames);
+        required("scenes").get_to(list.scenes);
         read_shared_settings(document, list);
-        document.at("swept").get_to(list.swept);
-        document.at("baselines").get_to(list.baselines);
-        for (const nlohmann::json& each : document.at("dropped"))
+        required("swept").get_to(list.swept);
+        required("baselines").get_to(list.baselines);
+        for (const nlohmann::json& each : required("dropped"))
             list.dropped.push_back({each.at("because"), each.at("runs")});
-        for (const nlohmann::json& each : document.at("data"))
+        for (const nlohmann::json& each : required("data"))
             list.data.push_back({each.at("name"), each.at("content")});
-        for (const nlohmann::json& each : document.at("runs")) {
+        for (const nlohmann::json& each : required("runs")) {
             StudyRun run{each.at("id"), each.at("name"), each.at("scene"),
                          settings_from(each.at("settings"))};
             if (run.scene >= list.scenes.size()) fail("a run names scene {}", run.scene);
@@ -108,7 +108,7 @@ RunList run_list_from(const nlohmann::json& document, const std::filesystem::pat
         for (const std::size_t baseline : list.baselines) {
             if (baseline >= list.runs.size()) fail("a baseline is run {}", baseline);
         }
-        if (list.baselines.size() != list.scenes.size() || list.id() != document.at("study"))
+        if (list.baselines.size() != list.scenes.size() || list.id() != required("study"))
             fail("its runs are not those that it was written with");
         return list;
     } catch (const nlohmann::json::exception&) {

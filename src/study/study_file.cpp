@@ -56,7 +56,7 @@ bool is_data_folder_set() {
     return folder != nullptr && *folder != '\0';
 }
 
-// Whether a scene names a file of the data sets.
+// Tells whether a scene names a file of the data sets.
 bool names_data_folder(const nlohmann::json& value) {
     if (value.is_string())
         return value.get_ref<const std::string&>().find("${LAMINA_DATA}") != std::string::npos;

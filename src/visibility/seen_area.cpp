@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
+#include "visibility/polygon_cut.h"
+
 namespace lamina {
 namespace {
 
@@ -16,20 +18,6 @@ struct Polygon {
         if (count < corners.size()) corners[count++] = corner;
     }
 };
-
-// Keeps the part where dot(normal, corner) >= offset (Sutherland and Hodgman 1974).
-Polygon cut(const Polygon& polygon, const glm::dvec3& normal, double offset) {
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const glm::dvec3& a = polygon.corners[i];
-        const glm::dvec3& b = polygon.corners[(i + 1) % polygon.count];
-        const double at_a = glm::dot(normal, a) - offset, at_b = glm::dot(normal, b) - offset;
-        if (at_a >= 0) kept.add(a);
-        if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0))
-            kept.add(a + (at_a / (at_a - at_b)) * (b - a));
-    }
-    return kept;
-}
 
 // Van Oosterom and Strackee, The solid angle of a plane triangle, 1983, equation 8.
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -72,7 +60,8 @@ double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry)
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &a = window.corners[i], &b = window.corners[(i + 1) % 3];
         const glm::dvec3 normal = glm::cross(eye.at_infinity ? eye.position : a, b - a);
-        seen = cut(seen, normal, glm::dot(normal, a));
+        const double offset = glm::dot(normal, a);
+        seen = cut(seen, [&](const glm::dvec3& c) { return glm::dot(normal, c) - offset; });
     }
     return area(eye, seen);
 }

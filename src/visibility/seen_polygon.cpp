@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
+
+#include "visibility/polygon_cut.h"
 
 namespace lamina {
 namespace {
@@ -14,10 +15,6 @@ namespace {
 // what rounding moves a corner by (coordinates up to 1e9 pixels, beside the near plane, are good to
 // 1e-7), and more than the ray perturbation (1e-7).
 constexpr double margin = 1e-3;
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-    return a.x * b.y - a.y * b.x;
-}
 
 double signed_area(const SeenPolygon& polygon) {
     double sum = 0;
@@ -75,44 +72,25 @@ void for_each_row(const SeenPolygon& polygon, const PixelArea& area, const Visit
     }
 }
 
-// Keeps the side of the line through a and b on which cross(b - a, corner - a) has a sign.
-SeenPolygon cut(const SeenPolygon& polygon, const glm::dvec2& a, const glm::dvec2& b, double sign) {
-    SeenPolygon kept;
-    const auto height = [&](const glm::dvec2& corner) { return sign * cross(b - a, corner - a); };
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const glm::dvec2& from = polygon.corners[i];
-        const glm::dvec2& to = polygon.corners[(i + 1) % polygon.count];
-        const double at_from = height(from), at_to = height(to);
-        if (at_from >= 0) kept.add(from);
-        if ((at_from < 0 && at_to > 0) || (at_from > 0 && at_to < 0))
-            kept.add(from + at_from / (at_from - at_to) * (to - from));
-    }
-    return kept;
-}
-
 }  // namespace
 
 double SeenPolygon::area() const {
     return std::abs(signed_area(*this));
 }
 
-glm::dvec3 PixelFinder::see(const glm::dvec3& point) const {
-    const glm::dvec3 p = point - view_.eye;
-    return {glm::dot(p, view_.right), glm::dot(p, view_.up), glm::dot(p, view_.forward)};
-}
-
 glm::dvec2 PixelFinder::place_of(const glm::dvec3& seen) const {
-    const double scale = view_.pixel * (perspective() ? seen.z : 1);
-    return {seen.x / scale + 0.5 * view_.width - 0.5, 0.5 * view_.height - 0.5 - seen.y / scale};
+    const glm::dvec2 window = window_.to_window(seen);
+    return {window.x - 0.5, window_.view().height - 0.5 - window.y};
 }
 
 SeenPolygon PixelFinder::polygon(const Triangle& triangle) const {
     SeenPolygon seen;
-    const std::array<glm::dvec3, 3> corners{see(triangle[0]), see(triangle[1]), see(triangle[2])};
+    const std::array<glm::dvec3, 3> corners{window_.see(triangle[0]), window_.see(triangle[1]),
+                                            window_.see(triangle[2])};
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 3];
-        if (!perspective() || a.z >= near_) seen.add(place_of(a));
-        if (perspective() && (a.z < near_) != (b.z < near_)) {
+        if (!window_.perspective() || a.z >= near_) seen.add(place_of(a));
+        if (window_.perspective() && (a.z < near_) != (b.z < near_)) {
             glm::dvec3 at = a + (near_ - a.z) / (b.z - a.z) * (b - a);
             at.z = near_;
             seen.add(place_of(at));
@@ -122,12 +100,12 @@ SeenPolygon PixelFinder::polygon(const Triangle& triangle) const {
 }
 
 PixelArea PixelFinder::pixels_of(std::span<const glm::dvec3> points) const {
-    const PixelArea all{0, view_.width - 1, 0, view_.height - 1};
+    const PixelArea all{0, window_.view().width - 1, 0, window_.view().height - 1};
     Range columns, rows;
     std::size_t hidden = 0;
     for (const glm::dvec3& point : points) {
-        const glm::dvec3 seen = see(point);
-        if (perspective() && seen.z < near_) {
+        const glm::dvec3 seen = window_.see(point);
+        if (window_.perspective() && seen.z < near_) {
             ++hidden;
             continue;
         }
@@ -141,12 +119,14 @@ PixelArea PixelFinder::pixels_of(std::span<const glm::dvec3> points) const {
             rows.last(all.last_row)};
 }
 
-// Sutherland and Hodgman (Reentrant polygon clipping, 1974).
 SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
     const double sign = signed_area(b) < 0 ? -1 : 1;
     SeenPolygon common = a;
-    for (std::size_t i = 0; i < b.count; ++i)
-        common = cut(common, b.corners[i], b.corners[(i + 1) % b.count], sign);
+    for (std::size_t i = 0; i < b.count; ++i) {
+        const glm::dvec2& from = b.corners[i];
+        const glm::dvec2 along = b.corners[(i + 1) % b.count] - from;
+        common = cut(common, [&](const glm::dvec2& c) { return sign * cross(along, c - from); });
+    }
     return common;
 }
 

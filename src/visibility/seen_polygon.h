@@ -9,8 +9,8 @@
 #include <span>
 
 #include "mesh/rounded_plane.h"
-#include "scene/camera.h"
 #include "scene/pixel_area.h"
+#include "scene/window_view.h"
 
 namespace lamina {
 
@@ -34,19 +34,17 @@ struct SeenPolygon {
 // not seen in perspective views; the result never lacks a pixel because of rounding.
 class PixelFinder {
   public:
-    PixelFinder(const View& view, double near) : view_(view), near_(near) {}
+    PixelFinder(const View& view, double near) : window_(view), near_(near) {}
 
     SeenPolygon polygon(const Triangle& triangle) const;
     // The pixels of the picture whose rays may meet the hull of some points.
     PixelArea pixels_of(std::span<const glm::dvec3> points) const;
-    const View& view() const { return view_; }
+    const View& view() const { return window_.view(); }
 
   private:
-    bool perspective() const { return view_.projection == Projection::perspective; }
-    glm::dvec3 see(const glm::dvec3& point) const;
     glm::dvec2 place_of(const glm::dvec3& seen) const;
 
-    View view_;
+    WindowView window_;
     double near_;
 };
 

@@ -49,12 +49,27 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
 
 std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
                                                     const std::function<void()>& meanwhile) {
+    return sort_whole(eye, true, meanwhile);
+}
+
+DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
+                                                     const std::function<void()>& meanwhile) {
+    const auto tets = sort_whole(eye_of(view), false, meanwhile);
+    if (!graph_ || farthest_first_ || report_.cycles == 0) return {tets, {}};
+    solve_rings(view);
+    return rings_->order();
+}
+
+// `break_rings`: the tets of rings are ordered, too, as well as whole tets can be.
+std::span<const std::int32_t> VisibilityOrder::sort_whole(const Eye& eye, bool break_rings,
+                                                          const std::function<void()>& meanwhile) {
     report_ = {};
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
-        parallel_invoke([&] { farthest_first_ ? sort_farthest_first() : sort_topologically(true); },
-                        meanwhile);
+        parallel_invoke(
+            [&] { farthest_first_ ? sort_farthest_first() : sort_topologically(break_rings); },
+            meanwhile);
         return order_;
     }
     if (method_ == OrderMethod::centroid) sort_centroids(eye);
@@ -62,19 +77,8 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
     return order_;
 }
 
-DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
-                                                     const std::function<void()>& meanwhile) {
-    if (!graph_ || farthest_first_) return {sort(eye_of(view), meanwhile), {}};
-    report_ = {};
-    cycles_.forget();
-    graph_->look_from(eye_of(view));
-    parallel_invoke([&] { sort_topologically(false); }, meanwhile);
-    if (report_.cycles == 0) return {order_, {}};
-    solve_rings(view);
-    return rings_->order();
-}
-
-// Tets in no ring come first, then rings and tets between them (sort_topologically).
+// Lists the tets of each ring anew. In the order tets in no ring come first, then rings and tets
+// between them (sort_topologically).
 void VisibilityOrder::solve_rings(const View& view) {
     const Stage solving("rings");
     rings_.emplace(*graph_, view,

@@ -73,6 +73,8 @@ class VisibilityOrder {
         std::int32_t tet;
     };
     void sort_centroids(const Eye& eye);
+    std::span<const std::int32_t> sort_whole(const Eye& eye, bool break_rings,
+                                             const std::function<void()>& meanwhile);
     void sort_farthest_first();
     void sort_topologically(bool break_rings);
     std::size_t draw_free();

@@ -156,8 +156,8 @@ def volume_scene(seed, dice, lit):
     return made
 
 
-def mesh_scene(seed, dice, lit):
-    mesh = meshes.make(dice, world_scale(dice))
+def around_mesh(seed, dice, mesh, shown, lit):
+    """A scene of a mesh, and the edges of its box. `shown`: what the range that counts is taken of."""
     corner = mesh.points.min(0)
     edges = numpy.diag(mesh.points.max(0) - corner)
     name, files = meshes.files(mesh, dice)
@@ -166,7 +166,12 @@ def mesh_scene(seed, dice, lit):
         scene["nan"] = "transparent"
         mesh.kind += ", NaN"
     made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
-    made = assembled(seed, dice, mesh, corner, edges, made, lit)
+    return assembled(seed, dice, shown, corner, edges, made, lit), edges
+
+
+def mesh_scene(seed, dice, lit):
+    mesh = meshes.make(dice, world_scale(dice))
+    made, edges = around_mesh(seed, dice, mesh, mesh, lit)
     if dice.chance(0.1):  # on a corner
         eye = mesh.points[dice.whole(0, len(mesh.points) - 1)]
         if numpy.linalg.norm(eye - made.scene["camera"]["center"]) > 1e-3 * numpy.abs(edges).max():
@@ -194,15 +199,7 @@ def marked_scene(seed, lit):
     dice = Dice(seed + (1 << 35))
     mesh = meshes.make(dice, world_scale(dice))
     shown = markers.window(mesh, dice) if dice.chance(0.2) else markers.mark(mesh, dice)
-    corner = mesh.points.min(0)
-    edges = numpy.diag(mesh.points.max(0) - corner)
-    name, files = meshes.files(mesh, dice)
-    scene = {"version": 1, "mesh": name}
-    if not numpy.isfinite(mesh.values).all():
-        scene["nan"] = "transparent"
-        mesh.kind += ", NaN"
-    made = RandomScene(seed, scene, files, [], mesh=mesh, labels={"data": f"{mesh.kind} mesh"})
-    made = assembled(seed, dice, Values(shown), corner, edges, made, lit)
+    made, _ = around_mesh(seed, dice, mesh, Values(shown), lit)
     if dice.chance(0.15):
         made.scene["transfer_function"], made.labels["transfer"] = "auto", "auto"
     elif dice.chance(0.2):  # the values far away show, too

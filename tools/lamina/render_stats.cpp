@@ -51,6 +51,7 @@ Json project_to_json(const ProjectPlan& project) {
                         {"nodes", name_of(NodeArithmetic::fixed)},
                         {"scattered", project.scattered}};
     }
+    json["off_on_trial_rays"] = project.trial_error.segments;
     if (project.source == SegmentSource::table) {
         const SegmentTableRequest& table = project.table;
         json["table"] = {{"scalars", table.scalar_nodes},
