@@ -19,10 +19,10 @@ inline constexpr double far_for_floats = 16;
 // has 1e-4 of it.
 inline constexpr double far_for_parts = 128;
 
-// A tet that runs farther outside is drawn as if the window were narrower, so that its normalised
-// scalars are numbers that float32 can square. Of such a tet less than 1e-9 lies in the window in
-// either case, and where it lies stays exact.
-inline constexpr double farthest_normalised = 0x1p30;
+// A tet that runs farther outside is drawn as if the window were wider, so that its normalised
+// scalars are numbers that float32 can square. Of such a tet less than 1e-18 lies in the window in
+// either case: less than opaque points (optics/opacity.h) need to show.
+inline constexpr double farthest_normalised = 0x1p60;
 
 // Tells whether a range of scalars meets the window and also reaches more than `far` widths beyond
 // it.

@@ -38,6 +38,10 @@ constexpr double float_error = 0.05;
 // most faces far below it.
 constexpr double placing_share = 1e-6;
 
+// Scalars and the transfer function's points are float32 numbers of this window, rounded some times
+// by at most half of 2^-23 of it. Parts of tets have windows of their own.
+constexpr double scalar_rounding = 0x1p-23;
+
 // A figure of more, in 1/255, is no figure: few rays tell little of pictures that are so far off.
 constexpr double most_figure = 64;
 
@@ -225,13 +229,14 @@ class ProjectPlanner {
         }
     }
 
-    // Nothing was measured of what is drawn wrong on purpose, to be studied; nor is there a right
-    // picture of tets that overlap.
+    // Nothing was measured of what is drawn wrong on purpose, to be studied, and of triangles,
+    // whose corners lie on a rasteriser's grid; nor is there a right picture of tets that overlap.
     ErrorFigure picture_error() const {
         if (plan_.nothing_visible) return {ErrorKind::derived, 0, 0};
         const bool integrated =
             plan_.source != SegmentSource::mean && plan_.source != SegmentSource::vertices;
         const bool straight =
+            plan_.geometry == ProjectGeometry::silhouette &&
             (plan_.orthographic || plan_.interpolation == Interpolation::perspective) &&
             plan_.thickness == Thickness::exact;
         const bool sorted = plan_.solve_rings || plan_.single_color;
@@ -298,14 +303,17 @@ class ProjectPlanner {
     }
 
     // In 1/255, on the trial rays: the largest difference in colour or opacity that a way of
-    // integrating tets makes, and how much more it is if faces are not quite in their places.
-    // Without rays it is what was found last.
+    // integrating tets makes, with its scalars rounded, and how much more it is if faces are not
+    // quite in their places. Without rays it is what was found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
         if (facts_.trial_rays.empty()) return facts_.last_error;
         struct OfRay {
             double segments = 0, both = 0;
         };
         std::vector<OfRay> errors(facts_.trial_rays.size());
+        const double rounding = plan_.source == SegmentSource::parts
+                                    ? 0
+                                    : scalar_rounding * (plan_.range.hi - plan_.range.lo);
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
             const auto ray = static_cast<std::size_t>(index);
             glm::dvec4 exact(0), found(0), moved(0);
@@ -314,9 +322,9 @@ class ProjectPlanner {
                 run.length *= plan_.unit;
                 append(exact,
                        integrate_segment(*transfer_function_, run.front, run.back, run.length));
-                for_each_run_of_window(run, plan_.range, [&](const MeshFacts::Run& part) {
-                    append(found, lookup(part));
-                });
+                for_each_run_of_window(
+                    rounded(run, rounding), plan_.range,
+                    [&](const MeshFacts::Run& part) { append(found, lookup(part)); });
                 const double change = sign * 2 * placing_share * run.edge * plan_.unit;
                 append(moved, integrate_segment(*transfer_function_, run.front, run.back,
                                                 std::max(run.length + change, 0.0)));
@@ -333,6 +341,14 @@ class ProjectPlanner {
         }
         largest.places = std::max(both - largest.segments, 0.0);
         return largest;
+    }
+
+    // A tet of one value stays on its side of a step: that value is rounded as the step is.
+    static MeshFacts::Run rounded(MeshFacts::Run run, double rounding) {
+        if (run.front == run.back) return run;
+        run.front += rounding;
+        run.back += rounding;
+        return run;
     }
 
     static double largest_of(const glm::dvec4& v) {

@@ -77,7 +77,8 @@ HWY_INLINE Fragment<Vector> windowed_color(Tag d, const TetFragments& fragments,
     const auto length = [&](Vector from, Vector to) HWY_ATTR {
         return hn::IfThenElseZero(changes, hn::Mul(per_scalar, hn::Abs(hn::Sub(to, from))));
     };
-    const Vector within = hn::IfThenElse(changes, length(in, out), run.world_length);
+    // Segments that stay within the window keep their lengths, whatever their neighbours do.
+    const Vector within = hn::IfThenElse(leaves, length(in, out), run.world_length);
     Fragment<Vector> sum = color(d, fragments, {in, in, length(run.front, in)});
     const auto put_behind = [&](const Fragment<Vector>& next) HWY_ATTR {
         const Vector left = hn::Sub(hn::Set(d, 1.0f), sum.alpha);

@@ -260,7 +260,11 @@ class Judge:
     # Projected tetrahedra.
     def tets(self, drawn, traced):
         plan = drawn.stats["plan"]
+        triangles = plan["geometry"] == "triangles"
+        # In float32 the scalars of triangles that begin at the eye keep few digits of a narrow window.
+        touched = self.made.labels["camera"].split()[0] in ("inside", "face", "edge", "corner")
         promised = (plan["target"] == "float32" and plan["interpolation"] == "perspective"
+                    and not (triangles and touched and self.made.marked)
                     and plan["thickness"] == "exact"
                     and self.render["project"]["coloring"] in ("preintegrated", "analytic")
                     and self.render["project"].get("order") in (None, "exact")
@@ -277,7 +281,7 @@ class Judge:
             claimed *= 1.5  # of a table that the scene asks for it is what was found on trial rays, and no bound
         # Colour's weights are good to 5e-4 in opaque parts (docs/projection.md).
         claimed += self.optics.brightest * 5e-4 + (self.max_error / 255 if self.lit else 0)
-        self.check("tets", error, claimed + self.placed(traced, plan["geometry"] == "triangles", error - claimed),
+        self.check("tets", error, claimed + self.placed(traced, triangles, error - claimed),
                    f" by {plan['source']}, {plan['geometry']}")
 
     def placed(self, traced, on_grid, wanted):

@@ -37,12 +37,14 @@ def kuhn(size):
 
 
 def random_delaunay(dice):
+    """Points nearly in a plane may have no tets; then others are drawn."""
     count = dice.whole(5, 26)
     places = [tuple(dice.whole(0, 1 << 16) for _ in range(3)) for _ in range(count)]
     if dice.chance(0.3):  # nearly in a plane, or in layers
         places = [(x, y, z >> dice.whole(8, 14) if dice.chance(0.8) else z) for x, y, z in places]
     places = sorted(set(places))
-    return numpy.array(places, float) / (1 << 16), numpy.array(delaunay.tetrahedra(places)).reshape(-1, 4)
+    tets = delaunay.tetrahedra(places)
+    return (numpy.array(places, float) / (1 << 16), numpy.array(tets)) if tets else random_delaunay(dice)
 
 
 def values_of(points, dice):

@@ -18,6 +18,7 @@ class RandomScene:
     volume: volumes.Volume = None
     mesh: meshes.Mesh = None
     labels: dict = field(default_factory=dict)  # what it is, for people
+    marked: bool = False  # what shows is a window that may be far narrower than the data
 
     def write(self, folder):
         for name, data in self.files.items():
@@ -200,6 +201,7 @@ def marked_scene(seed, lit):
     mesh = meshes.make(dice, world_scale(dice))
     shown = markers.window(mesh, dice) if dice.chance(0.2) else markers.mark(mesh, dice)
     made, _ = around_mesh(seed, dice, mesh, Values(shown), lit)
+    made.marked = True
     if dice.chance(0.15):
         made.scene["transfer_function"], made.labels["transfer"] = "auto", "auto"
     elif dice.chance(0.2):  # the values far away show, too
