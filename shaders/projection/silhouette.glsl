@@ -13,7 +13,7 @@ flat in vec4 center;
 #ifdef SCALARS
 flat in vec4 scalars;
 #endif
-#ifdef EXACT_SCALARS
+#if defined(EXACT_RUNS) && defined(SCALARS)
 flat in vec4 scalars_low;
 #endif
 flat in vec4 limits;
@@ -66,22 +66,6 @@ dvec4 depths_of_faces(dvec2 moved) {
 // Returns the depths, less the center's, between which the ray is inside the tet. They are double because faces that
 // are nearly edge-on are steep functions of the pixel, and both tets that share such a face must find it in the same
 // place.
-vec2 find_depths(vec2 place) {
-    vec4 depths = vec4(depths_of_faces(moved_place(place)));
-    uint fronts = front_faces();
-    float enter = near_depth - center.z;
-    enter = max(enter, fronts > 0u ? depths.x : enter);
-    enter = max(enter, fronts > 1u ? depths.y : enter);
-    enter = max(enter, fronts > 2u ? depths.z : enter);
-    float leave = depths.w;
-    leave = min(leave, fronts > 0u ? leave : depths.x);
-    leave = min(leave, fronts > 1u ? leave : depths.y);
-    leave = min(leave, fronts > 2u ? leave : depths.z);
-    return vec2(enter, leave);
-}
-
-#ifdef EXACT_SCALARS
-// Returns the same before it is rounded.
 dvec2 find_exact_depths(dvec2 moved) {
     dvec4 depths = depths_of_faces(moved);
     uint fronts = front_faces();
@@ -96,6 +80,9 @@ dvec2 find_exact_depths(dvec2 moved) {
     return dvec2(enter, leave);
 }
 
+#ifndef EXACT_RUNS
+vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
+#elif defined(SCALARS)
 // Returns the scalars at these depths. In float32 a scalar within the window would be a small difference of large
 // numbers, in a tet that runs far outside it (facts/far_scalars.h).
 vec2 exact_ends(dvec2 depths, dvec2 moved) {
@@ -162,7 +149,7 @@ void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout TetRun run) 
 
 TetRun find_run() {
     vec2 place = gl_FragCoord.xy - center.xy;  // exact
-#ifdef EXACT_SCALARS
+#ifdef EXACT_RUNS
     dvec2 moved = moved_place(place);
     dvec2 exact_depths = find_exact_depths(moved);
     exact_depths = exact_depths.y > exact_depths.x ? exact_depths : dvec2(0.0);
@@ -200,7 +187,7 @@ TetRun find_run() {
     find_gradients(place, from_center, reach, run);
 #endif
 #ifdef SCALARS
-#ifdef EXACT_SCALARS
+#ifdef EXACT_RUNS
     vec2 ends = exact_ends(exact_depths, moved);
 #else
     vec2 ends = scalars.x + from_center * scalars.y + reach * dot(place, scalars.zw);

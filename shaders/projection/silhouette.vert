@@ -24,7 +24,7 @@ flat out vec4 center;           // column, row, depth, z
 #ifdef SCALARS
 flat out vec4 scalars;          // at the center, per z, per column, per row
 #endif
-#ifdef EXACT_SCALARS
+#if defined(EXACT_RUNS) && defined(SCALARS)
 flat out vec4 scalars_low;      // what these lack of double precision
 #endif
 flat out vec4 limits;           // of the scalar, or upper cut per column and row; bits: fronts, number
@@ -45,7 +45,7 @@ void main() {
 #ifdef SCALARS
     scalars = uintBitsToFloat(records[first + 7u]);
 #endif
-#ifdef EXACT_SCALARS
+#if defined(EXACT_RUNS) && defined(SCALARS)
     scalars_low = uintBitsToFloat(records[first + 10u]);
 #endif
     limits = uintBitsToFloat(records[first + 8u]);

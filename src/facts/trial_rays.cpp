@@ -13,8 +13,9 @@
 namespace lamina {
 namespace {
 
-// So many rays along each side of the picture: enough to meet what fills a thousandth of it.
-constexpr int rays_along_side = 32;
+// So many rays along each side of the picture: enough to meet what fills a thousandth of it. Of a
+// picture that has as few pixels, each has a ray.
+constexpr int rays_along_side = 32, most_rays = rays_along_side * rays_along_side;
 
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
     const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
@@ -34,14 +35,21 @@ std::vector<MeshFacts::Run> runs_of(RayWalk& walk, const View& view, int column,
     const View::Ray ray = view.ray(column, row);
     walk.aim(ray.origin, ray.direction);
     const double length_per_depth = glm::length(ray.direction);
+    const double diagonal = glm::distance(mesh.bounds().min, mesh.bounds().max);
     std::vector<TetSegment> segments;
     walk.list(segments);
     std::vector<MeshFacts::Run> runs;
     for (const TetSegment& segment : segments) {
-        if (segment.in.at < 0 || !(segment.out.at > segment.in.at)) continue;
-        const MeshFacts::Run run{segment.in.interpolate(scalar), segment.out.interpolate(scalar),
-                                 (segment.out.at - segment.in.at) * length_per_depth,
-                                 longest_edge(mesh, segment.tet)};
+        const double in = std::max(segment.in.at, 0.0), length = segment.out.at - in;
+        if (!(length > 0)) continue;
+        // Tets around the eye begin at the near plane, whose distance is a share of the mesh's
+        // size.
+        const bool around_eye = segment.in.at < in;
+        const double share = length / (segment.out.at - segment.in.at);
+        const double back = segment.out.interpolate(scalar);
+        const double front = std::lerp(back, segment.in.interpolate(scalar), share);
+        const MeshFacts::Run run{front, back, length * length_per_depth,
+                                 around_eye ? diagonal : longest_edge(mesh, segment.tet)};
         if (std::isfinite(run.front) && std::isfinite(run.back)) runs.push_back(run);
     }
     return runs;
@@ -77,8 +85,9 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 std::vector<std::vector<MeshFacts::Run>> find_view_rays(const Scene& scene, const SceneMesh& mesh) {
     const View view(scene.camera, scene.width, scene.height);
     const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
-    const int columns = std::min(rays_along_side, view.width);
-    const int rows = std::min(rays_along_side, view.height);
+    const bool all = view.width * std::int64_t{view.height} <= most_rays;
+    const int columns = all ? view.width : std::min(rays_along_side, view.width);
+    const int rows = all ? view.height : std::min(rays_along_side, view.height);
     std::vector<std::vector<MeshFacts::Run>> rays(static_cast<std::size_t>(columns * rows));
     parallel_for(rows, 1, [&](std::int64_t row) {
         RayWalk walk(mesh.mesh, boundary);

@@ -40,10 +40,10 @@ constexpr double placing_share = 1e-6;
 
 // Scalars and the transfer function's points are float32 numbers of this window, rounded some times
 // by at most half of 2^-23 of it. Parts of tets have windows of their own.
-constexpr double scalar_rounding = 0x1p-23;
+constexpr double scalar_rounding = 0x1p-22;
 
 // A figure of more, in 1/255, is no figure: few rays tell little of pictures that are so far off.
-constexpr double most_figure = 64;
+constexpr double most_figure = 8;
 
 // What a table may add to the picture's error, in 1/255.
 constexpr double most_segment_error = 0.5;
@@ -318,13 +318,18 @@ class ProjectPlanner {
             const auto ray = static_cast<std::size_t>(index);
             glm::dvec4 exact(0), found(0), moved(0);
             double sign = 1;
-            for (MeshFacts::Run run : facts_.trial_rays[ray]) {
+            const std::vector<MeshFacts::Run>& runs = facts_.trial_rays[ray];
+            for (std::size_t i = 0; i < runs.size(); ++i) {
+                MeshFacts::Run run = runs[i];
                 run.length *= plan_.unit;
                 append(exact,
                        integrate_segment(*transfer_function_, run.front, run.back, run.length));
                 for_each_run_of_window(
                     rounded(run, rounding), plan_.range,
                     [&](const MeshFacts::Run& part) { append(found, lookup(part)); });
+                // What a face within the mesh takes from one run it gives to the next; the first
+                // and the last face move outwards.
+                if (i + 1 == runs.size()) sign = 1;
                 const double change = sign * 2 * placing_share * run.edge * plan_.unit;
                 append(moved, integrate_segment(*transfer_function_, run.front, run.back,
                                                 std::max(run.length + change, 0.0)));

@@ -35,7 +35,7 @@ class FragmentQueue {
     struct Found {
         InsideSpan<Vector> span;
         // The scalar's change from the record's center, at z = 1, and world length per unit of z.
-        // Columns and rows from the center, of lit fragments and of those with exact scalars.
+        // Columns and rows from the center, of lit fragments and of those with exact runs.
         Vector aside, slant;
     };
     // A vector of pixels, by the TileGrid::place() of the first one, and the number in the

@@ -63,7 +63,8 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.windowed) defines.set("WINDOWED", 1);
-    if (plan.windowed && kind == FragmentKind::careful) defines.set("EXACT_SCALARS", 1);
+    if (kind == FragmentKind::careful && plan.source != SegmentSource::parts)
+        defines.set("EXACT_RUNS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
     if (plan.lighting) {
         defines.set("LIT", 1);

@@ -85,7 +85,7 @@ struct LitShader {
         const Number aside =
             column * Number(record.scalar_per_column) + row * Number(record.scalar_per_row);
         const TetRun<Vector> run =
-            has_exact_scalars(fragments, batch.area(part))
+            has_exact_runs(fragments, batch.area(part))
                 ? find_exact_run(d, *this, fragments, record, found.span, column.v, row.v, by_depth)
                 : run_between(d, *this, record, ends, aside.v);
         find_gradients(batch.gradient(part), column, row, ends, gradient);

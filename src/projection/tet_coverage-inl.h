@@ -65,7 +65,7 @@ class TetCoverage {
         // Blocks at the picture's right and lower edge may stick out of it.
         const bool whole_blocks = area_.width % block == 0 && area_.height % block == 0;
         FragmentQueue::Writer writer(found, part);
-        if (has_exact_scalars(fragments_, area)) {
+        if (has_exact_runs(fragments_, area)) {
             find_in<true, true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);
         } else if (area.careful) {
             find_in<lit, true, CarefulDepths<Tag>>(cut, record, area, blocks, writer);

@@ -90,7 +90,7 @@ class TetDrawing {
             const TetRecord& record = batch_.record(part);
             const bool slanted = tile_.slants != nullptr;
             queue_.set_run(d_, i,
-                           has_exact_scalars(fragments_, batch_.area(part))
+                           has_exact_runs(fragments_, batch_.area(part))
                                ? find_exact_run(d_, shader, fragments_, record, found.span,
                                                 found.aside, found.slant, slanted)
                                : find_run(d_, shader, fragments_, record, found.span, found.aside,

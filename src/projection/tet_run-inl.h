@@ -303,14 +303,16 @@ HWY_INLINE TetRun<hn::Vec<D>> find_run(D d, const Shader& shader, const TetFragm
                        aside);
 }
 
-// Tells whether scalars of the tet are computed in double precision: tets that run far outside the
-// window are careful (facts/far_scalars.h).
-HWY_INLINE bool has_exact_scalars(const TetFragments& fragments, const PartArea& area) {
-    return fragments.windowed && area.careful;
+// Tells whether lengths and scalars of the tet's runs are computed in double precision: of careful
+// tets that are not cut into parts.
+HWY_INLINE bool has_exact_runs(const TetFragments& fragments, const PartArea& area) {
+    return area.careful && fragments.source != SegmentSource::parts;
 }
 
-// The run of a ray through a careful tet. In float32 a scalar within the window would be a small
-// difference of large numbers. `slanted`: lengths along rays are longer than differences of z.
+// The run of a ray through a careful tet. In float32 a short run through a long tet would be a
+// small difference of large numbers, and so would be a scalar within the window of a tet that runs
+// far outside it (facts/far_scalars.h). `slanted`: lengths along rays are longer than differences
+// of z.
 template <class D, class Shader>
 HWY_INLINE TetRun<hn::Vec<D>> find_exact_run(D d, const Shader& shader,
                                              const TetFragments& fragments, const TetRecord& record,

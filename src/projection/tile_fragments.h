@@ -36,8 +36,7 @@ struct TetFragments {
     FragmentOutput output;
     std::uint32_t seed;
     TargetBlend blend;
-    // Scalars of whole tets may lie outside [0, 1] (ProjectPlan::windowed). Careful tets then have
-    // them in double precision.
+    // Scalars of whole tets may lie outside [0, 1] (ProjectPlan::windowed).
     bool windowed = false;
     bool opacity_only = false;  // for a node of a tree (shaders/projection/tet.frag)
     float depth_scale = 1;      // for that node: number of all cell fragments over that of the leaf
