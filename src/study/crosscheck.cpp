@@ -6,12 +6,16 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "base/interrupt.h"
-#include "base/progress.h"
 #include "base/stopwatch.h"
+#include "study/ladder_cost.h"
 #include "study/study_frames.h"
+#include "study/time_left.h"
+#include "study/timed_progress.h"
 
 namespace lamina::study {
 namespace {
@@ -23,12 +27,14 @@ Scene slicing_scene(const Scene& scene, int samples) {
     return sliced;
 }
 
-Scene projection_scene(const Scene& scene, double tolerance) {
+Scene projection_scene(const Scene& scene, double tolerance, std::int64_t most_tets) {
     Scene projected = scene;
     projected.method = Method::project;
     if (projected.mesh_file.empty()) {
         if (!projected.mesh_request) projected.mesh_request.emplace();
-        projected.mesh_request->tolerance = tolerance;
+        MeshSettings& settings = *projected.mesh_request;
+        settings.tolerance = tolerance;
+        settings.max_tets = std::min(settings.max_tets, most_tets);
     }
     return projected;
 }
@@ -38,25 +44,36 @@ class Crosschecker {
   public:
     Crosschecker(const Scene& scene, const CrosscheckSettings& settings,
                  const Capabilities& capabilities)
-        : scene_(scene), settings_(settings), capabilities_(capabilities) {}
+        : scene_(scene),
+          settings_(settings),
+          capabilities_(capabilities),
+          cost_(settings.ends_by_itself ? settings.ladder_tets : own_mesh().max_tets,
+                settings.ends_by_itself) {
+        if (settings.kept.empty()) return;
+        data_.keep_meshes(settings.kept);
+        references_ = ReferenceStore(settings.kept, settings.say);
+    }
 
     Crosscheck run() {
         assert(scene_.has_volume());
+        data_.volume(scene_);
+        settings_.begin();
         const std::vector<int> samples = all_samples();
         const std::vector<double> tolerances = all_tolerances();
-        const auto steps = 1 + samples.size() + tolerances.size();
-        Progress progress("crosscheck", static_cast<std::int64_t>(steps));
+        say_how_long(samples.size(), tolerances.size());
+        TimedProgress progress("crosscheck");
+        progress.expect(cost_.at_most(tolerances.size()));
         trace_volume_once();
-        progress.advance();
-        for (const int each : samples) {
-            slice(each);
-            progress.advance();
+        for (const int each : samples) slice(each);
+        std::vector<double> left = tolerances;
+        while (!left.empty()) {
+            project(left.front());
+            left.erase(left.begin());
+            if (is_ended_)
+                std::erase_if(left, [&](double each) { return each != stated_tolerance(); });
+            progress.expect(cost_.of(left) + timing_seconds());
         }
-        for (const double each : tolerances) {
-            project(each);
-            progress.advance();
-            if (settings_.stop_when_agreed && each <= made_.tolerance && is_fine_enough()) break;
-        }
+        progress.expect(timing_seconds());
         time();
         compare_pairs();
         choose_pictures();
@@ -77,15 +94,31 @@ class Crosschecker {
         sliced.method = Method::slice;
         return SceneRenderer(sliced, data_.volume(sliced).data, capabilities_).plan().slice.slabs;
     }
+    MeshSettings own_mesh() const { return scene_.mesh_request.value_or(MeshSettings{}); }
+    // The tolerance of the mesh that the scene states, or nothing.
+    std::optional<double> stated_tolerance() const {
+        if (!scene_.mesh_request) return std::nullopt;
+        return scene_.mesh_request->tolerance;
+    }
     std::vector<double> all_tolerances() {
         if (!scene_.mesh_file.empty()) return {0.0};
-        made_.tolerance = scene_.mesh_request.value_or(MeshSettings{}).tolerance;
+        made_.tolerance = own_mesh().tolerance;
         std::vector<double> tolerances;
         if (makes_meshes(scene_)) tolerances = settings_.tolerances;
         tolerances.push_back(made_.tolerance);
         std::sort(tolerances.begin(), tolerances.end(), std::greater<>());
         tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
         return tolerances;
+    }
+
+    void say_how_long(std::size_t slabs, std::size_t meshes) const {
+        if (!makes_meshes(scene_)) return;
+        const std::int64_t most =
+            settings_.ends_by_itself ? settings_.ladder_tets : own_mesh().max_tets;
+        settings_.say(fmt::format(
+            "{} numbers of slabs, {} {} of up to {} tets: meshes take {} of a processor at most",
+            slabs, meshes, meshes == 1 ? "mesh" : "meshes", most,
+            duration_text(cost_.at_most(meshes))));
     }
 
     void trace_volume_once() {
@@ -107,13 +140,21 @@ class Crosschecker {
         made.bytes = frames.bytes();
     }
 
+    Scene mesh_scene(double tolerance) const {
+        const bool limited = settings_.ends_by_itself && tolerance != stated_tolerance();
+        return projection_scene(
+            scene_, tolerance,
+            limited ? settings_.ladder_tets : std::numeric_limits<std::int64_t>::max());
+    }
+
     void project(double tolerance) {
         check_interrupt();
-        const Scene scene = projection_scene(scene_, tolerance);
+        const Scene scene = mesh_scene(tolerance);
         const Stopwatch watch;
-        const SceneMesh& mesh = *data_.mesh(scene).data.data();
+        const DataStore::StoredMesh& stored = data_.mesh(scene);
+        const SceneMesh& mesh = *stored.data.data();
         Crosscheck::Projection& made = made_.projections.emplace_back();
-        made.mesh_ms = watch.milliseconds();
+        made.mesh_ms = stored.ms;
         made.tolerance = tolerance;
         made.tets = static_cast<std::int64_t>(mesh.mesh.tets().size());
         if (mesh.report) {
@@ -128,12 +169,26 @@ class Crosschecker {
         made.method_part = image_error(made.picture, made.traced);
         made.error = image_error(made.picture, made_.pictures.traced_volume);
         made.bytes = frames.bytes();
+        cost_.add(tolerance, made.tets, watch.seconds());
+        end_if_fine_enough();
     }
 
-    bool is_fine_enough() const {
+    // The scene's own mesh is drawn, too, unless one stopped because of too many tets: what the
+    // scene does not state is then the finest that was made.
+    void end_if_fine_enough() {
+        if (!settings_.ends_by_itself) return;
         const Crosscheck::Projection& last = made_.projections.back();
         const double e = image_error(last.picture, made_.slicings.back().picture).all.linf;
-        return e <= scene_.max_error || last.stopped;
+        const bool agrees = e <= scene_.max_error && last.tolerance <= made_.tolerance;
+        is_ended_ = is_ended_ || agrees || last.stopped;
+        if (last.stopped && !scene_.mesh_request) made_.tolerance = last.tolerance;
+    }
+
+    // A first frame is no faster than later ones. One more round warms renderers up.
+    double timing_seconds() const {
+        double seconds = 0;
+        for (const auto& frames : frames_) seconds += frames->first_ms() / 1000;
+        return seconds * (settings_.rounds + 1);
     }
 
     void time() {
@@ -178,7 +233,7 @@ class Crosschecker {
     // What light adds to the difference of mesh and volume is told for the pictures that are shown.
     void trace_unlit() {
         check_interrupt();
-        Scene unlit = projection_scene(scene_, made_.tolerance);
+        Scene unlit = mesh_scene(made_.tolerance);
         unlit.lighting.reset();
         made_.pictures.unlit_volume =
             to_float(references_.get(unlit, TraceOf::volume, data_).image);
@@ -191,6 +246,8 @@ class Crosschecker {
     DataStore data_;
     ReferenceStore references_;
     std::vector<std::unique_ptr<StudyFrames>> frames_;
+    LadderCost cost_;
+    bool is_ended_ = false;  // whether finer meshes are not made
     Crosscheck made_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "plan/capabilities.h"
@@ -15,12 +17,18 @@ namespace lamina::study {
 struct CrosscheckSettings {
     // Tolerances of meshes made from the volume, in addition to the scene's own.
     std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
-    // Whether to stop refining the mesh once both methods agree within the scene's max_error. At
-    // its max_tets refining stops in any case.
-    bool stop_when_agreed = true;
+    // Whether refining ends once both methods agree within the scene's max_error, or a mesh would
+    // have more than `ladder_tets`. The scene's own mesh is drawn in any case, if it states one.
+    bool ends_by_itself = true;
+    std::int64_t ladder_tets = 250000;  // takes about a minute of one processor
     // Numbers of slabs, in addition to the scene's own.
     std::vector<int> samples{64, 128, 256, 512, 1024};
     int rounds = 3;  // rounds of interleaved frames, >= 3
+    // Folder where meshes and traced pictures are kept as they are made, and found.
+    std::filesystem::path kept;
+    // Called once the volume is read, before anything is kept.
+    std::function<void()> begin = [] {};
+    std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
 // One volume drawn by both methods, each from coarse to fine sampling.
@@ -36,7 +44,7 @@ struct Crosscheck {
         double tolerance = 0;  // 0 for a mesh from a file
         // Certified error, as a share of the range of values; 0 where it is not known.
         double mesh_error = 0;
-        bool stopped = false;  // whether refining stopped at max_tets
+        bool stopped = false;  // whether refining stopped because of too many tets
         std::int64_t tets = 0;
         double mesh_ms = 0;  // time to make or read the mesh
         Image traced, picture;
@@ -64,7 +72,7 @@ struct Crosscheck {
 bool makes_meshes(const Scene& scene);
 
 // Draws and traces all pictures. The scene must have a volume; without a mesh, one of tolerance .02
-// is made from it. Throws Error.
+// is made from it, or the finest of the ladder, if that ends before. Throws Error.
 Crosscheck crosscheck(const Scene& scene, const CrosscheckSettings& settings,
                       const Capabilities& capabilities);
 

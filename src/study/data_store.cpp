@@ -6,7 +6,9 @@
 
 #include <utility>
 
+#include "base/content_hash.h"
 #include "base/json_text.h"
+#include "base/stopwatch.h"
 #include "scene/scene_volume.h"
 #include "scene_files/volume_selection_json.h"
 #include "study/picture_key.h"
@@ -52,12 +54,29 @@ const DataStore::StoredVolume& DataStore::volume(const Scene& scene) {
 const DataStore::StoredMesh& DataStore::mesh(const Scene& scene) {
     std::unique_ptr<StoredMesh>& stored = meshes_[mesh_name(scene)];
     if (!stored) {
-        SceneMesh mesh = load_mesh(scene);
-        std::string content = content_of(mesh);
+        MadeMesh made = read_or_make(scene);
+        std::string content = content_of(made.mesh);
         stored = std::make_unique<StoredMesh>(
-            StoredMesh{TracedMesh(std::move(mesh)), std::move(content)});
+            StoredMesh{TracedMesh(std::move(made.mesh)), std::move(content), made.ms});
     }
     return *stored;
+}
+
+MadeMesh DataStore::read_or_make(const Scene& scene) {
+    const auto make = [&] {
+        const Stopwatch watch;
+        SceneMesh mesh = load_mesh(scene);
+        return MadeMesh{std::move(mesh), watch.milliseconds()};
+    };
+    if (!kept_ || !scene.mesh_file.empty()) return make();
+    // Data of the volume's name may change between two processes.
+    ContentHash id;
+    id.add(volume(scene).content);
+    id.add(mesh_name(scene));
+    if (std::optional<MadeMesh> found = kept_->find(id.hex(), scene)) return std::move(*found);
+    MadeMesh made = make();
+    kept_->keep(id.hex(), made);
+    return made;
 }
 
 void DataStore::clear() {

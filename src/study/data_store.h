@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "study/kept_meshes.h"
 #include "study/traced_mesh.h"
 #include "volume/volume_data.h"
 
@@ -25,12 +28,19 @@ class DataStore {
     struct StoredMesh {
         TracedMesh data;
         std::string content;
+        double ms = 0;  // time to read or make it
     };
     const StoredVolume& volume(const Scene& scene);
     const StoredMesh& mesh(const Scene& scene);
     void clear();
 
+    // Keeps meshes that are made from volumes in this folder from now on, and finds them there.
+    void keep_meshes(const std::filesystem::path& folder) { kept_.emplace(folder); }
+
   private:
+    MadeMesh read_or_make(const Scene& scene);
+
+    std::optional<KeptMeshes> kept_;
     std::map<std::string, std::unique_ptr<StoredVolume>> volumes_;
     std::map<std::string, std::unique_ptr<StoredMesh>> meshes_;
 };

@@ -236,6 +236,27 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
     EXPECT_NE(page.find("PT against slicing: blobs"), std::string::npos);
 }
 
+// Without a mesh of its own, the scene's is the finest of a ladder that ends because of its cost.
+TEST_F(Crosschecks, TheDefaultLadderSaysWhatItTakesAndEnds) {
+    scene.erase("mesh");
+    const std::vector<std::string> short_ladder{"--samples", "8",     "--context",
+                                                "cpu",       "--set", "render.max_error=20"};
+    ProgramResult result = run(short_ladder);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("meshes of up to 250000 tets: meshes take "), std::string::npos)
+        << result.err;
+    json budget = json::parse(read_bytes_of(folder / "out" / "budget.json"));
+    EXPECT_LE(budget["ladder"]["projection"].back()["tets"], 250000);
+    // The scene's own mesh is drawn as it states it.
+    scene["mesh"] = {{"tolerance", .001}, {"max_tets", 500}};
+    result = run(short_ladder);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    budget = json::parse(read_bytes_of(folder / "out" / "budget.json"));
+    EXPECT_EQ(budget["tolerance"], .001);
+    EXPECT_LE(budget["ladder"]["projection"].back()["tets"], 500);
+    EXPECT_EQ(budget["ladder"]["projection"].back()["tolerance"], .001);
+}
+
 TEST_F(Crosschecks, FindsWhereBothAgree) {
     const json budget = run_well({"--set", "render.max_error=200"});
     EXPECT_EQ(budget["wanted"], 200);

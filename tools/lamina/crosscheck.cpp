@@ -39,12 +39,13 @@ namespace {
 constexpr const char* crosscheck_name = "crosscheck";
 const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr", "sliced.exr",
                                           "projected.exr",     "budget.json",     "report.html"};
+constexpr const char* kept_name = "kept";  // the folder of finished steps, while it runs
 
 struct CrosscheckOptions {
     SceneOptions scene;
     std::string output, context = "auto";
     study::CrosscheckSettings settings;
-    bool force = false, quiet = false;
+    bool resume = false, force = false, quiet = false;
 };
 
 void check_ladder(const study::CrosscheckSettings& settings) {
@@ -85,11 +86,45 @@ void write_all(const std::filesystem::path& folder, const study::Crosscheck& mad
 
 // Tolerances that were asked for and are not drawn are said.
 void say_of_one_mesh(const CrosscheckOptions& options, const Scene& scene) {
-    if (options.quiet || options.settings.stop_when_agreed || study::makes_meshes(scene)) return;
+    if (options.quiet || options.settings.ends_by_itself || study::makes_meshes(scene)) return;
     print_message("lamina: --tolerances: not used: {}\n",
                   scene.mesh_file.empty()
                       ? "the scene's mesh is Kuhn's, which has no tolerance"
                       : "the scene's mesh is a file, " + printable(scene.mesh_file.string()));
+}
+
+void say(const CrosscheckOptions& options, const std::string& text) {
+    if (!options.quiet) print_message("lamina: {}\n", printable(text));
+}
+
+// Finished steps are found by what they depend on, so those of other scenes are never taken.
+study::CrosscheckSettings settings_of(const CrosscheckOptions& options,
+                                      const std::filesystem::path& kept) {
+    if (std::filesystem::exists(kept) && !options.resume) {
+        fail(
+            "{}: holds finished steps of a cross-check that was stopped: --resume goes on with "
+            "them, or remove the folder",
+            kept.string());
+    }
+    study::CrosscheckSettings settings = options.settings;
+    settings.kept = kept;
+    settings.begin = [kept] {
+        OwnFiles(kept.parent_path(), crosscheck_name).add({kept_name});
+        make_folder(kept);
+    };
+    settings.say = [&options](const std::string& text) { say(options, text); };
+    return settings;
+}
+
+study::Crosscheck kept_crosscheck(const Scene& scene, const study::CrosscheckSettings& settings,
+                                  const Capabilities& capabilities) {
+    try {
+        return study::crosscheck(scene, settings, capabilities);
+    } catch (const Interrupted&) {
+        throw Interrupted(
+            fmt::format("interrupted: finished steps are kept in {}; --resume goes on",
+                        settings.kept.string()));
+    }
 }
 
 void run(const CrosscheckOptions& options) {
@@ -101,12 +136,13 @@ void run(const CrosscheckOptions& options) {
         fail("{}: volume: is missing, expected the volume that both methods show",
              scene.file.string());
     const std::filesystem::path folder = options.output;
-    expect_own_folder(folder, crosscheck_name, file_names, files_of(scene), options.force);
+    std::vector<std::string> names = file_names;
+    names.emplace_back(kept_name);
+    expect_own_folder(folder, crosscheck_name, names, files_of(scene), options.force);
+    const study::CrosscheckSettings settings = settings_of(options, folder / kept_name);
     say_of_one_mesh(options, scene);
     choose_for_volume(scene);
-    if (!options.quiet) {
-        for (const std::string& chosen : scene.chosen) print_message("lamina: {}\n", chosen);
-    }
+    for (const std::string& chosen : scene.chosen) say(options, chosen);
     const ContextChoice choice = context_choice(options.context);
     restrict_instructions_as_asked();
     make_folder(folder);
@@ -118,10 +154,10 @@ void run(const CrosscheckOptions& options) {
     subject.environment["version"] = LAMINA_VERSION;
     subject.environment["commit"] = git_commit;
     subject.environment["command"] = command_line();
-    write_all(folder, study::crosscheck(scene, options.settings, context.capabilities()), subject);
-    if (!options.quiet)
-        print_message("lamina: wrote four pictures, budget.json and report.html into {}\n",
-                      options.output);
+    write_all(folder, kept_crosscheck(scene, settings, context.capabilities()), subject);
+    std::filesystem::remove_all(settings.kept);
+    say(options,
+        fmt::format("wrote four pictures, budget.json and report.html into {}", options.output));
 }
 
 }  // namespace
@@ -146,8 +182,8 @@ void add_crosscheck(CLI::App& app, int&) {
                 "--tolerances", options->settings.tolerances,
                 "Of the meshes to compare, beside the scene's own, with commas between: all of "
                 "them are drawn; by default .1,.05,.02,.01,.005,.002,.001, until both methods "
-                "agree within render.max_error. Not used where the scene has a mesh file, or a "
-                "mesh with \"kuhn\"")
+                "agree within render.max_error, or a mesh has 250,000 tets. Not used if the scene "
+                "has a mesh file, or a mesh with \"kuhn\"")
             ->option_text("T,T,...")
             ->delimiter(',')
             ->allow_extra_args(false);
@@ -160,11 +196,12 @@ void add_crosscheck(CLI::App& app, int&) {
     verb->add_option("--context", options->context,
                      "What draws: auto (a GPU, else cpu), osmesa, egl, cpu")
         ->option_text("auto|osmesa|egl|cpu");
+    verb->add_flag("--resume", options->resume, "Go on with a cross-check that was stopped");
     verb->add_flag("--force", options->force, force_help);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options, tolerances] {
         Progress::set_quiet(options->quiet);
-        options->settings.stop_when_agreed = tolerances->count() == 0;
+        options->settings.ends_by_itself = tolerances->count() == 0;
         run(*options);
     });
 }

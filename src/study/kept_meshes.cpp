@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/kept_meshes.h"
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/json_text.h"
+#include "mesh_files/mesh_file.h"
+#include "study/picture_key.h"
+#include "study/text_file.h"
+
+namespace lamina::study {
+namespace {
+
+nlohmann::ordered_json facts_of(const MadeMesh& made) {
+    const MeshReport& report = made.mesh.report.value();
+    return {{"mesh", content_of(made.mesh)},
+            {"ms", made.ms},
+            {"points", report.points},
+            {"tets", report.tets},
+            {"kuhn_tets", report.kuhn_tets},
+            {"rounds", report.rounds},
+            {"range", report.range},
+            {"error", report.error},
+            {"within_tolerance", report.within_tolerance},
+            {"stopped_by_max_tets", report.stopped_by_max_tets}};
+}
+
+MeshReport report_from(const nlohmann::json& facts) {
+    MeshReport report;
+    facts.at("points").get_to(report.points);
+    facts.at("tets").get_to(report.tets);
+    facts.at("kuhn_tets").get_to(report.kuhn_tets);
+    facts.at("rounds").get_to(report.rounds);
+    facts.at("range").get_to(report.range);
+    facts.at("error").get_to(report.error);
+    facts.at("within_tolerance").get_to(report.within_tolerance);
+    facts.at("stopped_by_max_tets").get_to(report.stopped_by_max_tets);
+    return report;
+}
+
+}  // namespace
+
+std::optional<MadeMesh> KeptMeshes::find(const std::string& id, const Scene& scene) const {
+    if (!std::filesystem::exists(file(id, ".json"))) return std::nullopt;
+    try {
+        const nlohmann::json facts = load_json(file(id, ".json"));
+        Scene whole = scene;
+        whole.scalar.clear();  // the file has one
+        MadeMesh made{scene_mesh(whole, read_mesh(file(id, ".vtu"))), facts.at("ms").get<double>()};
+        if (content_of(made.mesh) != facts.at("mesh").get<std::string>()) return std::nullopt;
+        made.mesh.report = report_from(facts);
+        return made;
+    } catch (const Error&) {
+    } catch (const nlohmann::json::exception&) {
+    }
+    return std::nullopt;
+}
+
+// The mesh is written before the facts: a mesh with a .json is complete.
+void KeptMeshes::keep(const std::string& id, const MadeMesh& made) const {
+    const TetMesh& tets = made.mesh.mesh;
+    MeshData data;
+    data.points.assign(tets.points().begin(), tets.points().end());
+    data.tets.assign(tets.tets().begin(), tets.tets().end());
+    data.point_scalars = {made.mesh.scalar};
+    AtomicFile mesh(file(id, ".vtu"));
+    write_vtu(mesh, data);
+    mesh.commit();
+    write_text(file(id, ".json"), json_text(facts_of(made)) + "\n");
+}
+
+}  // namespace lamina::study
