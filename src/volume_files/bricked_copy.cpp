@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/warning.h"
 #include "volume/volume_store.h"
+#include "volume_files/chunk_hashes.h"
 #include "volume_files/file_state.h"
 #include "volume_files/grid_check.h"
 #include "volume_files/replaced_folder.h"
@@ -153,6 +154,7 @@ BrickedCopy write_bricked_copy(const Path& file, const VolumeRequest& request) {
                       chunk_edge(volume.grid(), volume.type()), stored_type(volume.type()),
                       attributes);
     write_layers(volume, writer);
+    writer.finish();
     if (copied(file, stored) != of)
         fail("{}: the file was changed while it was read", file.string());
     folder.commit();
@@ -182,6 +184,9 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
         if (!stays_in_files(grid, *type, use)) return {};
         if (about.at("of") != copied(file, request)) return is_not_used("of other samples");
         ZarrChunks chunks(array, {{0, 1, 2}, {0, 0, 0}});
+        auto hashes = read_chunk_hashes(folder, chunks.count());
+        if (!hashes) return is_not_used("damaged");
+        chunks.expect(std::move(*hashes));
         return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
     } catch (const Json::exception&) {
         return is_not_used("damaged");

@@ -12,7 +12,7 @@ namespace lamina {
 
 // A copy of a volume's samples beside its files, as FILE.lamina-bricks: a Zarr array of chunks, for
 // files of which no part can be read alone. What it is a copy of, and the volume's grid, its
-// attributes say.
+// attributes say; hashes of its chunks are checked as they are read.
 std::filesystem::path bricked_copy_of(const std::filesystem::path& file);
 
 // A copy that was written, for messages.

@@ -17,9 +17,11 @@ FileState FileState::of(const std::filesystem::path& path) {
     struct stat found {};
     if (stat(path.c_str(), &found) != 0)
         fail("{}: cannot read: {}", path.string(), std::strerror(errno));
-    constexpr std::int64_t per_second = 1'000'000'000;
-    return {path, static_cast<std::uint64_t>(found.st_size),
-            found.st_mtim.tv_sec * per_second + found.st_mtim.tv_nsec};
+    const auto nanoseconds = [](const timespec& time) {
+        return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
+    };
+    return {path, static_cast<std::uint64_t>(found.st_size), nanoseconds(found.st_mtim),
+            static_cast<std::uint64_t>(found.st_ino), nanoseconds(found.st_ctim)};
 }
 
 void FileState::check_unchanged() const {
@@ -31,7 +33,8 @@ void FileState::check_unchanged() const {
 }
 
 std::string FileState::text() const {
-    return fmt::format("{} {} {}", std::filesystem::absolute(path).string(), bytes, modified);
+    return fmt::format("{} {} {} {} {}", std::filesystem::absolute(path).string(), bytes, modified,
+                       inode, changed);
 }
 
 std::string FileState::bytes_hash() const {

@@ -14,12 +14,16 @@ struct FileState {
 
     // Throws Error where the file has another size or time now.
     void check_unchanged() const;
-    std::string text() const;        // its name, size and time
+    std::string text() const;        // tells it from others, and from what it may become
     std::string bytes_hash() const;  // of some of its bytes, as they are now; throws Error
 
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::int64_t modified = 0;  // nanoseconds
+    // Copies that keep size and time differ in these. Moving a file or changing its mode changes
+    // `changed`, which is no change of what is read.
+    std::uint64_t inode = 0;
+    std::int64_t changed = 0;  // nanoseconds
 };
 
 }  // namespace lamina

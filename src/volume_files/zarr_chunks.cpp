@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "base/interrupt.h"
+#include "volume_files/chunk_hashes.h"
 #include "volume_files/stored_axes.h"
 
 namespace lamina {
@@ -47,9 +47,10 @@ ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
     states_.reserve(static_cast<std::size_t>(total));
     for (std::int64_t chunk = 0; chunk < total; ++chunk) {
         if ((chunk & 0xfff) == 0) check_interrupt();
-        std::uint64_t stored = 0;
-        states_.push_back(state_now(chunk, stored));
-        stored_ += stored;
+        const FileNow file = file_now(chunk);
+        states_.push_back(file.state);
+        stored_ += file.bytes;
+        files_.add(&file, sizeof file);
     }
     if (stored_ == 0) {
         fail("{}: found no chunk, expected files as {}", name,
@@ -77,14 +78,23 @@ std::string ZarrChunks::selection_text() const {
     return fmt::format("{} {}", fmt::join(selection_.axes, " "), fmt::join(selection_.index, " "));
 }
 
-std::uint64_t ZarrChunks::state_now(std::int64_t chunk, std::uint64_t& bytes) const {
+void ZarrChunks::expect(std::vector<std::uint64_t> hashes) {
+    for (std::size_t chunk = 0; chunk < hashes.size(); ++chunk) {
+        if (hashes[chunk] != no_chunk && states_[chunk] == 0)
+            fail("{}: is missing", file_of(static_cast<std::int64_t>(chunk)).string());
+    }
+    hashes_ = std::move(hashes);
+}
+
+ZarrChunks::FileNow ZarrChunks::file_now(std::int64_t chunk) const {
     struct stat found {};
-    if (stat(file_of(chunk).c_str(), &found) != 0) return 0;
-    bytes = static_cast<std::uint64_t>(found.st_size);
+    if (stat(file_of(chunk).c_str(), &found) != 0) return {};
     ContentHash hash;
     const std::int64_t words[] = {found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
     hash.add(words, sizeof words);
-    return hash.word() | 1;  // not 0
+    return {hash.word() | 1,  // not 0
+            static_cast<std::uint64_t>(found.st_size), static_cast<std::uint64_t>(found.st_ino),
+            found.st_ctim.tv_sec * std::int64_t{1'000'000'000} + found.st_ctim.tv_nsec};
 }
 
 ZarrChunks::Triple ZarrChunks::place_of(std::int64_t chunk) const {
@@ -118,14 +128,19 @@ std::size_t ZarrChunks::step_of(std::size_t axis) const {
 ByteBuffer ZarrChunks::decoded(std::int64_t chunk) const {
     const std::filesystem::path file = file_of(chunk);
     ByteBuffer samples(chunk_bytes());
-    std::uint64_t bytes = 0;
-    if (state_now(chunk, bytes) != state(chunk))
+    if (file_now(chunk).state != state(chunk))
         fail("{}: the file was changed while the array was read", file.string());
     if (state(chunk) == 0) {
         fill(samples);
         return samples;
     }
     const ByteBuffer stored = read_large_file(file);
+    if (!hashes_.empty() &&
+        hash_of_chunk(stored.text()) != hashes_[static_cast<std::size_t>(chunk)])
+        fail(
+            "{}: is damaged: it has other bytes than were written; lamina index --bricks makes "
+            "the copy again",
+            file.string());
     if (samples.size() / most_chunk_expansion > stored.size()) {
         fail("{}: found {} bytes, which cannot hold the {} of a chunk", file.string(),
              stored.size(), samples.size());

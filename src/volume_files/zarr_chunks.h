@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/byte_buffer.h"
+#include "base/content_hash.h"
 #include "volume/sample_source.h"
 #include "volume_files/zarr_array.h"
 
@@ -37,13 +38,18 @@ class ZarrChunks {
     std::uint64_t state(std::int64_t chunk) const {
         return states_[static_cast<std::size_t>(chunk)];
     }
+    // Tells all files from copies of them that have the same sizes and times.
+    std::uint64_t files() const { return files_.word(); }
     std::int64_t missing() const;
+    // Takes the hashes of all chunks (volume_files/chunk_hashes.h): decoded() then expects them.
+    // Throws Error if a chunk is missing.
+    void expect(std::vector<std::uint64_t> hashes);
     // Throws Error where the files cannot hold all that is selected, what is missing included.
     void expect_all() const;
     std::string selection_text() const;  // tells what is selected from what else might be
 
-    // A chunk's samples, decoded, in the byte order of the file. Throws Error where it is damaged
-    // or not the one that was there at first.
+    // A chunk's samples, decoded, in the byte order of the file. Throws Error where it is damaged,
+    // has another hash, or is not the one that was there at first.
     ByteBuffer decoded(std::int64_t chunk) const;
     // Copies what a decoded chunk has of a box of the selected samples, which is at `to`, x
     // fastest.
@@ -52,7 +58,11 @@ class ZarrChunks {
   private:
     Triple place_of(std::int64_t chunk) const;
     std::filesystem::path file_of(std::int64_t chunk) const;
-    std::uint64_t state_now(std::int64_t chunk, std::uint64_t& bytes) const;
+    struct FileNow {
+        std::uint64_t state = 0, bytes = 0, inode = 0;
+        std::int64_t changed = 0;  // nanoseconds
+    };
+    FileNow file_now(std::int64_t chunk) const;
     std::size_t step_of(std::size_t axis) const;
     void fill(ByteBuffer& samples) const;
     template <typename Value>
@@ -63,7 +73,8 @@ class ZarrChunks {
     ZarrSelection selection_;
     std::size_t bytes_;  // of a sample
     Triple size_{1, 1, 1}, edge_{1, 1, 1}, counts_{1, 1, 1};
-    std::vector<std::uint64_t> states_;
+    std::vector<std::uint64_t> states_, hashes_;
+    ContentHash files_;
     std::uint64_t stored_ = 0;  // bytes of all files
 };
 

@@ -18,6 +18,7 @@
 #include "base/folder.h"
 #include "base/json_text.h"
 #include "base/parallel.h"
+#include "volume_files/chunk_hashes.h"
 
 namespace lamina {
 namespace {
@@ -52,6 +53,7 @@ ZarrWriter::ZarrWriter(std::filesystem::path folder, const std::array<std::int64
     : folder_(std::move(folder)), size_(size), edge_(edge), bytes_(bytes_of(type)) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         counts_[axis] = (size_[axis] + edge_[axis] - 1) / edge_[axis];
+    hashes_.assign(static_cast<std::size_t>(chunk_count()), no_chunk);
     const nlohmann::json compressor{{"id", "blosc"},
                                     {"cname", "lz4"},
                                     {"clevel", level},
@@ -85,8 +87,12 @@ void ZarrWriter::write_layer(const void* samples) {
     ++next_;
 }
 
+void ZarrWriter::finish() const {
+    write_chunk_hashes(folder_, hashes_);
+}
+
 // Beyond the array's border a chunk has zeros. Returns the bytes of its file.
-std::uint64_t ZarrWriter::write_chunk(std::int64_t x, std::int64_t y, const char* layer) const {
+std::uint64_t ZarrWriter::write_chunk(std::int64_t x, std::int64_t y, const char* layer) {
     const std::size_t row = static_cast<std::size_t>(edge_[0]) * bytes_;
     ByteBuffer chunk(row * static_cast<std::size_t>(edge_[1] * edge_[2]));
     std::memset(chunk.data(), 0, chunk.size());
@@ -109,6 +115,8 @@ std::uint64_t ZarrWriter::write_chunk(std::int64_t x, std::int64_t y, const char
     const std::filesystem::path file = folder_ / fmt::format("{}/{}/{}", next_, y, x);
     if (bytes <= 0) fail("{}: Blosc does not pack {} bytes", file.string(), chunk.size());
     write_small_file(file, packed.data(), static_cast<std::size_t>(bytes));
+    hashes_[static_cast<std::size_t>((next_ * counts_[1] + y) * counts_[0] + x)] =
+        hash_of_chunk(packed.text().substr(0, static_cast<std::size_t>(bytes)));
     return static_cast<std::uint64_t>(bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "base/value_type.h"
 
@@ -23,6 +24,8 @@ class ZarrWriter {
     // The slices of one layer of chunks, the next one each time, in native byte order. Throws
     // Error.
     void write_layer(const void* samples);
+    // Writes the hashes of all chunks, after the last layer. Throws Error.
+    void finish() const;
 
     std::int64_t layer_count() const { return counts_[2]; }
     // Slices of a layer: the last one may have fewer than a chunk.
@@ -31,13 +34,14 @@ class ZarrWriter {
     std::uint64_t bytes_written() const { return bytes_written_; }
 
   private:
-    std::uint64_t write_chunk(std::int64_t x, std::int64_t y, const char* layer) const;
+    std::uint64_t write_chunk(std::int64_t x, std::int64_t y, const char* layer);
 
     std::filesystem::path folder_;
     std::array<std::int64_t, 3> size_, edge_, counts_{};
     std::size_t bytes_;  // of a sample
     std::int64_t next_ = 0;
     std::uint64_t bytes_written_ = 0;
+    std::vector<std::uint64_t> hashes_;  // of chunks (volume_files/chunk_hashes.h)
 };
 
 }  // namespace lamina

@@ -70,6 +70,50 @@ TEST_F(BrickedCopies, OfPackedFiles) {
                      gzipped(some_bytes(4 * count))));
 }
 
+// Every bit counts, those of the headers and of the list of chunks, too.
+TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
+    const std::size_t count = 131 * 67 * 70;
+    const fs::path path = nrrd("type: uint8\ndimension: 3\nsizes: 131 67 70\nencoding: gzip\n",
+                               gzipped(some_bytes(count)));
+    const Volume truth = read_volume(path, {});
+    const fs::path folder = write_bricked_copy(path, {}).folder;
+    std::vector<fs::path> files;
+    for (const auto& each : fs::recursive_directory_iterator(folder)) {
+        if (each.is_regular_file()) files.push_back(each.path());
+    }
+    std::ranges::sort(files);
+    int refused = 0;
+    const auto expect_truth_or_error = [&] {
+        try {
+            test::expect_boxes(truth, open_volume(path, {}, in_files));
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(": is damaged"), std::string::npos)
+                << error.what();
+            ++refused;
+        }
+    };
+    std::uint64_t random = 1;
+    for (std::size_t i = 0; i < 40; ++i) {
+        const fs::path& file = files[i % files.size()];
+        const std::string bytes = read_bytes_of(file);
+        std::string flipped = bytes;
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        flipped[(random >> 33) % flipped.size()] ^= static_cast<char>(1 << (random >> 61));
+        write_bytes_to(file, flipped);
+        SCOPED_TRACE(file);
+        expect_truth_or_error();
+        write_bytes_to(file, bytes);
+    }
+    EXPECT_GT(refused, 10);  // those of chunks
+    for (const fs::path& file : files) {
+        const std::string bytes = read_bytes_of(file);
+        fs::remove(file);
+        SCOPED_TRACE(file);
+        expect_truth_or_error();
+        write_bytes_to(file, bytes);
+    }
+}
+
 // One of several channels, and one of several times: what is not taken is passed over.
 TEST_F(BrickedCopies, OfAPartOfAPackedFile) {
     const std::size_t count = 3 * 31 * 17 * 23 * 2;
