@@ -34,12 +34,12 @@ function runDetails(run, comparison) {
   const own = reference ? ` of the ${reference.of}; own error ${numberText(reference.error_estimate)}/255` : "";
   return element("div", { class: "details" },
     element("div", { class: "pictures" },
-      pictureFigure(run.image, `${comparison.scene}, drawn by the run ${run.name}`, "this run", size),
+      pictureFigure(run.image, `${comparison.scene}, drawn by the run ${run.name}`, "this run", size, null),
       reference && pictureFigure(reference.image, `${comparison.scene}, traced from the ${reference.of}`,
-        `reference ${reference.id}${own}`, size),
+        `reference ${reference.id}${own}`, size, null),
       pictureFigure(run.difference, `${comparison.scene}: the run ${run.name} less the reference, in false colour`,
         "this run − reference; of each pixel the channel that differs most", size,
-        colorBar(comparison.difference_scale, run.linf))),
+        nothingToSee(comparison.difference_scale, run.linf), colorBar(comparison.difference_scale, run.linf))),
     element("div", { class: "figures" }, channelTable(run), timeTable(run), stageTable(run),
       factList([["run", run.id], ["context", run.context],
                 ["first picture", isMissing(run.first_ms) ? null

@@ -57,17 +57,38 @@ function legend(entries) {
     element("li", null, drawing, element("span", null, text))));
 }
 
-// A mark for every value of a swept key, the same one in all comparisons. Runs without the key have
-// one, too.
+const factorsKey = "render.slice.tree.factors";
+
+// What tells runs apart beside the values of single keys, the best first: {name: of(run)}. A study of
+// trees is told apart by their levels, one that changes keys in turn by which keys a run changes.
+function derivedKeys({ swept = [], comparisons }) {
+  const short = shortKeys(swept);
+  const all = [
+    ["levels of the tree", 2, ({ keys }) => keys?.[factorsKey]?.length ?? "no tree"],
+    ["what was swept", 3, ({ keys }) =>
+      swept.filter((key) => !isMissing(keys?.[key])).map((key) => short.get(key)).join(", ") || "nothing"],
+  ];
+  const runs = comparisons.flatMap((comparison) => comparison.runs);
+  return Object.fromEntries(all.filter(([, least, of]) => new Set(runs.map(of)).size >= least)
+    .map(([name, , of]) => [name, of]));
+}
+
+// A mark for every value of a swept or derived key, the same one in all comparisons. Runs without the
+// key have one, too.
 class KeyMarks {
   constructor(report, key) {
+    const derived = derivedKeys(report)[key];
+    this.valueOf = derived ?? ((run) => run.keys?.[key]);
     const values = new Map();
+    const counts = new Map();
     for (const comparison of report.comparisons) {
       for (const run of comparison.runs) {
-        const value = run.keys?.[key];
+        const value = this.valueOf(run);
         values.set(valueText(value), value);
+        counts.set(valueText(value), (counts.get(valueText(value)) ?? 0) + 1);
       }
     }
+    this.most = Math.max(0, ...counts.values());  // runs of the most frequent value
     this.key = key;
     this.texts = [...values.keys()].sort((a, b) => {
       const [first, second] = [values.get(a), values.get(b)];
@@ -78,11 +99,11 @@ class KeyMarks {
   }
 
   markFor(run) {
-    return markOf(this.indices.get(valueText(run.keys?.[this.key])));
+    return markOf(this.indices.get(valueText(this.valueOf(run))));
   }
 
   legendEntries(runs) {
-    const used = new Set(runs.map((run) => valueText(run.keys?.[this.key])));
+    const used = new Set(runs.map((run) => valueText(this.valueOf(run))));
     return this.texts.filter((text) => used.has(text))
       .map((text) => [swatch(markNode(markOf(this.indices.get(text)))), text]);
   }

@@ -8,17 +8,28 @@ function section(id, title, ...content) {
   return element("section", { id }, element("h2", null, title), ...content);
 }
 
+// The name that links to a comparison have.
+function anchorOf({ anchor }, index) {
+  return anchor ?? `comparison-${index + 1}`;
+}
+
 // Keys and their values, but for those that the sweep sets.
 function settingsText(settings) {
   return Object.entries(settings ?? {}).filter(([key]) => !report.swept?.includes(key))
     .map(([key, value]) => `${key} = ${valueText(value)}`).join("; ");
 }
 
+// What the study was made to find out.
+function answersSection({ title, note, tables }) {
+  return section("answers", title, element("p", { class: "note" }, note),
+    ...tables.flatMap(({ caption, rows }) => [element("h3", null, caption), rowsTable(rows)]));
+}
+
 function environmentSection() {
   const pairs = Object.entries(report.environment ?? {}).map(([name, value]) => [name, valueText(value)]);
   pairs.push(["all runs have", settingsText(report.base)]);
   const keys = [...shortKeys(report.swept ?? [])].filter(([key, short]) => key !== short);
-  return section("environment", "Environment", factList(pairs),
+  return section("environment", "How it was measured", factList(pairs),
     keys.length === 0 ? null : element("p", { class: "note" },
       `Swept keys, as the tables abbreviate them: ${keys.map(([key, short]) => `${short} = ${key}`).join("; ")}.`));
 }
@@ -33,7 +44,7 @@ function comparisonFacts(comparison) {
   const front = runs.filter((run) => run.pareto).length;
   const baseline = runs.find((run) => run.id === comparison.baseline);
   const references = (comparison.references ?? []).map((reference) => element("div", null, referenceText(reference)));
-  if (runs.length === 0) return factList([["in short", comparison.note]]);
+  if (runs.length === 0) return factList([["verdict", comparison.verdict], ["remark", comparison.note]]);
   return factList([
     ["runs", `${runs.length}, ${front} of them on the Pareto front` + (failed > 0 ? `, ${failed} failed` : "")],
     ["its runs have", settingsText(comparison.set)],
@@ -53,27 +64,48 @@ function picturePanels(comparison) {
   }
   return groups.flatMap(({ group, panels }) => [
     group === "" ? null : element("h3", null, group),
-    element("div", { class: "pictures" }, panels.map(({ title, caption, image, scale, largest }) =>
+    element("div", { class: "pictures" }, panels.map(({ title, caption, image, scale, largest, width, height }) =>
       pictureFigure(image, [comparison.scene, group, title, caption].filter((part) => part).join(", "),
-        [element("b", null, title), caption ? ` ${caption}` : null], { load: setShownSize },
-        isMissing(scale) ? null : colorBar(scale, largest)))),
+        [element("b", null, title), caption ? ` ${caption}` : null],
+        width ? shownSize(width, height) : { load: setShownSize },
+        nothingToSee(scale, largest), isMissing(scale) ? null : colorBar(scale, largest)))),
   ]);
 }
 
-// What a paper says of a table or figure, and whether it holds.
+// What the pictures of a table or figure of a paper show.
+function pictureCaption({ scene, caption }) {
+  return caption ? element("p", { class: "caption" }, element("b", null, `${scene}. `), caption) : null;
+}
+
+// What a paper says of a table or figure, word for word, and whether it holds.
 function checksTable(checks) {
   if (!checks?.length) return null;
-  return smallTable("words checks", ["the paper says", "holds", "measured"],
-    checks.map(({ says, holds, measured }) => [says, holds ? "yes" : "no", measured]));
+  return smallTable("words checks", ["the paper says", "verdict", "measured"],
+    checks.map(({ says, verdict, measured }) => [says, verdict, measured]));
+}
+
+// What lamina claims beside it.
+function ownTable(claims) {
+  if (!claims?.length) return null;
+  return smallTable("words checks own", ["lamina says", "holds", "measured"],
+    claims.map(({ claim, holds, measured }) => [claim, holds ? "yes" : "no", measured]));
+}
+
+// Cells of one column: whole numbers have no digits after the point if the whole column has none.
+function columnCells(values) {
+  const numbers = values.filter((value) => typeof value === "number");
+  const text = numbers.every(Number.isInteger) ? wholeText : numberText;
+  return values.map((value) => typeof value === "number" ? text(value)
+    : Array.isArray(value) ? value.map(valueText).join(", ") : valueText(value));
 }
 
 // Rows that are objects of cells, all with the same keys.
 function rowsTable(rows) {
   if (!rows?.length) return null;
   const heads = Object.keys(rows[0]);
-  const cell = (value) => typeof value === "number" ? numberText(value) : valueText(value);
+  const columns = heads.map((head) => columnCells(rows.map((row) => row[head])));
   return element("div", { class: "scrolled", tabindex: "0", role: "region", "aria-label": "numbers" },
-    smallTable("numbers", heads, rows.map((row) => heads.map((head) => cell(row[head])))));
+    smallTable("numbers", heads, rows.map((row, i) => columns.map((cells) => cells[i]))));
 }
 
 // What is drawn of a comparison: {node, update(state)}.
@@ -83,9 +115,9 @@ function comparisonView(comparison, index) {
   const measured = comparison.runs.some((run) => !run.failed && run.frame_ms);
   const scatter = measured ? new Scatter(comparison, open) : null;
   const plots = (comparison.plots ?? []).map((plot) => plotFigure(report, plot, open));
-  const node = section(`comparison-${index + 1}`, comparison.scene, comparisonFacts(comparison),
-    ...picturePanels(comparison).filter((part) => part), checksTable(comparison.checks), rowsTable(comparison.rows),
-    scatter?.node,
+  const node = section(anchorOf(comparison, index), comparison.scene, comparisonFacts(comparison),
+    ...picturePanels(comparison).filter((part) => part), pictureCaption(comparison), checksTable(comparison.checks),
+    ownTable(comparison.own), rowsTable(comparison.rows), scatter?.node,
     plots.length > 0 ? element("div", { class: "plots" }, plots) : null,
     table?.node);
   return {
@@ -116,11 +148,19 @@ function selection(label, id, choices, chosen, change) {
     element("select", { id, autocomplete: "off", change: (event) => change(event.target.value) }, options));
 }
 
-// The key whose values marks tell apart best: the one with the fewest values, two at least.
+// What marks can tell apart: what was swept as a whole, then the values of each key.
+function markKeys() {
+  return [...Object.keys(derivedKeys(report)), ...(report.swept ?? [])];
+}
+
+// The first derived key, else the key whose values split the runs best: of those with a shape for
+// each value, the one whose most frequent value has the fewest runs.
 function firstKey() {
-  const counted = (report.swept ?? []).map((key) => ({ key, count: new KeyMarks(report, key).texts.length }));
-  const useful = counted.filter(({ count }) => count > 1);
-  return (useful.length > 0 ? useful : counted).sort((a, b) => a.count - b.count)[0]?.key ?? null;
+  const [derived] = Object.keys(derivedKeys(report));
+  if (derived) return derived;
+  const found = markKeys().map((key) => new KeyMarks(report, key));
+  const useful = found.filter(({ texts }) => texts.length > 1 && texts.length <= polygons.length);
+  return (useful.length > 0 ? useful : found).sort((a, b) => a.most - b.most)[0]?.key ?? null;
 }
 
 // Those times of the plots' axis that every measured run has, so that no point is missing.
@@ -132,8 +172,8 @@ function timeChoices() {
 }
 
 function contents() {
-  const scenes = report.comparisons.map(({ scene }, index) =>
-    element("a", { href: `#comparison-${index + 1}` }, scene));
+  const scenes = report.comparisons.map((comparison, index) =>
+    element("a", { href: `#${anchorOf(comparison, index)}` }, comparison.scene));
   return scenes.length > 1 ? element("nav", { "aria-label": "scenes" }, scenes) : null;
 }
 
@@ -151,8 +191,8 @@ function controls(state, update) {
     contents(),
     selection("Error", "choose-error", Object.entries(errorLabels), state.error, choose("error")),
     times.length > 1 ? selection("Time", "choose-time", times, state.time, choose("time")) : null,
-    report.swept?.length > 0
-      ? selection("Marks", "choose-key", report.swept.map((key) => [key, key]), state.key, choose("key")) : null,
+    markKeys().length > 0
+      ? selection("Marks", "choose-key", markKeys().map((key) => [key, key]), state.key, choose("key")) : null,
     element("label", null, "Filter", element("input", { id: "filter", type: "search", autocomplete: "off",
                                                         placeholder: "words of runs", input: words })));
 }
@@ -171,11 +211,13 @@ function build() {
     for (const view of views) view.update({ ...state, marks });
   };
   const anyRuns = report.comparisons.some(({ runs }) => runs.length > 0);
-  document.getElementById("report").append(environmentSection(),
-    ...(anyRuns ? [controls(state, update), norms()] : [contents()]).filter((part) => part),
+  document.getElementById("report").append(...(report.answers ? [answersSection(report.answers)] : []),
+    environmentSection(), ...(anyRuns ? [controls(state, update), norms()] : [contents()]).filter((part) => part),
     ...views.map(({ node }) => node), ...[droppedSection(), failedSection()].filter((part) => part));
   document.body.append(hint, enlarged);
   update();
+  // The browser looked for the link's target before it was there.
+  if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
 }
 
 build();

@@ -18,6 +18,23 @@ function colorBar(scale, largest) {
     clipped ? element("div", { class: "clipped" }, `clipped: up to ${numberText(largest)}/255 here`) : null);
 }
 
+// The share of a scale below which false colours look white.
+const faintestShare = 0.05;
+
+// ".1": the power of ten above a number.
+function powerAbove(value) {
+  const exponent = Math.floor(Math.log10(value)) + 1;
+  if (exponent >= 0) return String(10 ** exponent);
+  return exponent < -6 ? `10${superscript(exponent)}` : `.${"0".repeat(-exponent - 1)}1`;
+}
+
+// What stands in a difference picture that is white all over; null for others.
+function nothingToSee(scale, largest) {
+  if (isMissing(scale) || isMissing(largest) || largest >= faintestShare * scale) return null;
+  const text = largest === 0 ? "no difference" : `nothing to see: below ${powerAbove(largest)}`;
+  return element("span", { class: "nothing" }, text);
+}
+
 // Small pictures are shown in whole multiples of their size, so that each of their pixels is a square.
 function shownSize(width, height) {
   const times = Math.max(1, Math.floor(256 / width));
@@ -44,10 +61,11 @@ function enlarge(image, caption) {
   enlarged.showModal();
 }
 
-// A picture with what it shows as its alternative text, and a caption; null where there is none.
-function pictureFigure(source, description, caption, size, ...more) {
+// A picture with what it shows as its alternative text, and a caption; null if there is none. `inside`:
+// what stands in the picture, or null.
+function pictureFigure(source, description, caption, size, inside, ...more) {
   const image = picture(source, description, size);
   const button = image && element("button", { type: "button", class: "enlarges", title: "enlarge",
-                                              click: () => enlarge(image, description) }, image);
+                                              click: () => enlarge(image, description) }, image, inside);
   return image && element("figure", { class: "picture" }, button, element("figcaption", null, caption), ...more);
 }

@@ -15,7 +15,8 @@ class KrausStage;
 using KrausItem = PaperItem<KrausStage>;
 
 // The items in the order of the paper, followed by items on questions that it leaves open. Data
-// sets come from LAMINA_DATA. Without it generated meshes are used instead, and `agrees` is null.
+// sets come from LAMINA_DATA. Without it generated meshes are used instead, and nothing that the
+// paper says can be tested.
 const std::vector<KrausItem>& kraus_items();
 
 // Pairs of pictures with insets and signed differences, and their errors against the tracer.

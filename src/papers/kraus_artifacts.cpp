@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kraus 2004, section 5.2: the effect of each remedy, on all meshes.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -58,63 +59,112 @@ const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::s
     return *found;
 }
 
-// Each variant should be worse than the next, by L2.
-void judge_chain(Findings& findings, const std::string& says,
-                 const std::vector<VariantErrors>& errors, const std::vector<std::string>& names) {
+// One statement, asked of every mesh. It holds if it holds on all of them.
+class OnMeshes {
+  public:
+    // `measured` is said of meshes where the statement does not hold.
+    void add(const std::string& mesh, bool holds, const std::string& measured) {
+        if (holds)
+            true_of_.push_back(mesh);
+        else
+            false_of_.push_back(fmt::format("{} ({})", mesh, measured));
+    }
+    bool asked() const { return !true_of_.empty() || !false_of_.empty(); }
+    bool holds() const { return false_of_.empty(); }
+    std::string measured() const {
+        std::string text = fmt::format("true of {}", fmt::join(true_of_, "; "));
+        if (true_of_.empty()) text = "true of no mesh";
+        if (!false_of_.empty()) text += fmt::format("; not of {}", fmt::join(false_of_, "; "));
+        return text;
+    }
+
+  private:
+    std::vector<std::string> true_of_, false_of_;
+};
+
+struct Judged {
+    OnMeshes linear, depth, coarse_table, linear_lengths, octaves, alpha, float_buffer, after_blend,
+        faint_after;
+};
+
+// Adds whether each variant is worse than the next, by L2.
+void add_chain(OnMeshes& statement, const std::string& mesh,
+               const std::vector<VariantErrors>& errors, const std::vector<std::string>& names) {
     bool holds = true;
     std::string measured = "L2";
     double last = INFINITY;
     for (const std::string& name : names) {
         const ErrorNorms& all = find(errors, name).all;
         holds = holds && all.l2 < last;
-        measured += fmt::format("{} {:.4g} with {} (L1 {:.3g}, Linf {:.3g})",
-                                std::isinf(last) ? "" : ",", all.l2, name, all.l1, all.linf);
+        measured += fmt::format("{} {:.3g} with {}", std::isinf(last) ? "" : ",", all.l2, name);
         last = all.l2;
     }
-    findings.add(says, holds, measured);
+    statement.add(mesh, holds, measured);
 }
 
-void judge(Findings& findings, const KrausSubject& subject,
-           const std::vector<VariantErrors>& errors) {
-    const std::string on = subject.name + ": ";
-    judge_chain(findings, on + "linear interpolation is worse than perspective", errors,
-                {"linear interpolation", all_remedies});
+void judge(Judged& judged, const KrausSubject& subject, const std::vector<VariantErrors>& errors) {
+    const std::string& on = subject.name;
+    add_chain(judged.linear, on, errors, {"linear interpolation", all_remedies});
     const ErrorNorms& depth = find(errors, "depth as thickness").all;
-    findings.add(on + "it is often possible to simplify the computation of l without introducing "
-                      "visible rendering artifacts with the help of the approximation [by depths]",
-                 depth.linf <= visible,
-                 fmt::format("Linf {:.3g}, L1 {:.3g}, L2 {:.3g}", depth.linf, depth.l1, depth.l2));
-    judge_chain(findings, on + "an 8-bit table is worse than one of 16 bits", errors,
-                {"fixed8 table", all_remedies});
+    judged.depth.add(on, depth.linf <= visible, fmt::format("Linf {:.3g}", depth.linf));
+    add_chain(judged.coarse_table, on, errors, {"fixed8 table", all_remedies});
     if (edge_lengths(subject.mesh.tets()).ratio() > graded) {
-        judge_chain(findings, on + "linear lengths are worse than log2", errors,
-                    {"linear mapping", "log2 mapping"});
-        judge_chain(findings, on + "log2 is worse than octaves", errors,
-                    {"log2 mapping", all_remedies});
+        add_chain(judged.linear_lengths, on, errors, {"linear mapping", "log2 mapping"});
+        add_chain(judged.octaves, on, errors, {"log2 mapping", all_remedies});
     }
-    judge_chain(findings, on + "an 8-bit buffer is worse than one with the paper's dithering",
-                errors, {"fixed8 buffer", "fixed8 buffer, alpha"});
-    judge_chain(findings, on + "8 bits with the paper's dithering are worse than a float buffer",
-                errors, {"fixed8 buffer, alpha", all_remedies});
+    add_chain(judged.alpha, on, errors, {"fixed8 buffer", "fixed8 buffer, alpha"});
+    add_chain(judged.float_buffer, on, errors, {"fixed8 buffer, alpha", all_remedies});
     const double bias = find(errors, "fixed8 buffer, after_blend").all.l1;
-    findings.add(on + "8 bits dithered after the blend have no bias: |L1| <= 0.3",
-                 std::abs(bias) <= 0.3, fmt::format("L1 {:.3f}", bias));
+    judged.after_blend.add(on, std::abs(bias) <= 0.3, fmt::format("L1 {:.3f}", bias));
 }
 
-void judge_faint(Findings& findings, const KrausSubject& subject,
+void judge_faint(Judged& judged, const KrausSubject& subject,
                  const std::vector<VariantErrors>& errors) {
-    const std::string on = subject.name + ", total opacity .1: ";
-    judge_chain(findings, on + "8 bits are worse than dithered by the paper, and these than float",
-                errors, {"fixed8 buffer", "fixed8 buffer, alpha", all_remedies});
-    judge_chain(findings,
-                on + "8 bits are worse than dithered after the blend, and these than float", errors,
-                {"fixed8 buffer", "fixed8 buffer, after_blend", all_remedies});
+    const std::string on = subject.name + ", total opacity .1";
+    add_chain(judged.alpha, on, errors, {"fixed8 buffer", "fixed8 buffer, alpha"});
+    add_chain(judged.float_buffer, on, errors, {"fixed8 buffer, alpha", all_remedies});
+    add_chain(judged.faint_after, on, errors,
+              {"fixed8 buffer", "fixed8 buffer, after_blend", all_remedies});
+}
+
+Findings findings_of(const Judged& judged) {
+    Findings findings;
+    const auto add = [&](const char* says, const OnMeshes& on) {
+        if (on.asked()) findings.add(says, on.holds(), on.measured());
+    };
+    const auto add_own = [&](const char* claim, const OnMeshes& on) {
+        if (on.asked()) findings.add_own(claim, on.holds(), on.measured());
+    };
+    add("Perspective interpolation of vertex attributes is required in the PT algorithm since an "
+        "incorrect linear interpolation of texture coordinates causes erroneous coloring",
+        judged.linear);
+    add("it is often possible to simplify the computation of l without introducing visible "
+        "rendering artifacts with the help of the approximation",
+        judged.depth);
+    add("An 8-bit per component pre-integrated lookup texture does not offer sufficient color "
+        "depth",
+        judged.coarse_table);
+    add("a uniform lookup texture is inappropriate if the ratio between the lengths of the longest "
+        "and the shortest mesh edges is very high",
+        judged.linear_lengths);
+    add("alpha dithering alleviates rendering artifacts resulting from quantization errors to a "
+        "certain extent.",
+        judged.alpha);
+    add("With floating-point precision for the color compositing, alpha dithering is unnecessary",
+        judged.float_buffer);
+    add_own("Octaves are better than Equation 1", judged.octaves);
+    add_own("8 bits dithered after the blend have no bias: |L1| <= 0.3", judged.after_blend);
+    add_own(
+        "8 bits dithered after the blend are better than 8 bits, and a float buffer is better "
+        "than both",
+        judged.faint_after);
+    return findings;
 }
 
 }  // namespace
 
 Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage) {
-    Findings findings;
+    Judged judged;
     Json rows = Json::array();
     for (KrausSubject* subject : stage.subjects()) {
         const auto add = [&](const char* transfer_function, const std::vector<Variant>& variants) {
@@ -127,20 +177,20 @@ Json draw_kraus_artifacts(const std::filesystem::path& folder, KrausStage& stage
             }
             return errors;
         };
-        judge(findings, *subject, add("smooth", ladder(subject->smooth)));
-        judge_faint(findings, *subject, add("faint", buffers(subject->faint)));
+        judge(judged, *subject, add("smooth", ladder(subject->smooth)));
+        judge_faint(judged, *subject, add("faint", buffers(subject->faint)));
         add("isosurface", ladder(subject->isosurface));
     }
     study::write_text(folder / "artifacts.csv", study::csv_of_rows(rows));
-    return with_data_note(
-        findings.result(
-            {{"files", {"artifacts.csv"}},
-             {"pixels", {stage.sizes().width, stage.sizes().height}},
-             {"rows", rows}},
-            nullptr,
-            "Judged with the smooth transfer functions, of total opacity up to .5 (.1 where "
-            "said); tables hold opacity, 256 x 256 x 16."),
-        stage, {"bluntfin", "combustor", "torso"}, "generated meshes are judged alone");
+    return result_with_data(
+        findings_of(judged),
+        {{"files", {"artifacts.csv"}},
+         {"pixels", {stage.sizes().width, stage.sizes().height}},
+         {"rows", rows}},
+        nullptr,
+        "Judged with the smooth transfer functions, of total opacity up to .5 (.1 where said), on "
+        "all meshes together; tables hold opacity, 256 x 256 x 16.",
+        stage, {{"bluntfin", "combustor", "torso"}, "generated meshes are judged alone"});
 }
 
 }  // namespace lamina::papers

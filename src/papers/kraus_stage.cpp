@@ -71,18 +71,21 @@ std::vector<KrausSubject*> KrausStage::subjects() {
     return found;
 }
 
-nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const KrausStage& stage,
-                                      const std::vector<std::string>& wanted,
-                                      const std::string& instead) {
+nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
+                                        nlohmann::ordered_json printed, const std::string& more,
+                                        const KrausStage& stage, const DataNeeds& needs) {
     std::vector<std::string> missing;
-    for (const std::string& name : wanted) {
+    for (const std::string& name : needs.data_sets) {
         if (!stage.has(name)) missing.push_back(name + ".vtu");
     }
+    if (!missing.empty()) findings.make_untestable();
+    auto result = findings.result(std::move(values), std::move(printed), more);
     if (missing.empty()) return result;
-    result["agrees"] = nullptr;
-    result["note"] =
-        fmt::format("Set LAMINA_DATA to a folder that holds {}; {}. {}", fmt::join(missing, ", "),
-                    instead, result["note"].get<std::string>());
+    for (const char* const key : {"remark", "note"}) {
+        result[key] =
+            fmt::format("Set LAMINA_DATA to a folder that holds {}; {}. {}",
+                        fmt::join(missing, ", "), needs.instead, result[key].get<std::string>());
+    }
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "papers/findings.h"
 #include "papers/kraus_subject.h"
 #include "plan/capabilities.h"
 
@@ -51,10 +52,16 @@ class KrausStage {
     std::map<std::string, std::unique_ptr<KrausSubject>> subjects_;
 };
 
-// Adds a note to the result of an item that needs these data sets. Where one is missing, the note
-// says what replaces it or is left out, and `agrees` is null.
-nlohmann::ordered_json with_data_note(nlohmann::ordered_json result, const KrausStage& stage,
-                                      const std::vector<std::string>& data_sets,
-                                      const std::string& instead);
+// Data sets that an item needs, and what replaces those that are missing, in words.
+struct DataNeeds {
+    std::vector<std::string> data_sets;
+    std::string instead;
+};
+
+// Returns Findings::result(values, printed, more). If a data set is missing, the note says so
+// first, and nothing that the paper says can be tested.
+nlohmann::ordered_json result_with_data(Findings findings, nlohmann::ordered_json values,
+                                        nlohmann::ordered_json printed, const std::string& more,
+                                        const KrausStage& stage, const DataNeeds& needs);
 
 }  // namespace lamina::papers

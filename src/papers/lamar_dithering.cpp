@@ -186,7 +186,7 @@ void judge_periods(Findings& findings, const Json& periods) {
             .front()["l2"]
             .get<double>();
     };
-    findings.add("It is also not one that can be applied indefinitely and still see improvement",
+    findings.add("It is also not one that can be applied indefinitely and still see improvement.",
                  l2(1024, 4096) > 0.9 * l2(1024, 64),
                  fmt::format("L2 of 1024 samples is {:.1f} at period 4, {:.1f} at 64, {:.1f} at "
                              "4096: what is left is the pigeon hole",
@@ -209,8 +209,8 @@ void judge_increments(Findings& findings, const Json& rows) {
         measured += fmt::format("{}{:.1f} to {:.1f} at {} samples", measured.empty() ? "" : ", ",
                                 l2(1), l2(8), samples);
     }
-    findings.add("To deal with this [the pigeon hole], the dither increment must be larger than 1",
-                 holds, "an increment of 8 takes L2 from " + measured);
+    findings.add("To deal with this, the dither increment must be larger than 1.", holds,
+                 "against the pigeon hole an increment of 8 takes L2 from " + measured);
 }
 
 void judge_spans(Findings& findings, const Json& spans) {
@@ -218,19 +218,20 @@ void judge_spans(Findings& findings, const Json& spans) {
         return select(spans, {{"code", 0.1}, {"slabs", 9}, {"period", period}}).front();
     };
     findings.add(
-        "If the dithering period is less than 9, then all of the dithered values will be "
-        "zero and no contribution is made",
+        "If the dithering period is less than 9, then all of the dithered values will be zero and "
+        "no contribution is made.",
         span(4)["lost"] == 1.0 && span(8)["lost"] == 1.0 && span(9)["lost"] == 1.0,
         "9 samples of 0.1 are lost wherever they lie, with periods 4 and 8, and 9 too");
     const Json ten = span(10);
     findings.add(
-        "If the dithering period is 10 [...] it is also possible for the voxels not to "
-        "contribute",
+        "If the dithering period is 10, such that one voxel will be dithered to a value of 1, it "
+        "is "
+        "also possible for the voxels not to contribute",
         ten["lost"] > 0 && ten["lost"] < 1,
         fmt::format("{:.0f} % of the places lose them", 100 * ten["lost"].get<double>()));
     findings.add(
         "the position at which boundary appears will correspond to the position of the "
-        "single dithering up of the voxel value",
+        "single dithering up of the voxel value.",
         ten["largest_shift"] == 8,
         fmt::format("it appears {:.1f} slabs late in the mean, {} at most",
                     ten["mean_shift"].get<double>(), ten["largest_shift"].get<int>()));
@@ -260,6 +261,9 @@ Json reproduce_dithering(const std::filesystem::path& folder) {
     values["periods"] = periods;
     values["increments"] = by_increment;
     values["spans"] = spans;
+    values["caption"] =
+        "L2 error of the ramp, composited from 64 to 4096 samples in 8 bits: over the period of "
+        "dithering, and over its increment.";
     return findings.result(values);
 }
 

@@ -47,13 +47,14 @@ using Errors = std::map<std::string, ErrorNorms>;  // by tree
 
 void judge(Findings& findings, const Errors& truncated, const Errors& nearest) {
     const auto l2 = [&](const char* tree) { return truncated.at(tree).l2; };
-    findings.add("The error for the RM dataset also considerably improved",
-                 l2("4x256") < 0.8 * l2("straight") && l2("2^10") < 0.2 * l2("straight"),
-                 fmt::format("L2 is {:.1f} straight, {:.1f} with 4x256, {:.2f} with 2^10",
-                             l2("straight"), l2("4x256"), l2("2^10")));
+    findings.add_untestable(
+        "The error for the RM dataset also considerably improved.",
+        l2("4x256") < 0.8 * l2("straight") && l2("2^10") < 0.2 * l2("straight"),
+        fmt::format("L2 is {:.1f} straight, {:.1f} with 4x256, {:.2f} with 2^10", l2("straight"),
+                    l2("4x256"), l2("2^10")));
     findings.add(
         "For the hierarchies of height 2 the error decreases as the difference between the "
-        "bifurcation factors in minimized",
+        "bifurcation factors in minimized.",
         l2("32x32") < l2("16x64") && l2("16x64") < l2("4x256") && l2("32x32") < l2("64x16") &&
             l2("64x16") < l2("256x4"),
         fmt::format("L2 is {:.2f} with 4x256, {:.2f} with 16x64, {:.2f} with 32x32, {:.2f} with "
@@ -65,11 +66,14 @@ void judge(Findings& findings, const Errors& truncated, const Errors& nearest) {
                              "{:.2f} with 2^10",
                              l2("32x32"), l2("8x8x16"), l2("4^5"), l2("2^10")));
     const ErrorNorms &t = truncated.at("2^10"), &n = nearest.at("2^10");
-    findings.add("a tree with bifurcation factors of 2 (and height=10) has Linf = 2 and L2 = 0.81",
-                 t.linf < 2 * 2 && t.l2 < 2 * 0.81,  // another volume: within a factor of two
-                 fmt::format("Linf is {:.2f} and L2 {:.2f} where alpha is truncated, {:.2f} and "
-                             "{:.2f} where it is rounded to nearest",
-                             t.linf, t.l2, n.linf, n.l2));
+    // The volume is another one: within a factor of two counts as equal.
+    findings.add_untestable(
+        "a tree with bifurcation factors of 2 (and height=10) has L∞ = 2 and L2 = 0.81.",
+        t.linf < 2 * 2 && t.l2 < 2 * 0.81,
+        fmt::format(
+            "Linf is {:.2f} and L2 {:.2f} if alpha is truncated, {:.2f} and {:.2f} if it is "
+            "rounded to nearest",
+            t.linf, t.l2, n.linf, n.l2));
 }
 
 // This goes beyond the paper: nodes are computed in a shader, and carry colour.
@@ -116,10 +120,15 @@ Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     study::write_text(folder / "figure10.csv", study::csv_of_rows(rows));
     Findings findings;
     judge(findings, truncated, nearest);
-    Json values{{"files", {"figure10.csv"}},
-                {"pixels", stage.pixels()},
-                {"rows", rows},
-                {"panels", panels.json()}};
+    Json values{
+        {"files", {"figure10.csv"}},
+        {"pixels", stage.pixels()},
+        {"rows", rows},
+        {"panels", panels.json()},
+        {"caption",
+         "1024 slabs of the mixing liquids, which stand in for the paper's data: exact "
+         "(software), in 8 bits without a tree (straight), and in trees with these factors. "
+         "The coloured pair is ours: the paper's trees carry one colour only."}};
     return findings.result(values, {{"tree", "2^10"}, {"linf", 2}, {"l2", 0.81}},
                            "`mixing` is another volume than the paper's.");
 }

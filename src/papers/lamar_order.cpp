@@ -228,7 +228,7 @@ Json reproduce_order(const std::filesystem::path& folder) {
     Findings findings;
     findings.add(
         "It is \"common knowledge\" in the visualization community that front-to-back compositing "
-        "produces higher quality imagery than back-to-front",
+        "produces higher quality imagery than back-to-front.",
         all.front == static_cast<int>(cases.size()),
         fmt::format("by L2 of {} random rays, front to back is better in {} cases, back to front "
                     "in {}, and {} are within {:.0f} % of each other",
@@ -239,6 +239,9 @@ Json reproduce_order(const std::filesystem::path& folder) {
         {"all", all.to_json()}, {"white", white.to_json()}, {"random_colors", colored.to_json()}};
     values["equal_fragments"] = equal_fragments();
     values["random_rays"] = rows;
+    values["caption"] =
+        "Rays of 256 random samples in 8 bits, composited in both orders; further down is better. "
+        "Curves that are not fused round each product of OVER by itself.";
     return findings.result(
         values, nullptr,
         "With white, the colour of a ray front to back is that of the mirrored ray "

@@ -67,19 +67,27 @@ Json reproduce_figure2(const std::filesystem::path& folder) {
     const auto wide = std::count(c64.begin(), c64.end(), plateau);
     Findings findings;
     findings.add(
-        "Notice how the image and curve [of 16 samples] show regular small jumps, and is fairly "
-        "close to the baseline (software) image",
+        "Notice how the image and curve show regular small jumps, and is fairly close to the "
+        "baseline (software) image.",
         e16.l2 < e64.l2 && e16.linf <= 16,
-        fmt::format("{} levels of 256, {}: never more than one code lost a sample",
+        fmt::format("16 samples: {} levels of 256, {}, never more than one code lost a sample",
                     levels(curves[1].curve), brief(e16)));
-    findings.add("[64 samples:] This is a fairly poor approximation of a linear ramp",
-                 e64.l2 > 2 * e16.l2, brief(e64));
+    findings.add(
+        "Figure 2(c) shows hardware compositing with a sample depth of 64. This is a fairly poor "
+        "approximation of a linear ramp.",
+        e64.l2 > 2 * e16.l2, brief(e64));
     findings.add("the first plateau corresponds to compositing a value of \"1\" 64 times",
                  plateau == 64,
                  fmt::format("the first plateau shows {} in {} columns", plateau, wide));
-    findings.add("[256 samples:] an extremely poor approximation of the desired linear ramp",
-                 e256.l2 > e64.l2,
-                 fmt::format("{} levels of 256, {}", levels(curves[3].curve), brief(e256)));
+    findings.add(
+        "Figure 2(d) shows hardware compositing with a sample depth of 256, and is an extremely "
+        "poor approximation of the desired linear ramp.",
+        e256.l2 > e64.l2,
+        fmt::format("{} levels of 256, {}", levels(curves[3].curve), brief(e256)));
+    values["caption"] =
+        "Rays whose opacity rises from 0 at the left to 1 at the right: exact (software), and "
+        "composited from N equal samples in 8 bits. The plot has what is shown over what is "
+        "wanted.";
     return findings.result(values);
 }
 
@@ -108,6 +116,10 @@ Json reproduce_figure3(const std::filesystem::path& folder) {
                     "before, at 16, 64 and 256 samples, by up to {}, {} and {}",
                     falls(1), falls(2), falls(3), largest_drop(curves[1].curve),
                     largest_drop(curves[2].curve), largest_drop(curves[3].curve)));
+    values["caption"] =
+        "Rays of colour .5 whose opacity rises from 0 at the left to 1 at the right: exact "
+        "(software), and composited from N equal samples in 8 bits. separate: OVER rounds each of "
+        "its two products; fused: it rounds their sum once.";
     return findings.result(
         values, nullptr,
         fmt::format("With one rounding of the sum ({} decreases) the curves never decrease: the "
@@ -130,6 +142,10 @@ Json reproduce_figure4(const std::filesystem::path& folder) {
         2 * dithered.l2 < plain.l2,
         fmt::format("without dithering {}; with it {}, {} levels", brief(plain), brief(dithered),
                     levels(curves[2].curve)));
+    values["caption"] =
+        "Rays whose opacity rises from 0 at the left to 1 at the right: exact (software), "
+        "composited from 64 equal samples in 8 bits (hardware), and with samples dithered along "
+        "depth.";
     return findings.result(values);
 }
 
@@ -170,6 +186,10 @@ Json reproduce_figure5(const std::filesystem::path& folder) {
                  fmt::format("{}, {} and {} decreases with both products rounded, {}, {} and {} "
                              "with one rounding of the sum",
                              falls(1), falls(2), falls(3), falls(4), falls(5), falls(6)));
+    values["caption"] =
+        "Rays of colour .5 whose opacity rises from 0 at the left to 1 at the right: exact "
+        "(software), and composited from N equal samples in 8 bits, dithered along depth with "
+        "period 11. fused: OVER rounds the sum of its products once, else each of them.";
     return findings.result(values);
 }
 
@@ -191,8 +211,8 @@ Json reproduce_figure9(const std::filesystem::path& folder) {
                  fmt::format("one level {}; 64x4 {}; 4x64 {}; 16x16 {}; 4x4x4x4 {}", brief(none),
                              brief(wide), brief(narrow), brief(square), brief(deep)));
     findings.add(
-        "for the hierarchies of two levels (64x4 and 16x16), the error is much better when the two "
-        "bifurcation factors are closer to each other",
+        "for the hierarchies of two levels (64×4 and 16×16), the error is much better when the two "
+        "bifurcation factors are closer to each other.",
         square.l2 < wide.l2 && square.l2 < narrow.l2 && square.linf < wide.linf &&
             square.linf < narrow.linf,
         fmt::format("L2 {:.2f} and {:.2f} for 64x4 and 4x64, {:.2f} for 16x16", wide.l2, narrow.l2,
@@ -201,6 +221,10 @@ Json reproduce_figure9(const std::filesystem::path& folder) {
         "as the tree height increases, the bifurcation factors decrease, and the error decreases",
         deep.l2 < square.l2 && deep.linf < square.linf,
         fmt::format("L2 {:.2f} for 16x16, {:.2f} for 4x4x4x4", square.l2, deep.l2));
+    values["caption"] =
+        "Rays whose opacity rises from 0 at the left to 1 at the right: exact (software), and 256 "
+        "equal samples in 8 bits, composited one after the other (256) and in trees with these "
+        "factors.";
     return findings.result(values, nullptr,
                            "Factors are named from the root to the leaves; the paper names two of "
                            "its three trees (64x4 and 16x16) and not their direction.");

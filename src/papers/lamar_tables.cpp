@@ -136,16 +136,20 @@ Json reproduce_table1(const std::filesystem::path& folder) {
     }
     study::write_text(folder / "table1.csv", csv.text());
     Findings findings;
-    findings.add("columns (b), (c) and (d) as printed", same,
-                 "every printed digit of all nine rows follows");
+    findings.add(
+        "A comparison of desired per-unit-distance opacity (\"PUDo\", column a) vs. computed "
+        "opacity "
+        "(\"Co\", column d) for a sample depth of 64. The per-voxel opacity (\"PVo\", columns b "
+        "and c) "
+        "is shown in base-10 and base-2.",
+        same, "every printed digit of the columns (b), (c) and (d) of all nine rows follows");
+    findings.add(
+        "Column (d) shows the value (in decimal) in the buffer after all compositing is completed.",
+        caption,
+        "it is 1 - (1 - k/256)^64 in real arithmetic, k the upper byte and 255 counting as 1; a "
+        "buffer of 8 bits holds the codes under `buffer`, because OVER rounds, too");
     Json values{{"samples", table1_samples}, {"files", {"table1.csv"}}, {"rows", rows}};
-    values["caption_d_holds"] = caption;
-    return findings.result(
-        values, printed,
-        "But column (d) is not, as the caption says, \"the value (in decimal) in the buffer after "
-        "all compositing is completed\": it is 1 - (1 - k/256)^64 in real arithmetic, k the upper "
-        "byte and 255 counting as 1. A buffer of 8 bits holds the codes under `buffer`, because "
-        "OVER rounds too.");
+    return findings.result(values, printed);
 }
 
 Json reproduce_table2(const std::filesystem::path& folder) {
@@ -162,13 +166,18 @@ Json reproduce_table2(const std::filesystem::path& folder) {
         std::vector<std::uint32_t> as_printed;  // every row: b, b + 1, ... 15
         for (std::uint32_t value = b; value <= four_bits; ++value) as_printed.push_back(value);
         same += without_repeats(row) == as_printed ? 1 : 0;
-        rows.push_back(row);
+        rows.push_back({{"b", b}});
+        for (std::size_t f = 0; f < row.size(); ++f) rows.back()[header[f + 1]] = row[f];
         printed.push_back(as_printed);
     }
     study::write_text(folder / "table2.csv", csv.text());
     Findings findings;
-    findings.add("rows of the table, runs of equal entries as one wide cell", same == 16,
-                 fmt::format("{} of 16 rows hold the printed values in the printed order", same));
+    findings.add(
+        "OVER(f, b) is found in the above matrix at [b, f]. [...] Wide cells indicate that the "
+        "same "
+        "value appears in consecutive cells.",
+        same == 16,
+        fmt::format("{} of 16 rows hold the printed values in the printed order", same));
     bool halves = true;
     for (std::uint32_t f = 0; f <= four_bits; ++f) halves = halves && over4(f, 14) == 14 + f / 8;
     findings.add(
@@ -198,9 +207,12 @@ Json reproduce_table3(const std::filesystem::path& folder) {
     findings.add("0, 1, 2, 3, 4, 5, 6, 7, 8, 8, ... (repeating 8's forever)",
                  repeated(1) == table3_printed()[0].printed,
                  fmt::format("f = 1 gives {}", fmt::join(repeated(1), " ")));
-    findings.add("rows of the table as printed", misprints.empty(),
-                 fmt::format("{} of 7 rows do; f = 4 is {}", 7 - misprints.size(),
-                             fmt::join(repeated(4), " ")));
+    findings.add(
+        "Repeated compositions of the foreground values are show from left to right. Long cells "
+        "with # ... show that repeated compositions no longer change its value.",
+        misprints.empty(),
+        fmt::format("{} of 7 rows are as printed; f = 4 is {}", 7 - misprints.size(),
+                    fmt::join(repeated(4), " ")));
     return findings.result(
         {{"files", {"table3.csv"}}, {"rows", rows}, {"misprints", misprints}}, printed,
         "The printed 4th entry of row f = 4, 10, is a misprint: 4 over 9 is 4 + 9 * 11/15 = 10.6, "

@@ -165,8 +165,11 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     study::write_text(folder / "times_barriers.csv", study::csv_of_rows(values["barriers"]));
     study::write_text(folder / "times_palettes.csv", study::csv_of_rows(values["palettes"]));
     Findings findings;
-    findings.add("A palette uploaded for each slice and a dependent lookup give one picture",
-                 same_picture, same_picture ? "the same codes" : "codes differ");
+    findings.add(
+        "However, one could use dependent texture lookups to implement this kind of dithering.",
+        same_picture,
+        same_picture ? "they give the codes that a palette uploaded for each slice gives"
+                     : "they give other codes than a palette uploaded for each slice");
     const double upload = values["palettes"][1]["ratio"];
     return findings.result(
         values, nullptr,

@@ -32,6 +32,9 @@ Json rows_of(const Json& values) {
 
 void Panels::add(const std::string& group, const std::string& label, const CodedImage& picture) {
     panels_.push_back(panel(group, label, study::data_uri(picture)));
+    // The page reserves the place of a picture before it is decoded, so that links do not miss.
+    panels_.back()["width"] = picture.width;
+    panels_.back()["height"] = picture.height;
 }
 
 void Panels::add(const std::string& group, const std::string& label, const Image& picture) {
@@ -72,9 +75,16 @@ Json page_section(const std::string& item, const Json& result, Json panels,
         panels.push_back(panel("", path.stem().string(),
                                study::data_uri("image/svg+xml", read_file_bytes(path))));
     }
-    return {
-        {"scene", item},         {"note", result.at("note")},     {"checks", result.at("checks")},
-        {"runs", Json::array()}, {"pictures", std::move(panels)}, {"rows", rows_of(values)}};
+    return {{"scene", item},
+            {"anchor", item},
+            {"verdict", result.at("verdict")},
+            {"note", result.at("remark")},
+            {"caption", values.value("caption", "")},
+            {"checks", result.at("checks")},
+            {"own", result.at("own")},
+            {"runs", Json::array()},
+            {"pictures", std::move(panels)},
+            {"rows", rows_of(values)}};
 }
 
 }  // namespace lamina::papers

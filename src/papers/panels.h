@@ -23,7 +23,7 @@ class Panels {
     void add_difference(const std::string& group, const std::string& label, const Difference& e,
                         double scale, const CodedImage& picture);
 
-    // [{group, title, caption, image, scale and largest of differences}, ...]
+    // [{group, title, caption, image, width, height, scale and largest of differences}, ...]
     const nlohmann::ordered_json& json() const { return panels_; }
 
   private:
@@ -33,8 +33,9 @@ class Panels {
 // Removes all keys "panels" from a result, at any depth, and returns them as one list.
 nlohmann::ordered_json take_panels(nlohmann::ordered_json& result);
 
-// The part of the page about one item (share/report): its checks against the paper, its panels and
-// the plots (.svg) of its `files` that are in `folder`, and its table. `result` without panels.
+// The part of the page about one item (share/report): its checks against the paper, its claims, its
+// panels and the plots (.svg) of its `files` that are in `folder` with the `caption` of its values,
+// and its table. `result` without panels. Links to `item` lead there.
 nlohmann::ordered_json page_section(const std::string& item, const nlohmann::ordered_json& result,
                                     nlohmann::ordered_json panels,
                                     const std::filesystem::path& folder);

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/report_page.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cassert>
+#include <cctype>
 #include <string_view>
 
 #include "base/json_text.h"
+#include "base/printable.h"
 #include "study/report_files.h"
 
 namespace lamina::study {
@@ -12,12 +17,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Shows the control characters of all strings and keys.
+Json printable_json(const Json& json) {
+    if (json.is_string()) return printable(json.get_ref<const std::string&>());
+    if (!json.is_structured()) return json;
+    Json shown = json.is_array() ? Json::array() : Json::object();
+    if (json.is_array()) {
+        for (const Json& element : json) shown.push_back(printable_json(element));
+    } else {
+        for (const auto& [key, value] : json.items()) shown[printable(key)] = printable_json(value);
+    }
+    return shown;
+}
+
 // Escapes a text that stands between tags.
 std::string html_of(const std::string& text) {
-    // The text goes through JSON and back, so that it is UTF-8.
-    const std::string valid = Json::parse(json_text(Json(text))).get<std::string>();
     std::string html;
-    for (const char c : valid) {
+    for (const char c : text) {
         if (c == '&')
             html += "&amp;";
         else if (c == '<')
@@ -30,19 +46,33 @@ std::string html_of(const std::string& text) {
     return html;
 }
 
+std::string link_to(const std::string& anchor) {
+    assert(std::all_of(anchor.begin(), anchor.end(),
+                       [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }));
+    return fmt::format("<a href=\"#{0}\">{0}</a>: ", anchor);
+}
+
 std::string findings_of(const Json& report) {
     std::string html;
     for (const Json& finding : report.at("findings")) {
-        html += "<li>" + html_of(finding.get<std::string>()) + "</li>\n";
+        const bool linked = finding.is_object();
+        const Json& text = linked ? finding.at("text") : finding;
+        html += "<li>" + (linked ? link_to(finding.at("anchor").get<std::string>()) : "") +
+                html_of(text.get<std::string>()) + "</li>\n";
     }
     return html;
+}
+
+std::string summary_of(const Json& report) {
+    if (!report.contains("summary")) return {};
+    return "<p id=\"summary\">" + html_of(report["summary"].get<std::string>()) + "</p>\n";
 }
 
 // "<" occurs only within strings of the JSON and is escaped there, so that no text can end the
 // element or begin a comment.
 std::string document_of(const Json& report) {
     std::string json;
-    for (const char c : json_text(report)) {
+    for (const char c : report.dump()) {
         if (c == '<')
             json += "\\u003c";
         else
@@ -61,7 +91,9 @@ std::string_view file_named(std::string_view name) {
 
 }  // namespace
 
-std::string report_page(const Json& report) {
+std::string report_page(const Json& given) {
+    // The report goes through JSON text and back, so that it is UTF-8.
+    const Json report = printable_json(Json::parse(json_text(given)));
     std::string page;
     std::string_view rest = file_named("page.html");
     // Inserted text is not searched, because it may hold "{{" itself.
@@ -72,6 +104,8 @@ std::string report_page(const Json& report) {
         page += rest.substr(0, at);
         if (name == "title")
             page += html_of(report.at("title").get<std::string>());
+        else if (name == "summary")
+            page += summary_of(report);
         else if (name == "findings")
             page += findings_of(report);
         else if (name == "report")

@@ -32,6 +32,12 @@ TEST(Reproduce, WritesOneItem) {
     EXPECT_EQ(report.size(), 1u);
     EXPECT_EQ(report["table3"]["agrees"], false);
     EXPECT_TRUE(std::filesystem::exists(folder / "new/place/table3.csv"));
+    const std::string page = read_bytes_of(folder / "new/place/lamar.html");
+    EXPECT_NE(
+        page.find("<p id=\"summary\">Of 1 item of the paper, 1 disagrees. Of its 2 statements "
+                  "about them, 1 agrees, 1 disagrees.</p>"),
+        std::string::npos);
+    EXPECT_NE(page.find("<li><a href=\"#table3\">table3</a>: Disagrees:"), std::string::npos);
 }
 
 // Sections 4.2 and 5 against what is measured.

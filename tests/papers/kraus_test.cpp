@@ -81,7 +81,10 @@ TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
     second.add_difference("group", "e", e, 2, CodedImage(1, 2, 3, 8));
     Json result{{"values", {{"panels", first.json()}, {"meshes", {{{"panels", second.json()}}}}}},
                 {"note", "Agrees."},
-                {"checks", Json::array()}};
+                {"verdict", "agrees"},
+                {"remark", "More."},
+                {"checks", Json::array()},
+                {"own", Json::array()}};
     const Json panels = take_panels(result);
     ASSERT_EQ(panels.size(), 3u);
     EXPECT_EQ(panels[0]["title"], "dark");
@@ -89,11 +92,14 @@ TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
     EXPECT_NE(panels[0]["image"], panels[1]["image"]);
     EXPECT_EQ(panels[2]["scale"], 2);
     EXPECT_EQ(panels[2]["largest"], 3);
+    EXPECT_EQ(panels[0]["width"], 3);
+    EXPECT_EQ(panels[0]["height"], 2);
     EXPECT_EQ(result["values"], Json::parse(R"({"meshes": [{}]})"));
     // The plots among the files come after the panels; errors of curves are the table.
     const TemporaryFolder folder;
     write_bytes_to(folder / "f.svg", "<svg/>");
     result["values"] = {{"files", {"f.csv", "f.svg"}},
+                        {"caption", "Two curves."},
                         {"errors", {{"high", {{"linf", 2}, {"l1", 1}, {"l2", 1.5}}}}}};
     const Json section = page_section("figure", result, panels, folder.path());
     ASSERT_EQ(section["pictures"].size(), 4u);
@@ -101,7 +107,10 @@ TEST(Panels, AreTakenOutOfAResultWhereverTheyAre) {
     EXPECT_EQ(section["pictures"][3]["image"], "data:image/svg+xml;base64,PHN2Zy8+");
     EXPECT_EQ(section["rows"],
               Json::parse(R"([{"curve": "high", "linf": 2, "l1": 1, "l2": 1.5}])"));
-    EXPECT_EQ(section["note"], "Agrees.");
+    EXPECT_EQ(section["verdict"], "agrees");
+    EXPECT_EQ(section["note"], "More.");
+    EXPECT_EQ(section["anchor"], "figure");
+    EXPECT_EQ(section["caption"], "Two curves.");
 }
 
 // The keys of a result without data sets, and its files.
@@ -113,11 +122,15 @@ void expect_complete(const std::string& name, const Json& result, const Temporar
         const std::string file = entry.path().filename();
         EXPECT_EQ(std::count(item->files.begin(), item->files.end(), file), 1) << file;
     }
-    for (const char* key : {"values", "paper", "agrees", "note", "checks"})
+    for (const char* key : {"values", "paper", "verdict", "agrees", "note", "checks", "own"})
         ASSERT_TRUE(result.contains(key)) << key;
     EXPECT_TRUE(result["agrees"].is_null());  // the paper's statements are about real meshes
     EXPECT_EQ(result["note"].get<std::string>().find("Set LAMINA_DATA to a folder that holds"), 0u);
-    EXPECT_FALSE(result["checks"].empty());
+    EXPECT_FALSE(result["checks"].empty() && result["own"].empty());
+    for (const Json& check : result["checks"])
+        EXPECT_EQ(check["verdict"], "cannot be tested here") << check["says"];
+    Json without_panels = result;
+    EXPECT_EQ(take_panels(without_panels).empty(), !result["values"].contains("caption")) << name;
     ASSERT_FALSE(result["values"]["files"].empty());
     for (const Json& file : result["values"]["files"])
         EXPECT_GT(std::filesystem::file_size(folder / file.get<std::string>()), 0u) << file;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "gl/gl_fixture.h"
 #include "papers/lamar.h"
 #include "papers/lamar_stage.h"
@@ -43,6 +45,40 @@ TEST_F(LamarDrawn, Figure10OnASmallPicture) {
     // The bound of 32x32 at N = 1024 in tests/slicing/tree_test.cpp.
     EXPECT_LE(linf.at("shader 32x32 minimax white"), 2.2);
     EXPECT_LE(linf.at("shader 32x32 minimax green to red"), 2.2);
+}
+
+// The paper's data are not to be had, so that its numbers cannot be tested.
+TEST_F(LamarDrawn, WhatIsOnlyTrueOfThePapersDataIsNotJudged) {
+    const TemporaryFolder folder;
+    LamarStage stage(capabilities(), 32);
+    for (const Json& item :
+         {draw_table4(folder.path(), stage), draw_figure6(folder.path(), stage)}) {
+        EXPECT_EQ(item["verdict"], "cannot be tested here");
+        for (const Json& check : item["checks"])
+            EXPECT_EQ(check["verdict"], "cannot be tested here") << check["says"];
+    }
+}
+
+// The picture of 512 slabs has lost most of the leaves, and that of 64 slabs has not.
+TEST_F(LamarDrawn, DitheringLosesTheLeavesOfFigure1) {
+    if (std::getenv("LAMINA_DATA") == nullptr) GTEST_SKIP() << "LAMINA_DATA is not set";
+    const TemporaryFolder folder;
+    LamarStage stage(capabilities());
+    const Json figure = draw_figure1(folder.path(), stage);
+    EXPECT_EQ(figure["verdict"], "disagrees");
+    std::map<std::string, Json> rows;
+    for (const Json& row : figure["values"]["rows"]) rows[row["picture"]] = row;
+    // The claims of the figure: most of the pixels, or next to none.
+    EXPECT_LT(rows.at("hardware with dithering")["leaves_kept"], 0.5);
+    EXPECT_GT(rows.at("hardware with dithering")["leaves_black"], 0.5);
+    EXPECT_GT(rows.at("hardware with dithering, 64 slabs")["leaves_kept"], 0.99);
+    EXPECT_GT(rows.at("8-bit tree 16x32 of shader nodes")["leaves_kept"], 0.99);
+    // A leaf's 2 codes times its blue of .05 round to 0, and the note says 0 %. Some of the pixels
+    // also see brighter wood.
+    EXPECT_LT(rows.at("hardware with dithering")["leaves_blue"], 0.005);
+    // Red is rounded up more often than green is, which makes the leaves olive.
+    EXPECT_GT(rows.at("hardware with dithering")["leaves_red"],
+              rows.at("hardware with dithering")["leaves_green"]);
 }
 
 TEST_F(LamarDrawn, BothWaysOfPalettesGiveOnePicture) {

@@ -163,6 +163,70 @@ class ReportPage(PageInBrowser):
         hollow = {run for run, mark in marks().items() if mark[2]}
         self.assertEqual(hollow, {run["id"] for run in runs if run["near_reference"]})
 
+    def test_marks_tell_what_was_swept(self):
+        def legend():
+            return self.collect(self.section(0), ".scatter .legend li", "node.textContent")
+        # Trees are told apart by their levels.
+        self.assertEqual(self.all("#choose-key")[0].get_attribute("value"), "levels of the tree")
+        self.assertEqual(legend()[:3], ["1", "2", "3"])
+        # Keys that are changed in turn are told apart by which key it is.
+        report = made_up_report(12)
+        for i, run in enumerate(measured(report["comparisons"][0])):
+            key = ["render.target", "render.slice.samples", "render.slice.tree.factors"][i % 3]
+            run["keys"] = {key: "x"} if i > 0 else {}
+        report["comparisons"] = report["comparisons"][:1]
+        report["swept"][2] = "image.width"
+        for run in measured(report["comparisons"][0]):
+            if run["keys"].pop("render.slice.tree.factors", None):
+                run["keys"]["image.width"] = 8
+        self.open(self.write_page("in-turn", report))
+        self.assertEqual(self.messages(), [])
+        self.assertEqual(self.all("#choose-key")[0].get_attribute("value"), "what was swept")
+        self.assertEqual(legend()[:4], ["nothing", "samples", "target", "width"])
+        # In a grid all keys are: the one that splits the runs best.
+        for i, run in enumerate(measured(report["comparisons"][0])):
+            run["keys"] = {"render.target": "fixed8" if i < 9 else "float32", "render.slice.samples": i % 4}
+        for run in report["comparisons"][0]["runs"]:
+            if "failed" in run:
+                run["keys"] = {"render.target": "fixed8", "render.slice.samples": 0}
+        report["swept"] = ["render.target", "render.slice.samples"]
+        self.open(self.write_page("grid", report))
+        self.assertEqual(self.all("#choose-key")[0].get_attribute("value"), "render.slice.samples")
+
+    def test_the_answer_comes_first(self):
+        report = made_up_report(12)
+        report["answers"] = {"title": "Which to take", "note": HOSTILE, "tables": [
+            {"caption": "best", "rows": [{"take": "8x128", "its nodes": 9, "L2": 0.25},
+                                         {"take": "1024", "its nodes": 1, "L2": 2}]},
+            {"caption": "rest", "rows": [{"take": HOSTILE, "L2": None}]}]}
+        self.open(self.write_page("answers", report))
+        self.assertEqual(self.messages(), [])
+        heads = self.browser.execute_script("return [...document.querySelectorAll('h2')].map((h) => h.textContent)")
+        self.assertEqual(heads[:3], ["Findings", "Which to take", "How it was measured"])
+        answers = self.all("#answers")[0]
+        self.assertEqual(self.collect(answers, "h3", "node.textContent"), ["best", "rest"])
+        rows = self.collect(answers, ".numbers tbody tr", "[...node.children].map((cell) => cell.textContent)")
+        self.assertEqual(rows, [["8x128", "9", "0.250"], ["1024", "1", "2.00"], [HOSTILE, "–"]])
+
+    def test_empty_differences_say_so(self):
+        report = made_up_report(12)
+        runs = measured(report["comparisons"][0])
+        picture = report["comparisons"][0]["pictures"][0]
+        report["comparisons"][0]["pictures"] = [
+            {**picture, "scale": 2, "largest": largest} for largest in (0.0999, 0.1, 0.02, 0, 0.001)]
+        runs[1]["linf"], runs[2]["linf"] = 0.03, 0.1  # the scale is 2
+        self.open(self.write_page("empty", report))
+        section = self.section(0)
+        figures = self.all(":scope > .pictures figure", section)
+        said = [[node.text for node in self.all(".nothing", figure)] for figure in figures]
+        # A twentieth of the scale, .1, can be seen; the next power of ten is said.
+        self.assertEqual(said, [["nothing to see: below .1"], [], ["nothing to see: below .1"], ["no difference"],
+                                ["nothing to see: below .01"]])
+        for run, empty in ((runs[1], True), (runs[2], False)):
+            self.click(self.all(f'tr[data-run="{run["id"]}"] button', section)[0])
+            found = self.all(f'tr[data-run="{run["id"]}"] + tr .nothing', section)
+            self.assertEqual([node.text for node in found], ["nothing to see: below .1"] if empty else [])
+
     def test_every_numeric_column_sorts(self):
         for index, entry in enumerate(self.report["comparisons"]):
             section = self.section(index)
@@ -339,25 +403,56 @@ class ReportPage(PageInBrowser):
         report = {"title": "A paper", "kind": "reproduction", "findings": ["figure1: Agrees."], "environment": {},
                   "comparisons": [
                       {"scene": "figure1", "note": "Agrees.", "runs": [], "pictures": panels, "rows": [],
-                       "checks": [{"says": HOSTILE, "holds": True, "measured": "3"},
-                                  {"says": "b", "holds": False, "measured": "4"}]},
-                      {"scene": "table1", "note": "Disagrees.", "runs": [], "pictures": [], "checks": [],
+                       "anchor": "figure1", "caption": "A leaf.",
+                       "checks": [{"says": HOSTILE, "verdict": "agrees", "measured": "3"},
+                                  {"says": "b", "verdict": "cannot be tested here", "measured": "4"}],
+                       "own": [{"claim": "c", "holds": False, "measured": "5"}]},
+                      {"scene": "table1", "anchor": "table1", "note": "Disagrees.", "runs": [], "pictures": [],
+                       "checks": [], "own": [],
                        "rows": [{"tree": "32x32", "linf": 0.25, "n": None}, {"tree": [2, 4], "linf": 3, "n": 7}]}]}
-        self.open(self.write_page("paper", report))
+        page = self.write_page("paper", report)
+        self.open(page)
         self.assertEqual(self.messages(), [])
-        figure, table = self.section(0), self.section(1)
+        figure, table = self.all("#figure1")[0], self.all("#table1")[0]
         labels = self.collect(figure, ".picture figcaption b", "node.textContent")
         self.assertEqual(labels, ["software", HOSTILE, "software"])
         self.assertEqual(self.collect(figure, "h3", "node.textContent"), ["inset"])
+        self.assertEqual(self.collect(figure, ".caption", "node.textContent"), ["figure1. A leaf."])
+        self.assertEqual(self.all(".caption", table), [])
         self.assertEqual(self.collect(figure, "img", "node.alt"),
                          ["figure1, software", f"figure1, {HOSTILE}", "figure1, inset, software"])
         self.assertEqual(len(self.all(".clipped", figure)), 1)
         checks = self.collect(figure, ".checks tbody tr", "[...node.children].map((cell) => cell.textContent)")
-        self.assertEqual(checks, [[HOSTILE, "yes", "3"], ["b", "no", "4"]])
+        self.assertEqual(checks, [[HOSTILE, "agrees", "3"], ["b", "cannot be tested here", "4"], ["c", "no", "5"]])
+        heads = self.collect(figure, ".checks thead th:first-child", "node.textContent")
+        self.assertEqual(heads, ["the paper says", "lamina says"])
+        # Whole numbers alone make a column of whole numbers, and a list is no product.
         rows = self.collect(table, ".numbers tr", "[...node.children].map((cell) => cell.textContent)")
-        self.assertEqual(rows, [["tree", "linf", "n"], ["32x32", "0.250", "–"], ["2x4", "3.00", "7.00"]])
+        self.assertEqual(rows, [["tree", "linf", "n"], ["32x32", "0.250", "–"], ["2, 4", "3.00", "7"]])
         self.assertEqual(self.collect(self.all("nav")[0], "a", "node.textContent"), ["figure1", "table1"])
         self.assertEqual(self.all("#controls") + self.all(".runs"), [])
+
+    def test_links_jump_to_their_item(self):
+        def top(node):
+            return self.browser.execute_script("return arguments[0].getBoundingClientRect().top", node)
+        panels = [{"group": "", "title": "t", "caption": "", "image": png(90), "width": 8, "height": 8}] * 20
+        report = {"title": "A paper", "kind": "reproduction", "summary": "Of 9 items, 9 agree.", "environment": {},
+                  "findings": [{"anchor": f"figure{i}", "text": "Agrees."} for i in range(9)],
+                  "comparisons": [{"scene": f"figure{i}", "anchor": f"figure{i}", "runs": [], "pictures": panels,
+                                   "checks": [], "rows": []} for i in range(9)]}
+        page = self.write_page("links", report)
+        self.open(page)
+        self.assertEqual(self.all("#summary")[0].text, "Of 9 items, 9 agree.")
+        height = self.browser.execute_script("return window.innerHeight")
+        for links in ("#findings a", "nav a"):
+            self.browser.execute_script("window.scrollTo(0, 0)")
+            self.assertGreater(top(self.all("#figure7")[0]), height)
+            self.all(links)[7].click()
+            self.assertTrue(0 <= top(self.all("#figure7 h2")[0]) < height / 2, links)
+        # A link from elsewhere, whose target the script makes.
+        self.open("about:blank")
+        self.open(page + "#figure7")
+        self.assertTrue(0 <= top(self.all("#figure7 h2")[0]) < height / 2)
 
     def test_points_tell_of_their_run_by_keyboard(self):
         section = self.section(0)

@@ -74,6 +74,31 @@ TEST(ReportPage, ReplacesWhatIsNotUtf8) {
     EXPECT_EQ(Json::parse(document_in(page))["findings"][0], "\xef\xbf\xbd");
 }
 
+TEST(ReportPage, ShowsControlCharactersAsSuch) {
+    Json report = report_named("a\x1b[31m b\x7f");
+    report["findings"] = {"bell\a, new\nline, tab\t, CSI \xc2\x9b"};
+    report["comparisons"] = {{{"scene", "s\x1b]0;t\a"}, {"k\x1b", 1}}};
+    const std::string page = report_page(report);
+    EXPECT_EQ(part_of(page, "<h1>", "</h1>"), "a\\x1b[31m b\\x7f");
+    EXPECT_EQ(part_of(page, "<ul>\n", "</ul>"),
+              "<li>bell\\x07, new\\nline, tab\\t, CSI \\xc2\\x9b</li>\n");
+    const Json shown = Json::parse(document_in(page))["comparisons"][0];
+    EXPECT_EQ(shown, Json({{"scene", "s\\x1b]0;t\\x07"}, {"k\\x1b", 1}}));
+    for (const char c : page)
+        EXPECT_TRUE(static_cast<unsigned char>(c) >= ' ' || c == '\n') << static_cast<int>(c);
+}
+
+TEST(ReportPage, LinksFindingsToTheirSections) {
+    Json report = report_named("t");
+    report["summary"] = "2 of 3 < all";
+    report["findings"] = {{{"anchor", "table_1"}, {"text", "a < b"}}};
+    const std::string page = report_page(report);
+    EXPECT_EQ(part_of(page, "<ul>\n", "</ul>"),
+              "<li><a href=\"#table_1\">table_1</a>: a &lt; b</li>\n");
+    EXPECT_EQ(part_of(page, "<p id=\"summary\">", "</p>"), "2 of 3 &lt; all");
+    EXPECT_EQ(report_page(report_named("t")).find("id=\"summary\""), std::string::npos);
+}
+
 TEST(ReportPage, HasAllOfItsFilesWithinAndNothingElse) {
     const std::string page = report_page(report_named("t"));
     EXPECT_EQ(page.find("{{"), std::string::npos);

@@ -20,6 +20,7 @@
 #include "command_line.h"
 #include "git_commit.h"
 #include "output_folder.h"
+#include "papers/findings.h"
 #include "papers/kraus.h"
 #include "papers/kraus_stage.h"
 #include "papers/lamar.h"
@@ -143,10 +144,11 @@ void reproduce(const std::vector<papers::PaperItem<Stage>>& all, const Reproduce
         print_result("{:<14} {}\n", item.name, result["note"].get<std::string>());
         flush_results();  // now, into a pipe too: items take minutes
         const nlohmann::ordered_json panels = papers::take_panels(result);
-        page["findings"].push_back(item.name + ": " + result["note"].get<std::string>());
+        page["findings"].push_back({{"anchor", item.name}, {"text", result["in_short"]}});
         page["comparisons"].push_back(papers::page_section(item.name, result, panels, folder));
         report[item.name] = result;
     }
+    page["summary"] = papers::count_verdicts(report);
     own.add({report_name, page_name});
     file.write(json_text(report, 1) + "\n");
     page_file.write(study::report_page(page));
