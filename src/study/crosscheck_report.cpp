@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "image/false_color.h"
 #include "study/error_json.h"
@@ -43,9 +44,13 @@ Json run_json(std::string name, Json keys, const ImageError& error, const FrameT
     return json;
 }
 
+std::string slicing_name(int samples) {
+    return "slicing, " + slabs_text(samples);
+}
+
 std::string projection_name(const Crosscheck::Projection& each) {
     return each.tolerance > 0 ? fmt::format("PT, tolerance {:g}", each.tolerance)
-                              : fmt::format("PT, {} tets", each.tets);
+                              : fmt::format("PT, {} tet{}", each.tets, each.tets == 1 ? "" : "s");
 }
 
 Json runs_json(const Crosscheck& crosscheck, double scale) {
@@ -58,14 +63,16 @@ Json runs_json(const Crosscheck& crosscheck, double scale) {
         runs.push_back(std::move(run));
     };
     for (const Crosscheck::Slicing& each : crosscheck.slicings) {
-        add(run_json(fmt::format("slicing, {} slabs", each.samples),
+        add(run_json(slicing_name(each.samples),
                      {{"method", "slicing"}, {"render.slice.samples", each.samples}}, each.error,
                      each.times, each.bytes, crosscheck),
             each.picture);
     }
     for (const Crosscheck::Projection& each : crosscheck.projections) {
         add(run_json(projection_name(each),
-                     {{"method", "PT"}, {"mesh.tolerance", each.tolerance}, {"tets", each.tets}},
+                     {{"method", "projected tetrahedra (PT)"},
+                      {"mesh.tolerance", each.tolerance},
+                      {"tets", each.tets}},
                      each.error, each.times, each.bytes, crosscheck),
             each.picture);
     }
@@ -84,9 +91,10 @@ Json plot(const char* title, const char* x, const char* y) {
 }
 
 Json plots_json(const Crosscheck& crosscheck) {
-    Json meshes = plot("Parts of PT's error over the mesh", "tets", "L2 error (1/255)"),
+    Json meshes = plot("Parts of the error of projected tetrahedra (PT) over the mesh", "tets",
+                       "L2 error (1/255)"),
          slabs = plot("Slicing's error over its slabs", "slabs", "L2 error (1/255)"),
-         pairs = plot("PT - slicing over the mesh", "tets", "Linf (1/255)");
+         pairs = plot("Projected tetrahedra (PT) - slicing over the mesh", "tets", "Linf (1/255)");
     Json discretisation = Json::array(), method = Json::array(), slicing = Json::array();
     for (const Crosscheck::Projection& each : crosscheck.projections) {
         discretisation.push_back({each.tets, each.mesh_part.all.l2, projection_name(each)});
@@ -94,15 +102,13 @@ Json plots_json(const Crosscheck& crosscheck) {
     }
     for (std::size_t s = 0; s < crosscheck.slicings.size(); ++s) {
         const Crosscheck::Slicing& each = crosscheck.slicings[s];
-        slicing.push_back(
-            {each.samples, each.error.all.l2, fmt::format("slicing, {} slabs", each.samples)});
+        slicing.push_back({each.samples, each.error.all.l2, slicing_name(each.samples)});
         Json against = Json::array();
         for (std::size_t p = 0; p < crosscheck.projections.size(); ++p) {
             against.push_back({crosscheck.projections[p].tets, crosscheck.pairs[p][s].raw.linf,
                                projection_name(crosscheck.projections[p])});
         }
-        pairs["series"].push_back(
-            {{"name", fmt::format("{} slabs", each.samples)}, {"points", against}});
+        pairs["series"].push_back({{"name", slabs_text(each.samples)}, {"points", against}});
     }
     meshes["series"] = {{{"name", "mesh discretisation"}, {"points", discretisation}},
                         {{"name", "PT method"}, {"points", method}}};
@@ -132,7 +138,7 @@ Json pictures_json(const Crosscheck& crosscheck, const ErrorBudget& budget, doub
                                        {"projected mesh", &four.projected}})
         add(title, "", shown(reduced(*image, step), four.space));
     for (const ErrorBudget::Part& part : budget.parts) {
-        add_difference(part.name, fmt::format("{:.1f} % of PT - slicing", 100 * part.share), part.e,
+        add_difference(part.name, share_text(part) + " of PT - slicing", part.e,
                        part.error.all.linf);
     }
     add_difference("PT - slicing", "", budget.raw, budget.raw_error.all.linf);
@@ -171,6 +177,15 @@ Json ladder_json(const Crosscheck& crosscheck) {
 
 }  // namespace
 
+std::string slabs_text(int count) {
+    return fmt::format("{} slab{}", count, count == 1 ? "" : "s");
+}
+
+std::string share_text(const ErrorBudget::Part& part) {
+    const double percent = std::round(1000 * part.share) / 10;
+    return fmt::format("{:.1f} %", percent == 0 ? 0 : percent);  // no "-0.0"
+}
+
 nlohmann::ordered_json budget_json(const Crosscheck& crosscheck, const ErrorBudget& budget,
                                    const CrosscheckSubject& subject) {
     Json parts;
@@ -205,15 +220,14 @@ nlohmann::ordered_json crosscheck_report(const Crosscheck& crosscheck, const Err
         {"width", traced.width},
         {"height", traced.height},
         {"image", data_uri(shown(reduced(traced, step), crosscheck.pictures.space))}};
-    Json comparison{
-        {"scene", subject.name},
-        {"baseline", fmt::format("slicing, {} slabs", crosscheck.slicings.front().samples)},
-        {"difference_scale", scale},
-        {"references", Json::array({reference})},
-        {"runs", runs_json(crosscheck, scale)},
-        {"plots", plots_json(crosscheck)},
-        {"pictures", pictures_json(crosscheck, budget, scale)}};
-    return {{"title", fmt::format("PT against slicing: {}", subject.name)},
+    Json comparison{{"scene", subject.name},
+                    {"baseline", slicing_name(crosscheck.slicings.front().samples)},
+                    {"difference_scale", scale},
+                    {"references", Json::array({reference})},
+                    {"runs", runs_json(crosscheck, scale)},
+                    {"plots", plots_json(crosscheck)},
+                    {"pictures", pictures_json(crosscheck, budget, scale)}};
+    return {{"title", fmt::format("Projected tetrahedra (PT) against slicing: {}", subject.name)},
             {"kind", "crosscheck"},
             {"findings", crosscheck_findings(crosscheck, budget, subject)},
             {"environment", subject.environment},

@@ -8,6 +8,12 @@
 
 namespace lamina::study {
 
+// "1 slab", "64 slabs".
+std::string slabs_text(int count);
+
+// "99.9 %": the part's share of the difference.
+std::string share_text(const ErrorBudget::Part& part);
+
 // What a report says about a cross-check beside its results.
 struct CrosscheckSubject {
     std::string name;                    // name of the scene

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/median.h"
-#include "study/tree_plots.h"
+#include "study/tree_advice.h"
 
 namespace lamina::study {
 namespace {
@@ -67,26 +68,6 @@ void tell_baseline(const RunList& list, const std::string& scene, const Runs& ru
     findings.push_back(text + ".");
 }
 
-void tell_trees(const RunList& list, const std::string& scene, const Runs& runs,
-                std::vector<std::string>& findings) {
-    std::map<std::size_t, Runs> by_height;
-    for (const RunResult* const run : runs) {
-        const std::size_t height = factors_of(list, *run).size();
-        if (height > 0) by_height[height].push_back(run);
-    }
-    std::string text;
-    for (auto& [height, trees] : by_height) {
-        std::sort(trees.begin(), trees.end(),
-                  [](const RunResult* a, const RunResult* b) { return a->all.l2 < b->all.l2; });
-        text += fmt::format("{} {} level{}: L2 {:.3g} ({}) to {:.3g} ({})", text.empty() ? "" : ";",
-                            height, height == 1 ? "" : "s", trees.front()->all.l2,
-                            list.runs[trees.front()->run].name, trees.back()->all.l2,
-                            list.runs[trees.back()->run].name);
-    }
-    if (!text.empty())
-        findings.push_back(fmt::format("{}: trees by their height:{}.", scene, text));
-}
-
 void tell_limits(const std::string& scene, const Runs& runs, std::vector<std::string>& findings) {
     const auto near = std::count_if(runs.begin(), runs.end(),
                                     [](const RunResult* run) { return run->near_reference(); });
@@ -98,31 +79,49 @@ void tell_limits(const std::string& scene, const Runs& runs, std::vector<std::st
     }
 }
 
+// The runs of one scene that did not fail.
+Runs runs_of(const StudyResults& results, std::size_t scene) {
+    Runs runs;
+    for (const RunResult& result : results.runs) {
+        if (results.list.runs[result.run].scene == scene && result.failed.empty())
+            runs.push_back(&result);
+    }
+    return runs;
+}
+
+void tell_failed(const StudyResults& results, std::size_t scene,
+                 std::vector<std::string>& findings) {
+    const auto failed =
+        std::count_if(results.runs.begin(), results.runs.end(), [&](const RunResult& result) {
+            return results.list.runs[result.run].scene == scene && !result.failed.empty();
+        });
+    if (failed > 0)
+        findings.push_back(fmt::format("{}: {} run{} failed.", results.list.scenes[scene], failed,
+                                       failed == 1 ? "" : "s"));
+}
+
 }  // namespace
 
 std::vector<std::string> study_findings(const StudyResults& results) {
     const RunList& list = results.list;
     std::vector<std::string> findings;
+    // Which trees to take is the answer; how all runs compare comes after it.
+    for (const bool in_floats : {false, true}) {
+        for (std::size_t scene = 0; scene < list.scenes.size(); ++scene) {
+            for (std::string& finding :
+                 tree_findings(list, list.scenes[scene], runs_of(results, scene), in_floats))
+                findings.push_back(std::move(finding));
+        }
+    }
     for (std::size_t scene = 0; scene < list.scenes.size(); ++scene) {
-        Runs runs;
-        std::size_t failed = 0;
-        for (const RunResult& result : results.runs) {
-            if (list.runs[result.run].scene != scene) continue;
-            if (result.failed.empty())
-                runs.push_back(&result);
-            else
-                ++failed;
-        }
-        const std::string& name = list.scenes[scene];
+        const Runs runs = runs_of(results, scene);
         if (!runs.empty()) {
-            tell_front(list, name, runs, findings);
-            tell_baseline(list, name, runs, list.runs[list.baselines[scene]], findings);
-            tell_trees(list, name, runs, findings);
-            tell_limits(name, runs, findings);
+            tell_front(list, list.scenes[scene], runs, findings);
+            tell_baseline(list, list.scenes[scene], runs, list.runs[list.baselines[scene]],
+                          findings);
+            tell_limits(list.scenes[scene], runs, findings);
         }
-        if (failed > 0)
-            findings.push_back(
-                fmt::format("{}: {} run{} failed.", name, failed, failed == 1 ? "" : "s"));
+        tell_failed(results, scene, findings);
     }
     if (results.environment.at("machine").get<std::string>().find("; ") != std::string::npos) {
         findings.emplace_back(

@@ -10,6 +10,7 @@
 #include "study/error_json.h"
 #include "study/study_findings.h"
 #include "study/thumbnail.h"
+#include "study/tree_advice.h"
 #include "study/tree_plots.h"
 
 namespace lamina::study {
@@ -122,6 +123,8 @@ nlohmann::ordered_json report_of(const StudyResults& results) {
               {"swept", results.list.swept},
               {"comparisons", Json::array()},
               {"dropped", Json::array()}};
+    const Json answers = tree_answers(results);
+    if (!answers.is_null()) json["answers"] = answers;
     for (std::size_t scene = 0; scene < results.list.scenes.size(); ++scene)
         json["comparisons"].push_back(comparison_of(results, scene));
     for (const RunList::Dropped& dropped : results.list.dropped)

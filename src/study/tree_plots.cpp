@@ -16,12 +16,6 @@ struct TreePoint {
 };
 using Series = std::map<std::string, std::vector<TreePoint>>;
 
-std::string series_name(const StudyRun& run) {
-    Settings others = run.settings;
-    std::erase_if(others, [](const auto& setting) { return setting.first == factors_key; });
-    return run_name(others);
-}
-
 Json plot(const Series& series, const char* title, const char* x_label, bool x_log,
           const char* y_label, double TreePoint::*x, double TreePoint::*y) {
     Json json{{"title", title},
@@ -44,6 +38,12 @@ std::vector<int> factors_of(const RunList& list, const RunResult& result) {
     return found->get<std::vector<int>>();
 }
 
+std::string name_without_factors(const StudyRun& run) {
+    Settings others = run.settings;
+    std::erase_if(others, [](const auto& setting) { return setting.first == factors_key; });
+    return run_name(others);
+}
+
 double irregularity(const std::vector<int>& factors) {
     const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
     return static_cast<double>(*most) / *least;
@@ -54,7 +54,7 @@ nlohmann::ordered_json tree_plots(const RunList& list, const std::vector<const R
     for (const RunResult* const run : runs) {
         const std::vector<int> factors = factors_of(list, *run);
         if (factors.empty()) continue;
-        series[series_name(list.runs[run->run])].push_back(
+        series[name_without_factors(list.runs[run->run])].push_back(
             {static_cast<double>(factors.size()), irregularity(factors), run->all.l2,
              median(run->frame_ms), list.runs[run->run].id});
     }

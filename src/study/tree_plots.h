@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "study/study_results.h"
@@ -13,6 +14,9 @@ constexpr const char* factors_key = "render.slice.tree.factors";
 // The bifurcation factors of a run, from the root to the leaves. Empty where no tree is swept or
 // the run failed.
 std::vector<int> factors_of(const RunList& list, const RunResult& result);
+
+// A name of the run's other settings: "fixed8".
+std::string name_without_factors(const StudyRun& run);
 
 // The largest factor over the smallest: 1 for a regular tree.
 double irregularity(const std::vector<int>& factors);

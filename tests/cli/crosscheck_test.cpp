@@ -229,11 +229,33 @@ TEST_F(Crosschecks, SaysWhichPartDominates) {
     EXPECT_EQ(budget["dominant"], "mesh");
     EXPECT_GT(budget["parts"]["mesh"]["share"], 0.5);
     EXPECT_NE(out.find("mesh discretisation dominates"), std::string::npos) << out;
-    EXPECT_EQ(budget["findings"].size(), 4u);
+    // Coarsest and finest settings are the scene's own, and told once.
+    EXPECT_EQ(budget["findings"].size(), 2u);
     for (const json& finding : budget["findings"])
         EXPECT_NE(out.find(finding.get<std::string>()), std::string::npos) << finding;
     const std::string page = read_bytes_of(folder / "out" / "report.html");
-    EXPECT_NE(page.find("PT against slicing: blobs"), std::string::npos);
+    EXPECT_NE(page.find("Projected tetrahedra (PT) against slicing: blobs"), std::string::npos);
+}
+
+// Numbers of a part stand in the tables and beside the pictures, not in each sentence.
+TEST_F(Crosschecks, SaysEachThingOnceAndInFullWords) {
+    scene["mesh"]["tolerance"] = 0.2;
+    scene["render"]["slice"]["samples"] = 1;
+    const json budget = run_well({"--set", "render.max_error=0.001"}, ".2,.1", "1,32");
+    ASSERT_EQ(budget["findings"].size(), 3u);  // the coarsest settings are the scene's own
+    const std::string first = budget["findings"][0];
+    EXPECT_NE(first.find(" and 1 slab, projected tetrahedra (PT) and slicing differ by Linf "),
+              std::string::npos)
+        << first;
+    EXPECT_EQ(out.find("1 slabs"), std::string::npos) << out;
+    EXPECT_EQ(out.find("-0.0 %"), std::string::npos) << out;
+    std::size_t norms = 0;
+    for (std::size_t at = out.find("L2 "); at != std::string::npos; at = out.find("L2 ", at + 1))
+        ++norms;
+    EXPECT_EQ(norms, 1u) << out;
+    const std::string page = read_bytes_of(folder / "out" / "report.html");
+    EXPECT_NE(page.find("\"slicing, 1 slab\""), std::string::npos);
+    EXPECT_EQ(page.find("1 slabs"), std::string::npos);
 }
 
 // Without a mesh of its own, the scene's is the finest of a ladder that ends because of its cost.
