@@ -167,7 +167,7 @@ std::string count_verdicts(const Json& report) {
                                    counted(static_cast<std::ptrdiff_t>(report.size()), "item"),
                                    verdicts_text(of_items));
     if (statements > 0)
-        text += fmt::format(" Of its {} about them, {}.", counted(statements, "statement"),
+        text += fmt::format(" Of {}, {}.", counted(statements, "statement"),
                             verdicts_text(of_statements));
     return text;
 }

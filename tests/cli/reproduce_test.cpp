@@ -33,10 +33,9 @@ TEST(Reproduce, WritesOneItem) {
     EXPECT_EQ(report["table3"]["agrees"], false);
     EXPECT_TRUE(std::filesystem::exists(folder / "new/place/table3.csv"));
     const std::string page = read_bytes_of(folder / "new/place/lamar.html");
-    EXPECT_NE(
-        page.find("<p id=\"summary\">Of 1 item of the paper, 1 disagrees. Of its 2 statements "
-                  "about them, 1 agrees, 1 disagrees.</p>"),
-        std::string::npos);
+    EXPECT_NE(page.find("<p id=\"summary\">Of 1 item of the paper, 1 disagrees. Of 2 statements, "
+                        "1 agrees, 1 disagrees.</p>"),
+              std::string::npos);
     EXPECT_NE(page.find("<li><a href=\"#table3\">table3</a>: Disagrees:"), std::string::npos);
 }
 

@@ -67,16 +67,15 @@ TEST(Findings, AreCountedInOneLine) {
     good.add("a", true, "");
     good.add_untestable("b", true, "");
     bad.add("c", false, "");
-    EXPECT_EQ(
-        count_verdicts({{"one", good.result(nullptr)}}),
-        "Of 1 item of the paper, 1 agrees. Of its 2 statements about them, 1 agrees, 1 cannot "
-        "be tested here.");
+    EXPECT_EQ(count_verdicts({{"one", good.result(nullptr)}}),
+              "Of 1 item of the paper, 1 agrees. Of 2 statements, 1 agrees, 1 cannot be tested "
+              "here.");
     EXPECT_EQ(count_verdicts({{"one", good.result(nullptr)},
                               {"two", bad.result(nullptr)},
                               {"three", bad.result(nullptr)},
                               {"four", open.result(nullptr)}}),
-              "Of 4 items of the paper, 1 agrees, 2 disagree, 1 is left open by it. Of its 4 "
-              "statements about them, 1 agrees, 2 disagree, 1 cannot be tested here.");
+              "Of 4 items of the paper, 1 agrees, 2 disagree, 1 is left open by it. Of 4 "
+              "statements, 1 agrees, 2 disagree, 1 cannot be tested here.");
 }
 
 // The long items, `order` and `dithering`, run in the test of the command line; one that draws, in
