@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from typing import Any, Callable
 
 from . import _lamina
@@ -11,6 +12,8 @@ from ._errors import PictureWarning, warn
 from ._picture import Picture
 from ._scene import Scene, scene_of
 from ._turntable import Turntable
+from ._volume import Volume
+from ._watched import CHANGED, Watched
 
 Progress = Callable[[str, float], object]
 
@@ -37,8 +40,24 @@ class Session:
     def __init__(self, data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
                  many_frames: bool = False, **keywords: Any) -> None:
         self._scene = scene_of(data, transfer_function, keywords)
-        core = None if self._scene.data is None else self._scene.data._core
-        self._core = _lamina.Session(self._scene._parsed(), core, context, threads, many_frames)
+        self._options = context, threads, many_frames
+        self._changing = threading.RLock()
+        self._read()
+
+    def _read(self) -> None:
+        data = self._scene.data
+        watched = data._watched() if isinstance(data, Volume) else None
+        core = _lamina.Session(self._scene._parsed(), None if data is None else data._core, *self._options)
+        self._watched: Watched | None = watched
+        self._core = core
+
+    def _read_if_changed(self) -> None:
+        with self._changing:
+            changed = self._watched is not None and self._watched.is_changed()
+            if changed:
+                self._read()
+        if changed:
+            warn(CHANGED, PictureWarning)
 
     @property
     def scene(self) -> Scene:
@@ -59,16 +78,22 @@ class Session:
         """A picture, complete when it returns. ``progress(activity, share)`` hears how far it is, some 20 times a
         second. Ctrl-C ends it (``KeyboardInterrupt``), as does an exception of ``progress``; the next picture is then
         drawn from the start."""
+        self._read_if_changed()
         return self._picture(self._core.draw(progress))
 
     def trace(self, progress: Progress | None = None) -> Picture:
         """The truth: the same view by the reference tracer in double precision, to ``render.trace.tolerance`` (1e-5 of
         full scale). It takes seconds to minutes."""
+        self._read_if_changed()
         return self._picture(self._core.trace(progress))
 
     def set(self, **keywords: Any) -> None:
         """Changes keys of the scene, as ``Scene`` lists them, and ``transfer_function``. Settings of ``render`` choose what
         is automatic again; ``camera``, ``size``, ``transfer_function`` and ``clip`` do not."""
+        with self._changing:
+            self._set(keywords)
+
+    def _set(self, keywords: dict[str, Any]) -> None:
         changed = self._scene._changed(keywords)
         cheap = {"camera": self._core.set_camera, "size": self._core.set_size, "clip": self._core.set_clip,
                  "transfer_function": self._core.set_transfer_function}

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _conversion, _lamina
 from ._errors import PrecisionWarning, warn
+from ._watched import Watched, can_be_written
 
 Path = str | os.PathLike[str]
 
@@ -24,7 +25,8 @@ class Volume:
     at each end.
 
     Contiguous arrays of uint8, int16, uint16 and float32 in native byte order are not copied: do not change them while
-    they are drawn. (Contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order.) All others are copied
+    they are drawn. If one was changed since a ``Session`` read it, its next picture warns (``PictureWarning``) and measures
+    it again. (Contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order.) All others are copied
     once: any strides, either byte order, bool, int8, float16 and larger integers that fit 16 bits without a loss; other
     integers, float64 and longdouble to float32, with a ``PrecisionWarning`` where that cannot hold the values.
 
@@ -57,6 +59,8 @@ class Volume:
         if self._conversion:
             warn(self._conversion, PrecisionWarning)
         self._core = _lamina.Volume.over(np.asarray(drawn), steps, place, words)
+        shared = np.shares_memory(drawn, ordered)
+        self._changeable: np.ndarray | None = drawn if shared and can_be_written(drawn) else None
         self._file: pathlib.Path | None = None
         self._source: str | dict[str, Any] | None = None
 
@@ -66,6 +70,7 @@ class Volume:
         """`source`: what scenes call the volume."""
         volume = cls.__new__(cls)
         volume._core, volume._conversion, volume._file, volume._source = core, "", file, source
+        volume._changeable = None
         return volume
 
     @property
@@ -124,6 +129,23 @@ class Volume:
     def file(self) -> pathlib.Path | None:
         """The file that it was read from, or None."""
         return self._file
+
+    def copy(self) -> Volume:
+        """A volume with the same samples in memory of its own, which nobody else can change.
+
+        >>> values = np.zeros((4, 5, 6), np.uint8)
+        >>> volume = lamina.Volume(values).copy()
+        >>> values[:] = 1
+        >>> int(volume.array.max())
+        0
+        """
+        core = _lamina.Volume.over(np.array(self.array), self._core.steps, self._core.origin, self._core.centers)
+        volume = Volume._of(core, self._file, self._source)
+        volume._conversion = self._conversion
+        return volume
+
+    def _watched(self) -> Watched | None:
+        return None if self._changeable is None else Watched(self._changeable)
 
     def save(self, file: Path) -> None:
         """Writes a NRRD file (``.nrrd``), from which the command line draws the same."""

@@ -4,6 +4,7 @@
 
 #include "bindings.h"
 #include "lamina/scene_text.h"
+#include "sample_hash.h"
 #include "shared_array.h"
 #include "vectors.h"
 
@@ -47,9 +48,9 @@ Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, c
 }
 
 py::array array_of(const Volume& volume) {
-    const auto& size = volume.grid().size;
+    const auto& samples = volume.grid().size;
     return volume.visit([&](const auto* first) {
-        return constant_array_over(first, {size[2], size[1], size[0]},
+        return constant_array_over(first, {samples[2], samples[1], samples[0]},
                                    std::make_shared<Volume>(volume));
     });
 }
@@ -74,6 +75,16 @@ std::array<std::string, 3> centers_of(const Volume& volume) {
 }  // namespace
 
 void bind_volume(py::module_& module) {
+    module.attr("sample_parts") = sample_parts;
+    module.def(
+        "hash_of_part",
+        [](const py::array& array, std::size_t part) {
+            const auto* const samples = static_cast<const char*>(array.data());
+            const auto bytes = static_cast<std::size_t>(array.nbytes());
+            const py::gil_scoped_release free;
+            return hash_of_part(samples, bytes, part);
+        },
+        py::arg("array"), py::arg("part"));
     py::class_<Volume>(module, "Volume")
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
                     py::arg("centers"))

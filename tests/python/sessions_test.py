@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -114,3 +115,83 @@ def test_the_native_engine_needs_no_opengl(tmp_path):
             "assert 'liblamina' in maps\n"
             "print([name for name in ('libGL.', 'libEGL', 'libOSMesa', 'libGLX', 'libgallium') if name in maps])")
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+SCENE = {"transfer_function": {"points": [{"value": 0, "color": [0, 0, 0], "extinction": 0},
+                                          {"value": 200, "color": [1, 1, 1], "extinction": 1}]},
+         "camera": {"eye": (40, 30, 20), "center": (7, 7, 7)}, "size": (40, 30)}
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.float32])
+@pytest.mark.parametrize("change", ["set", "roll", "slab", "sample"])
+def test_an_array_that_was_changed_is_measured_again(kind, change):
+    values = (np.random.default_rng(1).random((16, 16, 16)) * 200).astype(kind)
+    session = lamina.Session(values, **SCENE)
+    before = session.draw()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert session.draw().compare(before).linf == 0
+    if change == "set":
+        values[:] = 20
+    elif change == "roll":
+        values[:] = np.roll(values, 1, axis=0)
+    elif change == "slab":
+        values[5:9] = 0
+    else:
+        values[8, 8, 8] = 255 - values[8, 8, 8]
+    draws = 8 if change == "sample" else 1  # a small change is seen within so many
+    with pytest.warns(lamina.PictureWarning, match="was changed since it was read"):
+        for _ in range(draws):
+            after = session.draw()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert session.draw().compare(after).linf == 0
+    expected = lamina.Session(values.copy(), **SCENE).draw()
+    assert after.compare(expected).linf == 0
+    values[:8] = 77
+    with pytest.warns(lamina.PictureWarning, match="was changed since it was read"):
+        truth = session.trace()
+    assert truth.compare(lamina.Session(values.copy(), **SCENE).trace()).linf == 0
+
+
+def test_what_nobody_can_write_to_is_not_looked_at():
+    values = np.full((8, 8, 8), 90, np.uint8)
+    assert lamina.Volume(values).copy()._watched() is None
+    assert lamina.Volume(values)._watched() is not None
+    view = values.view()
+    view.setflags(write=False)
+    assert lamina.Volume(view)._watched() is not None  # its base can be written
+    values.setflags(write=False)
+    assert lamina.Volume(values)._watched() is None
+    assert lamina.Volume(np.full((8, 8, 8), 90, np.int64))._watched() is None  # it was converted
+
+
+@pytest.mark.parametrize("columns", [slice(0, 512), slice(512, 1024)])
+def test_changes_of_large_arrays_are_seen_wherever_they_are(columns):
+    values = np.zeros((80, 1024, 1024), np.uint8)  # rows as long as a block of lines
+    watched = lamina.Volume(values)._watched()
+    assert not any(watched.is_changed() for _ in range(8))
+    values[:, ::2, columns] = 1
+    assert watched.is_changed()
+
+
+def test_warnings_as_errors_do_not_hide_a_change():
+    values = np.full((8, 8, 8), 90, np.uint8)
+    session = lamina.Session(values, **SCENE)
+    session.draw()
+    values[:] = 200
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(lamina.PictureWarning):
+            session.draw()
+    assert session.draw().compare(lamina.Session(values.copy(), **SCENE).draw()).linf == 0
+
+
+def test_a_copy_keeps_its_samples():
+    values = np.full((8, 8, 8), 90, np.uint8)
+    volume = lamina.Volume(values, spacing=(1, 2, 3), origin=(4, 5, 6), centers="cell")
+    copied = volume.copy()
+    values[:] = 0
+    assert (copied.array == 90).all()
+    assert (copied.spacing, copied.origin, copied.centers, copied.bounds) == (
+        volume.spacing, volume.origin, volume.centers, volume.bounds)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays that are drawn as they are, and that a program may change."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import _lamina
+
+CHANGED = ("the volume's array was changed since it was read: it is read and measured again; Volume.copy() keeps the "
+           "samples as they are")
+
+
+def can_be_written(array: np.ndarray) -> bool:
+    """Tells whether numpy lets somebody write to the memory of the array, through it or what it is a view of."""
+    owner: object = array
+    while isinstance(owner, np.ndarray):
+        if owner.flags.writeable:
+            return True
+        owner = owner.base
+    return False
+
+
+class Watched:
+    """Tells whether an array was changed. Each time it looks at an eighth of the array's lines of 64 bytes, from all over
+    it: a contiguous change of 1 KiB is seen at once, a smaller one within 8 times. Of arrays above 64 MiB it looks at 8 MiB
+    each time, and a small change may not be seen."""
+
+    def __init__(self, array: np.ndarray) -> None:
+        self._array, self._next = array, 0
+        self._hashes = [_lamina.hash_of_part(array, part) for part in range(_lamina.sample_parts)]
+
+    def is_changed(self) -> bool:
+        part = self._next
+        self._next = (part + 1) % len(self._hashes)
+        return _lamina.hash_of_part(self._array, part) != self._hashes[part]

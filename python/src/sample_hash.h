@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lamina::python {
+
+// An array's lines are dealt out to so many parts, each with lines from all over it.
+inline constexpr std::size_t sample_parts = 8;
+
+// Returns the hash of a part, 0 .. sample_parts - 1. Of arrays above 64 MiB the parts leave lines
+// out, so that none has more than 8 MiB. A contiguous change of 1 KiB (of arrays above 64 MiB, that
+// times their size over 64 MiB) shows in every part. It protects against accidents, not attacks.
+std::uint64_t hash_of_part(const char* samples, std::size_t bytes, std::size_t part);
+
+}  // namespace lamina::python
