@@ -23,12 +23,14 @@ SegmentSum empty_sum(const MeshTile::Picture& picture) {
 
 }  // namespace
 
-MeshTile::MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image)
+MeshTile::MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image,
+                   const RowDone& row_done)
     : picture_(picture),
       image_(image),
       faces_(picture.mesh, picture.open_faces, picture.view),
       listed_(faces_.list(tile)),
-      pixels_({tile.column, tile.row}, {tile.column + tile.width - 1, tile.row + tile.height - 1}),
+      pixels_({tile.column, tile.row}, {tile.column + tile.width - 1, tile.row + tile.height - 1},
+              row_done),
       walk_(picture.mesh, picture.open_faces, picture.scalar),
       rays_(PacketWalk::width, {{0, 0}, 0, std::nullopt, empty_sum(picture)}) {}
 

@@ -48,7 +48,8 @@ class MeshTile {
         std::int64_t segments = 0, overlapping = 0;
     };
 
-    MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image);
+    MeshTile(const Picture& picture, const PictureTile& tile, PreciseImage& image,
+             const RowDone& row_done);
 
     Totals trace();
 

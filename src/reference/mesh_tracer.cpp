@@ -51,8 +51,8 @@ MeshTraceResult trace_mesh(const TetMesh& mesh, const FaceTree& open_faces,
                                     options,   reach_of(mesh, view)};
     const std::vector<PictureTile> tiles = tiles_to_trace(view.width, view.height);
     std::vector<MeshTile::Totals> totals(tiles.size());
-    const auto trace = [&](const PictureTile& tile, std::size_t number) {
-        totals[number] = MeshTile(picture, tile, result.image).trace();
+    const auto trace = [&](const PictureTile& tile, std::size_t number, const RowDone& row_done) {
+        totals[number] = MeshTile(picture, tile, result.image, row_done).trace();
     };
     trace_tiles(tiles, trace, result.image, tile_done);
     for (const MeshTile::Totals& tile : totals) {

@@ -29,19 +29,28 @@ std::vector<PictureTile> tiles_to_trace(int width, int height) {
 }
 
 void trace_tiles(const std::vector<PictureTile>& tiles,
-                 const std::function<void(const PictureTile&, std::size_t)>& trace,
+                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
                  const PreciseImage& picture, const TileDone& done) {
-    Progress progress("tracing", static_cast<std::int64_t>(tiles.size()));
+    std::int64_t rows = 0;
+    for (const PictureTile& tile : tiles) rows += tile.height;
+    Progress progress("tracing", rows);
     std::atomic<std::size_t> next{0};  // the loop's own numbers come in no order
     std::mutex telling;
     parallel_for(static_cast<std::int64_t>(tiles.size()), 1, [&](std::int64_t) {
         const std::size_t number = next++;
-        trace(tiles[number], number);
+        // A tile of thousands of lit segments a ray takes minutes. Rows that show nothing are left
+        // out.
+        std::int64_t left = tiles[number].height;
+        trace(tiles[number], number, [&] {
+            if (left == 0) return;
+            --left;
+            progress.advance();
+        });
         if (done) {
             const std::lock_guard lock(telling);
             done(tiles[number], picture);
         }
-        progress.advance();
+        progress.advance(left);
     });
 }
 

@@ -7,6 +7,7 @@
 
 #include "lamina/image.h"
 #include "lamina/picture_tile.h"
+#include "reference/pixels_in_turn.h"
 
 namespace lamina {
 
@@ -17,9 +18,10 @@ using TileDone = std::function<void(const PictureTile&, const PreciseImage&)>;
 // Tiles of 32 x 32 pixels and what is left at the edges, those nearest the middle first.
 std::vector<PictureTile> tiles_to_trace(int width, int height);
 
-// Calls trace(tile, its number) for each of them on all cores, in their order, and then `done`.
+// Calls trace(tile, its number, row done) for each of them on all cores, in their order, and then
+// `done`.
 void trace_tiles(const std::vector<PictureTile>& tiles,
-                 const std::function<void(const PictureTile&, std::size_t)>& trace,
+                 const std::function<void(const PictureTile&, std::size_t, const RowDone&)>& trace,
                  const PreciseImage& picture, const TileDone& done);
 
 }  // namespace lamina

@@ -29,11 +29,11 @@ template <typename Samples>
 class VolumeTile {
   public:
     VolumeTile(const TracedVolume<Samples>& traced, const View& view, const PictureTile& tile,
-               PreciseImage& image)
+               PreciseImage& image, const RowDone& row_done)
         : traced_(traced),
           view_(view),
           image_(image),
-          pixels_(pixels_of(tile, TileSight(view, tile).around(traced.corners))) {}
+          pixels_(pixels_of(tile, TileSight(view, tile).around(traced.corners), row_done)) {}
 
     VolumeTotals trace() {
         if (!pixels_.any()) return {};
@@ -48,9 +48,10 @@ class VolumeTile {
   private:
     static constexpr std::size_t width = CellLanes::width;
 
-    static PixelsInTurn pixels_of(const PictureTile& tile, const SeenPixels& seen) {
+    static PixelsInTurn pixels_of(const PictureTile& tile, const SeenPixels& seen,
+                                  const RowDone& row_done) {
         const glm::ivec2 first(tile.column, tile.row);
-        return {first + seen.first, first + seen.last};
+        return {first + seen.first, first + seen.last, row_done};
     }
 
     void trace_one_by_one() {

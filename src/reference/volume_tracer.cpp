@@ -39,8 +39,9 @@ TraceResult trace_volume(const Volume& volume, const TransferFunction& transfer_
     std::vector<VolumeTotals> totals(tiles.size());
     visit_samples(volume, [&](const auto& first_sample) {
         const TracedVolume traced(volume, first_sample, transfer, cells, options);
-        const auto trace = [&](const PictureTile& tile, std::size_t number) {
-            totals[number] = VolumeTile(traced, view, tile, result.image).trace();
+        const auto trace = [&](const PictureTile& tile, std::size_t number,
+                               const RowDone& row_done) {
+            totals[number] = VolumeTile(traced, view, tile, result.image, row_done).trace();
         };
         trace_tiles(tiles, trace, result.image, tile_done);
     });

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/interrupt.h"
 #include "slicing/tile_exact-inl.h"
 #include "slicing/tile_precise-inl.h"
 #include "slicing/tile_segments-inl.h"
@@ -224,6 +225,7 @@ std::int64_t blend_pixels(const TileSlabs& slabs, const TargetBlend& target,
     const FloatTag d;
     SlabBlender blender(slabs, target, {0, slabs.plan->slabs}, 1, false);
     for (std::size_t group = 0; group < tile_groups; ++group) {
+        check_interrupt();
         Pixel there[group_packets];
         for (Pixel& pixel : there) pixel = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         blender.composite(area, group, there);

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/interrupt.h"
 #include "slicing/tile_exact-inl.h"
 #include "slicing/tile_segments-inl.h"
 #include "tiles/node_code-inl.h"
@@ -292,6 +293,7 @@ std::int64_t march_pixels(const TileSlabs& slabs, const TreeShape& shape,
     };
     Marcher marcher(slabs, shape, area);
     for (std::size_t group = 0; group < tile_groups; ++group) {
+        check_interrupt();  // a tile of a tree of 2^16 leaves takes a minute
         NodeSum sums[group_packets];
         marcher.evaluate(group, sums);
         for (std::size_t p = 0; p < group_packets; ++p) {
