@@ -59,7 +59,7 @@ function legend(entries) {
 
 const factorsKey = "render.slice.tree.factors";
 
-// What tells runs apart beside the values of single keys, the best first: {name: of(run)}. A study of
+// Lists what tells runs apart beside the values of single keys, the best first: {name: of(run)}. A study of
 // trees is told apart by their levels, one that changes keys in turn by which keys a run changes.
 function derivedKeys({ swept = [], comparisons }) {
   const short = shortKeys(swept);

@@ -19,7 +19,7 @@ function settingsText(settings) {
     .map(([key, value]) => `${key} = ${valueText(value)}`).join("; ");
 }
 
-// What the study was made to find out.
+// Findings: the answers that the study was made for.
 function answersSection({ title, note, tables }) {
   return section("answers", title, element("p", { class: "note" }, note),
     ...tables.flatMap(({ caption, rows }) => [element("h3", null, caption), rowsTable(rows)]));
@@ -72,19 +72,19 @@ function picturePanels(comparison) {
   ]);
 }
 
-// What the pictures of a table or figure of a paper show.
+// Captions say what the pictures of a table or figure of a paper show.
 function pictureCaption({ scene, caption }) {
   return caption ? element("p", { class: "caption" }, element("b", null, `${scene}. `), caption) : null;
 }
 
-// What a paper says of a table or figure, word for word, and whether it holds.
+// Checks quote what a paper says of a table or figure and say whether it holds.
 function checksTable(checks) {
   if (!checks?.length) return null;
   return smallTable("words checks", ["the paper says", "verdict", "measured"],
     checks.map(({ says, verdict, measured }) => [says, verdict, measured]));
 }
 
-// What lamina claims beside it.
+// Claims of lamina stand beside those of the paper.
 function ownTable(claims) {
   if (!claims?.length) return null;
   return smallTable("words checks own", ["lamina says", "holds", "measured"],
@@ -148,7 +148,7 @@ function selection(label, id, choices, chosen, change) {
     element("select", { id, autocomplete: "off", change: (event) => change(event.target.value) }, options));
 }
 
-// What marks can tell apart: what was swept as a whole, then the values of each key.
+// Marks tell apart what was swept as a whole, then the values of each key.
 function markKeys() {
   return [...Object.keys(derivedKeys(report)), ...(report.swept ?? [])];
 }

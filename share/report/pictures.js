@@ -28,7 +28,7 @@ function powerAbove(value) {
   return exponent < -6 ? `10${superscript(exponent)}` : `.${"0".repeat(-exponent - 1)}1`;
 }
 
-// What stands in a difference picture that is white all over; null for others.
+// Returns the text for a difference picture that is white all over; null for others.
 function nothingToSee(scale, largest) {
   if (isMissing(scale) || isMissing(largest) || largest >= faintestShare * scale) return null;
   const text = largest === 0 ? "no difference" : `nothing to see: below ${powerAbove(largest)}`;

@@ -55,7 +55,8 @@ Scene bonsai_scene() {
     return scene;
 }
 
-// What a picture keeps of the leaves: the pixels that the exact picture shows in green.
+// The light that a picture keeps of the leaves, which are the pixels that the exact picture shows
+// in green.
 struct Leaves {
     double light[3] = {};  // sums of R, G and B over those of the exact picture
     double kept = 0;       // share of the pixels that have at least half of their green

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/vec4.hpp>
@@ -307,45 +308,51 @@ class ProjectPlanner {
     // quite in their places. Without rays it is what was found last.
     MeshFacts::TrialError error_of(const Lookup& lookup) const {
         if (facts_.trial_rays.empty()) return facts_.last_error;
-        struct OfRay {
-            double segments = 0, both = 0;
-        };
-        std::vector<OfRay> errors(facts_.trial_rays.size());
-        const double rounding = plan_.source == SegmentSource::parts
-                                    ? 0
-                                    : scalar_rounding * (plan_.range.hi - plan_.range.lo);
+        std::vector<RayError> errors(facts_.trial_rays.size());
         parallel_for(static_cast<std::int64_t>(errors.size()), 8, [&](std::int64_t index) {
             const auto ray = static_cast<std::size_t>(index);
-            glm::dvec4 exact(0), found(0), moved(0);
-            double sign = 1;
-            const std::vector<MeshFacts::Run>& runs = facts_.trial_rays[ray];
-            for (std::size_t i = 0; i < runs.size(); ++i) {
-                MeshFacts::Run run = runs[i];
-                run.length *= plan_.unit;
-                append(exact,
-                       integrate_segment(*transfer_function_, run.front, run.back, run.length));
-                for_each_run_of_window(
-                    rounded(run, rounding), plan_.range,
-                    [&](const MeshFacts::Run& part) { append(found, lookup(part)); });
-                // What a face within the mesh takes from one run it gives to the next; the first
-                // and the last face move outwards.
-                if (i + 1 == runs.size()) sign = 1;
-                const double change = sign * 2 * placing_share * run.edge * plan_.unit;
-                append(moved, integrate_segment(*transfer_function_, run.front, run.back,
-                                                std::max(run.length + change, 0.0)));
-                sign = -sign;
-            }
-            errors[ray] = {largest_of(exact - found), 0};
-            errors[ray].both = errors[ray].segments + largest_of(exact - moved);
+            errors[ray] = error_of_ray(facts_.trial_rays[ray], lookup);
         });
         MeshFacts::TrialError largest{0, 0, std::ssize(errors)};
         double both = 0;
-        for (const OfRay& error : errors) {
+        for (const RayError& error : errors) {
             largest.segments = std::max(largest.segments, 255 * error.segments);
             both = std::max(both, 255 * error.both);
         }
         largest.places = std::max(both - largest.segments, 0.0);
         return largest;
+    }
+
+    struct RayError {
+        double segments = 0, both = 0;
+    };
+    RayError error_of_ray(const std::vector<MeshFacts::Run>& runs, const Lookup& lookup) const {
+        const double rounding = plan_.source == SegmentSource::parts
+                                    ? 0
+                                    : scalar_rounding * (plan_.range.hi - plan_.range.lo);
+        glm::dvec4 exact(0), moved(0);
+        std::array<glm::dvec4, 2> found{glm::dvec4(0), glm::dvec4(0)};  // rounded down and up
+        double sign = 1;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            MeshFacts::Run run = runs[i];
+            run.length *= plan_.unit;
+            append(exact, integrate_segment(*transfer_function_, run.front, run.back, run.length));
+            for (std::size_t way = 0; way < found.size(); ++way) {
+                for_each_run_of_window(
+                    rounded(run, way == 0 ? -rounding : rounding), plan_.range,
+                    [&](const MeshFacts::Run& part) { append(found[way], lookup(part)); });
+            }
+            // What a face within the mesh takes from one run it gives to the next; the first and
+            // the last face move outwards.
+            if (i + 1 == runs.size()) sign = 1;
+            const double change = sign * 2 * placing_share * run.edge * plan_.unit;
+            append(moved, integrate_segment(*transfer_function_, run.front, run.back,
+                                            std::max(run.length + change, 0.0)));
+            sign = -sign;
+        }
+        const double segments =
+            std::max(largest_of(exact - found[0]), largest_of(exact - found[1]));
+        return {segments, segments + largest_of(exact - moved)};
     }
 
     // A tet of one value stays on its side of a step: that value is rounded as the step is.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -44,11 +43,7 @@ class Crosschecker {
   public:
     Crosschecker(const Scene& scene, const CrosscheckSettings& settings,
                  const Capabilities& capabilities)
-        : scene_(scene),
-          settings_(settings),
-          capabilities_(capabilities),
-          cost_(settings.ends_by_itself ? settings.ladder_tets : own_mesh().max_tets,
-                settings.ends_by_itself) {
+        : scene_(scene), settings_(settings), capabilities_(capabilities) {
         if (settings.kept.empty()) return;
         data_.keep_meshes(settings.kept);
         references_ = ReferenceStore(settings.kept, settings.say);
@@ -60,9 +55,9 @@ class Crosschecker {
         settings_.begin();
         const std::vector<int> samples = all_samples();
         const std::vector<double> tolerances = all_tolerances();
-        say_how_long(samples.size(), tolerances.size());
+        say_how_long(samples.size(), tolerances);
         TimedProgress progress("crosscheck");
-        progress.expect(cost_.at_most(tolerances.size()));
+        progress.expect(LadderCost::most_seconds(steps_of(tolerances)));
         trace_volume_once();
         for (const int each : samples) slice(each);
         std::vector<double> left = tolerances;
@@ -71,7 +66,7 @@ class Crosschecker {
             left.erase(left.begin());
             if (is_ended_)
                 std::erase_if(left, [&](double each) { return each != stated_tolerance(); });
-            progress.expect(cost_.of(left) + timing_seconds());
+            progress.expect(cost_.expected_seconds(steps_of(left)) + timing_seconds());
         }
         progress.expect(timing_seconds());
         time();
@@ -111,14 +106,31 @@ class Crosschecker {
         return tolerances;
     }
 
-    void say_how_long(std::size_t slabs, std::size_t meshes) const {
+    // A mesh that the scene does not state has a bound, unless the ladder was asked for.
+    bool is_bounded(double tolerance) const {
+        return settings_.ends_by_itself && tolerance != stated_tolerance();
+    }
+    std::int64_t most_tets(double tolerance) const {
+        const std::int64_t own = own_mesh().max_tets;
+        return is_bounded(tolerance) ? std::min(settings_.ladder_tets, own) : own;
+    }
+    std::vector<LadderCost::Step> steps_of(const std::vector<double>& tolerances) const {
+        std::vector<LadderCost::Step> steps;
+        if (!makes_meshes(scene_)) return steps;
+        for (const double each : tolerances)
+            steps.push_back({each, most_tets(each), is_bounded(each)});
+        return steps;
+    }
+
+    void say_how_long(std::size_t slabs, const std::vector<double>& tolerances) const {
         if (!makes_meshes(scene_)) return;
-        const std::int64_t most =
-            settings_.ends_by_itself ? settings_.ladder_tets : own_mesh().max_tets;
+        std::int64_t most = 0;
+        for (const double each : tolerances) most = std::max(most, most_tets(each));
         settings_.say(fmt::format(
-            "{} numbers of slabs, {} {} of up to {} tets: meshes take {} of a processor at most",
-            slabs, meshes, meshes == 1 ? "mesh" : "meshes", most,
-            duration_text(cost_.at_most(meshes))));
+            "{} numbers of slabs, {} {} of up to {} tets: meshes take about {} of a processor at "
+            "most",
+            slabs, tolerances.size(), tolerances.size() == 1 ? "mesh" : "meshes", most,
+            duration_text(LadderCost::most_seconds(steps_of(tolerances)))));
     }
 
     void trace_volume_once() {
@@ -141,10 +153,7 @@ class Crosschecker {
     }
 
     Scene mesh_scene(double tolerance) const {
-        const bool limited = settings_.ends_by_itself && tolerance != stated_tolerance();
-        return projection_scene(
-            scene_, tolerance,
-            limited ? settings_.ladder_tets : std::numeric_limits<std::int64_t>::max());
+        return projection_scene(scene_, tolerance, most_tets(tolerance));
     }
 
     void project(double tolerance) {
@@ -169,7 +178,8 @@ class Crosschecker {
         made.method_part = image_error(made.picture, made.traced);
         made.error = image_error(made.picture, made_.pictures.traced_volume);
         made.bytes = frames.bytes();
-        cost_.add(tolerance, made.tets, watch.seconds());
+        // A mesh that was kept took longer when it was made.
+        cost_.add(tolerance, made.tets, std::max(watch.seconds(), stored.ms / 1000));
         end_if_fine_enough();
     }
 
@@ -181,7 +191,8 @@ class Crosschecker {
         const double e = image_error(last.picture, made_.slicings.back().picture).all.linf;
         const bool agrees = e <= scene_.max_error && last.tolerance <= made_.tolerance;
         is_ended_ = is_ended_ || agrees || last.stopped;
-        if (last.stopped && !scene_.mesh_request) made_.tolerance = last.tolerance;
+        if (last.stopped && !scene_.mesh_request)
+            made_.tolerance = std::max(made_.tolerance, last.tolerance);
     }
 
     // A first frame is no faster than later ones. One more round warms renderers up.
@@ -230,7 +241,8 @@ class Crosschecker {
         if (scene_.lighting) trace_unlit();
     }
 
-    // What light adds to the difference of mesh and volume is told for the pictures that are shown.
+    // The report tells for the pictures that it shows what light adds to the difference of mesh and
+    // volume.
     void trace_unlit() {
         check_interrupt();
         Scene unlit = mesh_scene(made_.tolerance);

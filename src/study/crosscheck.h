@@ -17,7 +17,7 @@ namespace lamina::study {
 struct CrosscheckSettings {
     // Tolerances of meshes made from the volume, in addition to the scene's own.
     std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001};
-    // Whether refining ends once both methods agree within the scene's max_error, or a mesh would
+    // If true, refining ends once both methods agree within the scene's max_error, or a mesh would
     // have more than `ladder_tets`. The scene's own mesh is drawn in any case, if it states one.
     bool ends_by_itself = true;
     std::int64_t ladder_tets = 250000;  // takes about a minute of one processor
@@ -67,7 +67,7 @@ struct Crosscheck {
     std::vector<std::vector<Pair>> pairs;  // [projection][slicing]
 };
 
-// Whether meshes of several tolerances are made from the scene's volume: its mesh is no file, and
+// Tells whether meshes of several tolerances are made from the scene's volume: its mesh is no file, and
 // not Kuhn's, which has none.
 bool makes_meshes(const Scene& scene);
 

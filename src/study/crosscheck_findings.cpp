@@ -28,11 +28,10 @@ std::string tets_text(std::int64_t count) {
 std::string mesh_text(const Crosscheck::Projection& projection) {
     if (projection.tolerance == 0)
         return fmt::format("the mesh file ({})", tets_text(projection.tets));
-    return fmt::format(
-        "tolerance {:g} ({}{})", projection.tolerance, tets_text(projection.tets),
-        projection.stopped
-            ? fmt::format(", all that mesh.max_tets allows: {:.2g} reached", projection.mesh_error)
-            : "");
+    return fmt::format("tolerance {:g} ({}{})", projection.tolerance, tets_text(projection.tets),
+                       projection.stopped ? fmt::format(", as many as it may have: {:.2g} reached",
+                                                        projection.mesh_error)
+                                          : "");
 }
 
 const Crosscheck::Pair& pair_at(const Crosscheck& crosscheck, const PairAt& at) {

@@ -33,21 +33,32 @@ void LadderCost::add(double tolerance, std::int64_t tets, double seconds) {
     last_ = made;
 }
 
-double LadderCost::at_most(std::size_t meshes) const {
-    const double largest = most_tets_ * usual_seconds_a_tet;
-    const auto count = static_cast<double>(meshes);
-    return (ends_there_ ? std::min(count, sum_of_ladder) : count) * largest;
+double LadderCost::most_seconds(std::span<const Step> steps) {
+    double full = 0, tets = 0;  // of a ladder that ends with a full mesh, and of other meshes
+    double ladder = 0;
+    for (const Step& step : steps) {
+        const auto most = static_cast<double>(step.most_tets);
+        if (!step.last_if_full) {
+            tets += most;
+            continue;
+        }
+        full = std::max(full, most);
+        ladder += most;
+    }
+    return usual_seconds_a_tet * (tets + std::min(ladder, sum_of_ladder * full));
 }
 
-double LadderCost::of(std::span<const double> tolerances) const {
+double LadderCost::expected_seconds(std::span<const Step> steps) const {
     assert(last_);
     double seconds = 0;
-    if (ends_there_ && last_->tets >= most_tets_) return 0;
-    for (const double tolerance : tolerances) {
+    bool full = false;
+    for (const Step& step : steps) {
+        if (step.last_if_full && full) continue;
+        const auto most = static_cast<double>(step.most_tets);
         const double tets =
-            std::min(most_tets_, last_->tets * std::pow(last_->tolerance / tolerance, power_));
+            std::min(most, last_->tets * std::pow(last_->tolerance / step.tolerance, power_));
         seconds += tets * seconds_a_tet_;
-        if (ends_there_ && tets >= most_tets_) break;
+        full = full || (step.last_if_full && tets >= most);
     }
     return seconds;
 }

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <string_view>
 
 #include "base/json_text.h"
@@ -47,9 +45,7 @@ std::string html_of(const std::string& text) {
 }
 
 std::string link_to(const std::string& anchor) {
-    assert(std::all_of(anchor.begin(), anchor.end(),
-                       [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }));
-    return fmt::format("<a href=\"#{0}\">{0}</a>: ", anchor);
+    return fmt::format("<a href=\"#{0}\">{0}</a>: ", html_of(anchor));
 }
 
 std::string findings_of(const Json& report) {

@@ -8,7 +8,7 @@
 namespace lamina::study {
 namespace {
 
-constexpr double steps = 1e6;  // of the line from 0 to 100 %
+constexpr double steps = 1e6;  // the line from 0 to 100 % has so many
 constexpr std::chrono::milliseconds pause(500);
 
 // Work that goes on takes at least this share of its time so far, whatever was predicted.

@@ -71,7 +71,8 @@ std::string gain_text(const RunResult& tree, const RunResult* straight) {
     if (straight == nullptr) return {};
     if (tree.near_reference() && straight->near_reference())
         return ", which the reference's own error does not tell from that without a tree";
-    if (straight->all.l2 <= tree.all.l2 || tree.all.l2 == 0)
+    if (tree.all.l2 == 0) return fmt::format(", {:.3g} without a tree", straight->all.l2);
+    if (straight->all.l2 <= tree.all.l2)
         return fmt::format(", but {:.3g} without a tree", straight->all.l2);
     return fmt::format(", {:.3g} times less than without a tree", straight->all.l2 / tree.all.l2);
 }

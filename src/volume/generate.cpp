@@ -13,6 +13,7 @@
 #include "base/filled_memory.h"
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/shortened.h"
 #include "base/unreachable.h"
 #include "volume/analytic_generators.h"
 #include "volume/mixing_generator.h"
@@ -41,7 +42,8 @@ const Entry& entry_of(const std::string& name) {
     for (const Entry& entry : entries) {
         if (name == entry.name) return entry;
     }
-    fail("unknown generator '{}': expected one of {}", name, fmt::join(generator_names(), ", "));
+    fail("unknown generator '{}': expected one of {}", shortened(name),
+         fmt::join(generator_names(), ", "));
 }
 
 // Rounds to the nearest code of an integer type, whose whole range is 0..1.

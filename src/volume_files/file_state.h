@@ -20,8 +20,8 @@ struct FileState {
     std::filesystem::path path;
     std::uint64_t bytes = 0;
     std::int64_t modified = 0;  // nanoseconds
-    // Copies that keep size and time differ in these. Moving a file or changing its mode changes
-    // `changed`, which is no change of what is read.
+    // These tell a file from a copy with its size and time. A file that is moved, or gets another
+    // mode, has another `changed`: check_unchanged() passes, text() differs.
     std::uint64_t inode = 0;
     std::int64_t changed = 0;  // nanoseconds
 };

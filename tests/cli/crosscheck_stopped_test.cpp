@@ -48,7 +48,7 @@ class CrosscheckStopped : public testing::Test {
         return lamina_run(arguments);
     }
     std::size_t steps_kept(const std::string& output) const {
-        const std::filesystem::path kept = folder / (output + "/kept");
+        const std::filesystem::path kept = folder / (output + "/crosscheck-kept");
         if (!std::filesystem::exists(kept)) return 0;
         const std::filesystem::directory_iterator files(kept);
         return static_cast<std::size_t>(
@@ -65,7 +65,8 @@ class CrosscheckStopped : public testing::Test {
         const ProgramResult result = program.wait();
         if (result.exit_code == 0) return false;
         EXPECT_EQ(result.exit_code, 130) << result.err;
-        EXPECT_NE(result.err.find("/kept; --resume goes on"), std::string::npos) << result.err;
+        EXPECT_NE(result.err.find("/crosscheck-kept; --resume goes on"), std::string::npos)
+            << result.err;
         EXPECT_FALSE(std::filesystem::exists(folder / (output + "/report.html")));
         return true;
     }
@@ -80,7 +81,7 @@ class CrosscheckStopped : public testing::Test {
                       read_bytes_of(folder / (std::string("whole/") + name)))
                 << name;
         EXPECT_TRUE(std::filesystem::exists(folder / (output + "/report.html")));
-        EXPECT_FALSE(std::filesystem::exists(folder / (output + "/kept")));
+        EXPECT_FALSE(std::filesystem::exists(folder / (output + "/crosscheck-kept")));
     }
 
     TemporaryFolder folder;
@@ -109,7 +110,7 @@ TEST_F(CrosscheckStopped, GoesOnToTheSamePage) {
 TEST_F(CrosscheckStopped, MakesDamagedStepsAgain) {
     ASSERT_EQ(lamina_run(command("whole")).exit_code, 0);
     if (!interrupt("out", 5)) GTEST_SKIP() << "it had ended before it was interrupted";
-    for (const auto& file : std::filesystem::directory_iterator(folder / "out/kept")) {
+    for (const auto& file : std::filesystem::directory_iterator(folder / "out/crosscheck-kept")) {
         if (file.path().extension() != ".json") std::filesystem::resize_file(file.path(), 100);
     }
     const ProgramResult result = resume("out");

@@ -3,37 +3,58 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <initializer_list>
+#include <vector>
 
 namespace lamina::study {
 namespace {
 
-TEST(LadderCost, FollowsThePowerThatWasSeen) {
-    LadderCost cost(1000000, true);
-    cost.add(.1, 1000, 1);
-    cost.add(.05, 8000, 8);  // the power 3, a millisecond a tet
-    EXPECT_NEAR(cost.of(std::array{.025, .0125}), 64 + 512, 1e-9);
+using Steps = std::vector<LadderCost::Step>;
+
+Steps steps_of(std::initializer_list<double> tolerances, std::int64_t most, bool last_if_full) {
+    Steps steps;
+    for (const double each : tolerances) steps.push_back({each, most, last_if_full});
+    return steps;
 }
 
-// The third mesh would have 512,000 tets, and stops at 100,000.
-TEST(LadderCost, EndsWithTheMeshThatHasTheMost) {
-    LadderCost cost(100000, true);
+// The power is 3, with a millisecond a tet.
+LadderCost after_two_meshes() {
+    LadderCost cost;
     cost.add(.1, 1000, 1);
     cost.add(.05, 8000, 8);
-    EXPECT_NEAR(cost.of(std::array{.025, .0125, .00625}), 64 + 100, 1e-9);
-    cost.add(.025, 100000, 90);
-    EXPECT_EQ(cost.of(std::array{.0125}), 0);
-    LadderCost all(100000, false);
-    all.add(.1, 100000, 100);
-    EXPECT_NEAR(all.of(std::array{.05, .025}), 200, 1e-9);
+    return cost;
+}
+
+TEST(LadderCost, FollowsThePowerThatWasSeen) {
+    const LadderCost cost = after_two_meshes();
+    EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125}, 1000000, true)), 64 + 512, 1e-9);
+}
+
+// The third mesh has 64,000 tets, and the fourth would have 512,000.
+TEST(LadderCost, EndsWithTheMeshThatHasTheMost) {
+    const LadderCost cost = after_two_meshes();
+    EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125, .00625}, 100000, true)), 64 + 100,
+                1e-9);
+    EXPECT_NEAR(cost.expected_seconds(steps_of({.025, .0125, .00625}, 100000, false)),
+                64 + 100 + 100, 1e-9);
+    // The scene's own mesh comes in any case.
+    Steps with_own = steps_of({.0125, .00625}, 100000, true);
+    with_own.push_back({.003125, 200000, false});
+    EXPECT_NEAR(cost.expected_seconds(with_own), 100 + 200, 1e-9);
 }
 
 TEST(LadderCost, BoundsWhatIsNotKnown) {
-    const LadderCost one(100000, false), ends(100000, true);
-    EXPECT_NEAR(one.at_most(3), 3 * one.at_most(1), 1e-9);
-    // However fine the ladder, its last mesh has half of all tets and more.
-    EXPECT_LT(ends.at_most(7), 2 * ends.at_most(1));
-    EXPECT_GT(ends.at_most(7), ends.at_most(1));
+    const auto seconds = [](const Steps& steps) { return LadderCost::most_seconds(steps); };
+    const double one = seconds(steps_of({.1}, 100000, false));
+    EXPECT_GT(one, 0);
+    EXPECT_NEAR(seconds(steps_of({.1, .05, .02}, 100000, false)), 3 * one, 1e-9);
+    // However long the ladder, its last mesh has more than half of all tets.
+    const double ladder = seconds(steps_of({.1, .05, .02, .01, .005}, 100000, true));
+    EXPECT_LT(ladder, 2 * one);
+    EXPECT_GT(ladder, one);
+    Steps with_own = steps_of({.1, .05, .02, .01, .005}, 100000, true);
+    with_own.push_back({.001, 300000, false});
+    EXPECT_NEAR(seconds(with_own), ladder + 3 * one, 1e-9);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ namespace {
 constexpr const char* crosscheck_name = "crosscheck";
 const std::vector<std::string> file_names{"traced_volume.exr", "traced_mesh.exr", "sliced.exr",
                                           "projected.exr",     "budget.json",     "report.html"};
-constexpr const char* kept_name = "kept";  // the folder of finished steps, while it runs
+constexpr const char* kept_name = "crosscheck-kept";  // folder of finished steps, while it runs
 
 struct CrosscheckOptions {
     SceneOptions scene;
@@ -116,11 +116,28 @@ study::CrosscheckSettings settings_of(const CrosscheckOptions& options,
     return settings;
 }
 
+// Removes what study::crosscheck() keeps, and nothing else.
+void remove_kept(const std::filesystem::path& kept) {
+    std::error_code ignored;
+    for (const auto& file : std::filesystem::directory_iterator(kept, ignored)) {
+        const std::filesystem::path name = file.path().filename();
+        const bool hash =
+            name.stem().string().size() == 16 &&
+            name.stem().string().find_first_not_of("0123456789abcdef") == std::string::npos;
+        const bool kind =
+            name.extension() == ".vtu" || name.extension() == ".npy" || name.extension() == ".json";
+        if (hash && kind) std::filesystem::remove(file.path(), ignored);
+    }
+    std::filesystem::remove(kept, ignored);  // not if it has other files
+}
+
 study::Crosscheck kept_crosscheck(const Scene& scene, const study::CrosscheckSettings& settings,
                                   const Capabilities& capabilities) {
     try {
         return study::crosscheck(scene, settings, capabilities);
     } catch (const Interrupted&) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(settings.kept, ignored)) throw;
         throw Interrupted(
             fmt::format("interrupted: finished steps are kept in {}; --resume goes on",
                         settings.kept.string()));
@@ -155,7 +172,7 @@ void run(const CrosscheckOptions& options) {
     subject.environment["commit"] = git_commit;
     subject.environment["command"] = command_line();
     write_all(folder, kept_crosscheck(scene, settings, context.capabilities()), subject);
-    std::filesystem::remove_all(settings.kept);
+    remove_kept(settings.kept);
     say(options,
         fmt::format("wrote four pictures, budget.json and report.html into {}", options.output));
 }
