@@ -152,8 +152,10 @@ TetRun find_run() {
 #ifdef EXACT_RUNS
     dvec2 moved = moved_place(place);
     dvec2 exact_depths = find_exact_depths(moved);
-    exact_depths = exact_depths.y > exact_depths.x ? exact_depths : dvec2(0.0);
+    // Rounded depths decide whether the ray meets the tet: far away on a steep face, doubles are off, too.
     vec2 depths = vec2(exact_depths);
+    exact_depths = depths.y > depths.x ? exact_depths : dvec2(0.0);
+    depths = vec2(exact_depths);
     float difference = float(exact_depths.y - exact_depths.x);
 #else
     vec2 depths = find_depths(place);

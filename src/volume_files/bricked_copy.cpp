@@ -165,7 +165,7 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
                                         const VolumeUse& use) {
     const Path folder = bricked_copy_of(file);
     std::error_code absent;
-    if (!std::filesystem::exists(folder / ".zattrs", absent)) return {};
+    if (!std::filesystem::exists(folder, absent)) return {};
     const auto is_not_used = [&](const char* why) {
         warn(
             fmt::format("{}: the bricks are {}, and are not used: lamina index --bricks makes "

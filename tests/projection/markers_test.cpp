@@ -128,7 +128,8 @@ TEST(FarScalars, RunBeyondWhatMeetsTheWindowAlone) {
 TEST(FarScalars, AreScaledToWhatFloatsHold) {
     EXPECT_EQ(far_scale(-5, 1e9), 1);
     EXPECT_EQ(far_scale(-5, 1e40) * 1e40, farthest_normalised);
-    EXPECT_EQ(far_scale(-0x1p60, 1), 0x1p-30);
+    EXPECT_EQ(far_scale(-0x1p60, 1), 1);
+    EXPECT_EQ(far_scale(-0x1p90, 1), 0x1p-30);
 }
 
 }  // namespace

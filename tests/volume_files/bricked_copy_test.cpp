@@ -83,13 +83,18 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     }
     std::ranges::sort(files);
     int refused = 0;
+    std::string said;  // if the copy is not used at all
+    take_warnings([&](const std::string& text) { said = text; });
     const auto expect_truth_or_error = [&] {
+        said.clear();
         try {
             test::expect_boxes(truth, open_volume(path, {}, in_files));
         } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find(": is damaged"), std::string::npos)
+            const bool of_a_chunk =
+                std::string(error.what()).find(": is damaged") != std::string::npos;
+            EXPECT_TRUE(of_a_chunk || said.find("the bricks are damaged") != std::string::npos)
                 << error.what();
-            ++refused;
+            refused += of_a_chunk;
         }
     };
     std::uint64_t random = 1;
@@ -112,6 +117,7 @@ TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
         expect_truth_or_error();
         write_bytes_to(file, bytes);
     }
+    take_warnings({});
 }
 
 // One of several channels, and one of several times: what is not taken is passed over.
