@@ -26,8 +26,8 @@ void add(const char* from, std::size_t count, Words& state) {
 }  // namespace
 
 std::uint64_t hash_of_part(const char* samples, std::size_t bytes, std::size_t part) {
-    // Of each block of lines a part has one, at another place in each block: rows of samples may be
-    // as long as a block.
+    // A part has one line of each block, at another place in each: rows of samples may be as long
+    // as a block.
     const std::size_t lines_a_part =
         std::max<std::size_t>(1, (bytes + most_bytes - 1) / most_bytes);
     const std::size_t block = sample_parts * lines_a_part;

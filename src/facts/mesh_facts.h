@@ -70,8 +70,8 @@ struct MeshFacts {
     TrialError last_error;  // on the rays of an earlier view, if there are none for this one
 };
 
-// Whether an order is asked for that is right on every ray. The others are there to be studied,
-// with what they get wrong.
+// Tells whether an order is right on every ray. Other orders are there to be studied, with their
+// mistakes.
 inline bool is_right_order(ProjectOrder order) {
     return order == ProjectOrder::automatic || order == ProjectOrder::exact;
 }

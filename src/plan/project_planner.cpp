@@ -342,8 +342,8 @@ class ProjectPlanner {
                     rounded(run, way == 0 ? -rounding : rounding), plan_.range,
                     [&](const MeshFacts::Run& part) { append(found[way], lookup(part)); });
             }
-            // What a face within the mesh takes from one run it gives to the next; the first and
-            // the last face move outwards.
+            // A face within the mesh takes length from one run and gives it to the next. The first
+            // and the last face of a ray move outwards.
             if (i + 1 == runs.size()) sign = 1;
             const double change = sign * 2 * placing_share * run.edge * plan_.unit;
             append(moved, integrate_segment(*transfer_function_, run.front, run.back,

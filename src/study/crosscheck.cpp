@@ -26,14 +26,13 @@ Scene slicing_scene(const Scene& scene, int samples) {
     return sliced;
 }
 
-Scene projection_scene(const Scene& scene, double tolerance, std::int64_t most_tets) {
+Scene projection_scene(const Scene& scene, double tolerance, std::int64_t max_tets) {
     Scene projected = scene;
     projected.method = Method::project;
     if (projected.mesh_file.empty()) {
         if (!projected.mesh_request) projected.mesh_request.emplace();
-        MeshSettings& settings = *projected.mesh_request;
-        settings.tolerance = tolerance;
-        settings.max_tets = std::min(settings.max_tets, most_tets);
+        projected.mesh_request->tolerance = tolerance;
+        projected.mesh_request->max_tets = max_tets;
     }
     return projected;
 }

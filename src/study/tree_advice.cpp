@@ -2,6 +2,7 @@
 #include "study/tree_advice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -27,10 +28,7 @@ bool drawn_in_floats(const RunList& list, const StudyRun& run) {
 }
 
 std::string factors_text(const RunList& list, const RunResult& run) {
-    std::string text;
-    for (const int factor : factors_of(list, run))
-        text += fmt::format("{}{}", text.empty() ? "" : "x", factor);
-    return text;
+    return fmt::format("{}", fmt::join(factors_of(list, run), "x"));
 }
 
 std::string nodes_text(std::int64_t nodes) {
