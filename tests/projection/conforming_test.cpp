@@ -58,6 +58,30 @@ TEST_P(Conforming, KuhnOfManyTets) {  // float32 faces but where they are edge-o
                     "kuhn 13");
 }
 
+// A box of `across` x `across` pixels whose sides lie exactly on pixel centres, seen along an axis:
+// which of the rays there meet the box is decided as the tracer does it. To miss one costs 200.
+TEST_P(Conforming, SidesOnPixelCentres) {
+    const SceneMesh mesh = scene_mesh(scaled(test::kuhn_box({2, 2, 2}, zero), 0.5));
+    for (const int across : {50, 100, 256}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const int turn : {1, 2}) {
+                const int pixels = across + 3;  // odd: the middle is a pixel's centre
+                Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, 1, 1}, 2.5)}),
+                                               pixels, pixels);
+                scene.camera.projection = Projection::orthographic;
+                scene.camera.center = scene.camera.eye = {.5, .5, .5};
+                scene.camera.eye[axis] += 3;
+                scene.camera.up = {};
+                scene.camera.up[(axis + turn) % 3] = 1;
+                scene.camera.height = static_cast<double>(pixels) / across;
+                const double error =
+                    image_error(project(mesh, scene, capabilities()), trace(mesh, scene)).all.linf;
+                EXPECT_LE(error, 0.02) << across << " pixels, axis " << axis << ", turn " << turn;
+            }
+        }
+    }
+}
+
 TEST_P(Conforming, Irregular) {
     expect_constant(scene_mesh(test::split_box(3, 2000, 1e-2, zero)), 0.02, "split");
 }
