@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t line_bytes = 64;         // what memory gives at a time
 constexpr std::size_t most_bytes = 64u << 20;  // that all parts have together
+// Lines that are asked for before they are needed: as many as memory fetches side by side.
+constexpr std::size_t lines_ahead = 16;
 
 using Words = std::array<std::uint64_t, line_bytes / sizeof(std::uint64_t)>;
 
@@ -27,14 +29,18 @@ void add(const char* from, std::size_t count, Words& state) {
 
 std::uint64_t hash_of_part(const char* samples, std::size_t bytes, std::size_t part) {
     // A part has one line of each block, at another place in each: rows of samples may be as long
-    // as a block.
-    const std::size_t lines_a_part =
-        std::max<std::size_t>(1, (bytes + most_bytes - 1) / most_bytes);
+    // as a block, whose lines are a power of two.
+    const std::size_t lines_a_part = std::bit_ceil((bytes + most_bytes - 1) / most_bytes);
     const std::size_t block = sample_parts * lines_a_part;
+    const auto place_in = [&](std::size_t number) {
+        const std::uint64_t place = (number + 1) * 0x9e3779b97f4a7c15u >> 32;
+        return (number * block + ((part * lines_a_part + place) & (block - 1))) * line_bytes;
+    };
+    const std::size_t blocks = (bytes + block * line_bytes - 1) / (block * line_bytes);
     Words state{};
-    for (std::size_t first = 0; first * line_bytes < bytes; first += block) {
-        const std::uint64_t place = (first / block + 1) * 0x9e3779b97f4a7c15u >> 32;
-        const std::size_t at = (first + (part * lines_a_part + place) % block) * line_bytes;
+    for (std::size_t i = 0; i < blocks; ++i) {
+        const std::size_t soon = place_in(i + lines_ahead), at = place_in(i);
+        if (soon < bytes) __builtin_prefetch(samples + soon);
         if (at < bytes) add(samples + at, std::min(line_bytes, bytes - at), state);
     }
     std::uint64_t hash = bytes;
