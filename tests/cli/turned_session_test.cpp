@@ -18,7 +18,7 @@ namespace {
 
 using test::knot;
 
-// Every 18 views something changes: transfer function, target or method, by turns.
+// Every sixth view something changes: transfer function, target or method, by turns.
 void change(Session& session, int number) {
     Scene scene = session.scene();
     switch (number % 4) {
@@ -49,9 +49,9 @@ TEST(TurnedSession, DrawsWhatTheProgramDraws) {
     const Scene scene = read_scene(document, folder / "scene.json");
     Session session(scene, {ContextChoice::cpu, 0});
     const Camera first = scene.camera;
-    for (int view = 0; view < 360; ++view) {
-        if (view % 18 == 17) change(session, view / 18);
-        session.set_camera(turned(first, view));
+    for (int view = 0; view < 120; ++view) {
+        if (view % 6 == 5) change(session, view / 6);
+        session.set_camera(turned(first, 3 * view));
         const Image& drawn = session.draw();
         session.save_resolved_scene(folder / "resolved.json");
         const ProgramResult result = lamina_run(
