@@ -5,12 +5,15 @@
 
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "base/json_text.h"
 #include "mesh/scalar_range.h"
 #include "scene/scene_mesh.h"
 #include "scene/scene_volume.h"
+#include "scene_files/volume_selection_json.h"
 #include "volume/volume_data.h"
 
 namespace lamina {
@@ -21,7 +24,7 @@ ValueRange measured(const Scene& scene) {
     return measure_range(load_mesh(scene).scalar.values).range;
 }
 
-// What identifies a file's contents without reading them. None: it cannot be told.
+// Identifies without reading them the values that a scene draws of a file. None: it cannot be told.
 std::optional<std::string> identity(const Scene& scene) {
     if (scene.volume_request) return std::nullopt;
     const std::filesystem::path& file = scene.has_volume() ? scene.volume_file : scene.mesh_file;
@@ -30,8 +33,10 @@ std::optional<std::string> identity(const Scene& scene) {
     if (unknown) return std::nullopt;
     const auto time = std::filesystem::last_write_time(file, unknown);
     if (unknown) return std::nullopt;
-    return fmt::format("{} {} {} {}", file.string(), bytes, time.time_since_epoch().count(),
-                       scene.scalar);
+    // Beside the name, which JSON has in UTF-8 alone.
+    const std::string part = json_text(volume_selection_json("", scene.volume_selection));
+    return fmt::format("{} {} {} {} {} {}", file.string(), part, scene.mesh_time, scene.scalar,
+                       bytes, time.time_since_epoch().count());
 }
 
 }  // namespace

@@ -89,6 +89,24 @@ TEST(ColorJson, AShippedMapIsStretchedOverTheDataUnlessToldOtherwise) {
     EXPECT_NEAR(linear.at(150).color.g, linear_from_srgb(glm::dvec3(.5)).g, 5e-4);
 }
 
+TEST(ColorJson, AMapIsStretchedOverTheChannelThatIsDrawn) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "two.mha")
+        << "ObjectType = Image\nNDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n"
+           "ElementNumberOfChannels = 2\nBinaryData = False\nElementDataFile = LOCAL\n"
+           "0 0 1 200 0 100 1 50\n";
+    const nlohmann::json map{{"colormap", "greys"},
+                             {"points", {{{"value", 0}, {"extinction", 1}}}}};
+    for (const auto& [channel, highest] :
+         {std::pair(0, 1.), std::pair(1, 200.), std::pair(0, 1.)}) {
+        nlohmann::json document = mapped(map, "display");
+        document["volume"] = {{"path", "two.mha"}, {"channel", channel}};
+        const auto function = read_scene(document, folder / "scene.json").transfer_function;
+        EXPECT_EQ(function.at(highest).color, glm::dvec3(1)) << channel;
+        EXPECT_NEAR(function.at(highest / 2).color.g, .5, 1e-15) << channel;  // a few roundings
+    }
+}
+
 TEST(ColorJson, APresetInUnitsAndAFileKeepTheirRange) {
     const Scene bone = read_scene(mapped({{"colormap", "ct-bone"}}, "display"), "s");
     EXPECT_TRUE(bone.transfer_function.transparent(-1e9, 150));
