@@ -12,15 +12,21 @@ namespace lamina {
 
 enum class FileKind { scene, volume, mesh };
 
+// If `only_below` is a folder, these functions refuse files that are not below it with all links
+// followed, whoever names them (docs/files.md).
+
 // What a file holds: by its content, and by its name where that does not tell. Throws Error where
 // neither does.
-LAMINA_API FileKind kind_of_file(const std::filesystem::path& file);
+LAMINA_API FileKind kind_of_file(const std::filesystem::path& file,
+                                 const std::filesystem::path& only_below = {});
 
 // Reads a volume, or a tetrahedral mesh with its scalars, of any kind that scenes may name
 // (docs/scene.md, "What is drawn"). Throws Error: one line that names the file, what was found and
 // what was expected.
-LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {});
-LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file);
+LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {},
+                              const std::filesystem::path& only_below = {});
+LAMINA_API MeshData load_mesh_data(const std::filesystem::path& file,
+                                   const std::filesystem::path& only_below = {});
 
 // Writes a NRRD file, from which load_volume() gives back the same volume bit for bit; or a mesh as
 // .vtu with numbers in double precision. The file appears when it is complete. Throws Error, also

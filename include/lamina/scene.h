@@ -90,12 +90,15 @@ LAMINA_API const char* name_of(NodeCode code);
 LAMINA_API const char* name_of(AlphaRounding rounding);
 LAMINA_API const char* name_of(OverRounding rounding);
 
-// Loads the volume that the scene names: it is read from its file, or generated.
-LAMINA_API Volume load_volume(const Scene& scene);
+// Loads the volume that the scene names: it is read from its file, or generated. `only_below`: as
+// for files (lamina/data_files.h).
+LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {});
 
 // Reads a scene file (docs/scene.md), or makes a scene that draws a data file, with all else
-// automatic. Writes one with every key written out. Both throw Error.
-LAMINA_API Scene load_scene(const std::filesystem::path& file);
+// automatic. Writes one with every key written out. Both throw Error. `only_below`: as
+// for load_volume().
+LAMINA_API Scene load_scene(const std::filesystem::path& file,
+                            const std::filesystem::path& only_below = {});
 LAMINA_API void save_scene(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace lamina

@@ -28,6 +28,9 @@ struct SessionOptions {
     // Many pictures will be drawn: choices may take longer where they make each of them quicker.
     // Otherwise the time to the first one counts.
     bool many_frames = false;
+    // A folder: the session reads no data outside it, whoever names them (docs/files.md). Empty:
+    // from anywhere.
+    std::filesystem::path only_below = {};
     // Ends the constructor, which reads and measures the data, by Interrupted.
     std::stop_token stop = {};
 };

@@ -7,16 +7,17 @@ from typing import Any
 from ._picture import Picture
 from ._scene import scene_of
 from ._session import Progress, Session
+from ._volume import Path
 
 
 def render(data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
-           progress: Progress | None = None, **keywords: Any) -> Picture:
+           progress: Progress | None = None, only_below: Path | None = None, **keywords: Any) -> Picture:
     """Draws one picture.
 
     ``data``: a ``Volume``, a ``Mesh``, an array, a scene (``Scene``, dictionary or file) or a data file. What is not said
     is chosen from the data. ``transfer_function``: a ``TransferFunction``, or what scene files have. Other keywords have
     the names of scene files (``Scene``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
-    ``context``, ``threads``: as for ``Session``, which is quicker where several pictures are drawn of the same data.
+    ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the same data.
     ``progress(activity, share)``: hears how far it is.
 
     Raises ``lamina.Error`` for bad data and scenes, ``TypeError`` and ``ValueError`` for arguments of the wrong form,
@@ -29,11 +30,12 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
     >>> 0.5 < picture.array[24, 32, 3] < 0.75
     True
     """
-    return Session(data, transfer_function, context=context, threads=threads, **keywords).draw(progress)
+    return Session(data, transfer_function, context=context, threads=threads, only_below=only_below,
+                   **keywords).draw(progress)
 
 
 def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progress: Progress | None = None,
-          **keywords: Any) -> Picture:
+          only_below: Path | None = None, **keywords: Any) -> Picture:
     """The truth: the same picture by the reference tracer, in double precision (``Picture.array`` is float64).
 
     Arguments are those of ``render``; ``trace={"tolerance": 1e-7}`` asks for less error than 1e-5 of full scale. It takes
@@ -45,7 +47,7 @@ def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progres
     >>> picture.compare(truth).linf < 1
     True
     """
-    scene = scene_of(data, transfer_function, keywords)
+    scene = scene_of(data, transfer_function, keywords, only_below)
     if scene._parsed().method == "project":
         scene.setdefault("render", {}).setdefault("trace", {}).setdefault("of", "mesh")
-    return Session(scene, threads=threads, method="trace").trace(progress)
+    return Session(scene, threads=threads, only_below=only_below, method="trace").trace(progress)

@@ -17,7 +17,7 @@ from ._errors import Error
 from ._files import write_file
 from ._mesh import Mesh
 from ._plain import plain
-from ._volume import Path, Volume
+from ._volume import Path, Volume, folder_name
 
 # Keyword arguments by the keys of scene files that they set.
 KEYWORDS: dict[str, tuple[str, ...]] = {
@@ -56,6 +56,7 @@ class Scene(dict[str, Any]):
         self.data = data
         self.folder = pathlib.Path(folder)
         self._name = "scene"
+        self._only_below = ""  # the folder that its data must be in; empty: anywhere
 
     @classmethod
     def load(cls, file: Path) -> Scene:
@@ -98,12 +99,13 @@ class Scene(dict[str, Any]):
     def _parsed(self, without: str = "") -> _lamina.Scene:
         """Checked and read by the library; `without`: a key that does not matter, because it may take long to read."""
         text = json.dumps({key: value for key, value in self.items() if key != without}, allow_nan=False)
-        return _lamina.Scene.parse(text, str(self.folder / self._name), None if self.data is None else self.data._core)
+        return _lamina.Scene.parse(text, str(self.folder / self._name), None if self.data is None else self.data._core,
+                                   self._only_below)
 
     def _changed(self, keywords: Mapping[str, Any]) -> Scene:
         """A copy with the keys that keyword arguments stand for."""
         scene = Scene(copy.deepcopy(dict(self)), self.data, self.folder)
-        scene._name = self._name
+        scene._name, scene._only_below = self._name, self._only_below
         for name, value in keywords.items():
             if value is None:
                 continue
@@ -128,19 +130,23 @@ class Scene(dict[str, Any]):
         return f"<lamina.Scene {shown(dict(self))}, {self.data!r}>" if self.data is not None else super().__repr__()
 
 
-def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, Any] | None = None) -> Scene:
+def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, Any] | None = None,
+             only_below: Path | None = None) -> Scene:
     """The scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
     changes = {"transfer_function": transfer_function, **(keywords or {})}
-    return _plain_scene_of(data)._changed(changes)
+    folder = folder_name(only_below)
+    scene = _plain_scene_of(data, folder)._changed(changes)
+    scene._only_below = folder
+    return scene
 
 
-def _plain_scene_of(data: Any) -> Scene:
+def _plain_scene_of(data: Any, only_below: str) -> Scene:
     if isinstance(data, Scene):
         return data
     if isinstance(data, Mapping):
         return Scene(data)
     if isinstance(data, (str, os.PathLike)):
-        return _file_scene(pathlib.Path(data))
+        return _file_scene(pathlib.Path(data), only_below)
     if isinstance(data, Volume):
         return Scene({"version": 1, **({"volume": data._source} if data._source else {})}, data)
     if isinstance(data, Mesh):
@@ -154,8 +160,8 @@ def _plain_scene_of(data: Any) -> Scene:
                     "of a scene or data file")
 
 
-def _file_scene(path: pathlib.Path) -> Scene:
-    kind = _lamina.kind_of_file(path)
+def _file_scene(path: pathlib.Path, only_below: str) -> Scene:
+    kind = _lamina.kind_of_file(path, only_below)
     if kind == "scene":
         return Scene.load(path)
     # As the command line has it (docs/first-picture.md).

@@ -12,7 +12,7 @@ from ._errors import PictureWarning, warn
 from ._picture import Picture
 from ._scene import Scene, scene_of
 from ._turntable import Turntable
-from ._volume import Volume
+from ._volume import Path, Volume
 from ._watched import CHANGED, Watched
 
 Progress = Callable[[str, float], object]
@@ -25,6 +25,7 @@ class Session:
     ``data``, ``transfer_function`` and keywords: as ``Scene`` lists them. ``context``: ``"auto"`` (a GPU where there is
     one, else the native engine), ``"cpu"`` (the native engine), ``"egl"`` or ``"osmesa"``. ``threads``: at most so many,
     0: one for each processor. ``many_frames``: choices may take longer where they make each picture quicker.
+    ``only_below``: a folder; files that are not below it with all links followed, whoever names them, are refused.
 
     What is automatic is chosen for the first picture and kept; ``choose_again()`` chooses it again. Sessions of several
     threads do not disturb each other, and threads that share a session take turns.
@@ -38,9 +39,9 @@ class Session:
     """
 
     def __init__(self, data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
-                 many_frames: bool = False, **keywords: Any) -> None:
-        self._scene = scene_of(data, transfer_function, keywords)
-        self._options = context, threads, many_frames
+                 many_frames: bool = False, only_below: Path | None = None, **keywords: Any) -> None:
+        self._scene = scene_of(data, transfer_function, keywords, only_below)
+        self._options = context, threads, many_frames, self._scene._only_below
         self._changing = threading.RLock()
         self._read()
 

@@ -9,10 +9,19 @@ from typing import Any, Sequence
 import numpy as np
 
 from . import _conversion, _lamina
-from ._errors import PrecisionWarning, warn
+from ._errors import Error, PrecisionWarning, warn
 from ._watched import Watched, can_be_written
 
 Path = str | os.PathLike[str]
+
+
+def folder_name(folder: Path | None) -> str:
+    """The full name of a folder that data must be in, without links; empty if None."""
+    if folder is None:
+        return ""
+    if not os.path.isdir(folder):
+        raise Error(f"only_below: found {os.fspath(folder)}, expected a folder")
+    return os.path.realpath(folder)
 
 
 class Volume:

@@ -87,10 +87,10 @@ void bind_mesh(py::module_& module) {
                     py::arg("at_tets"))
         .def_static(
             "load",
-            [](const std::filesystem::path& file) {
-                return std::make_shared<MeshData>(load_mesh_data(file));
+            [](const std::filesystem::path& file, const std::string& only_below) {
+                return std::make_shared<MeshData>(load_mesh_data(file, only_below));
             },
-            py::arg("file"), py::call_guard<py::gil_scoped_release>())
+            py::arg("file"), py::arg("only_below") = "", py::call_guard<py::gil_scoped_release>())
         .def(
             "save",
             [](const MeshData& mesh, const std::filesystem::path& file) { save_mesh(mesh, file); },

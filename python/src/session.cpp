@@ -21,8 +21,9 @@ ContextChoice context_of(const std::string& word) {
 
 // `data`: a volume or a mesh in memory, or None: what the scene names.
 std::unique_ptr<SharedSession> opened(const Scene& scene, const py::object& data,
-                                      const std::string& context, int threads, bool many_frames) {
-    SessionOptions options{context_of(context), threads, many_frames};
+                                      const std::string& context, int threads, bool many_frames,
+                                      const std::string& only_below) {
+    SessionOptions options{context_of(context), threads, many_frames, only_below};
     std::optional<Volume> volume;
     std::shared_ptr<MeshData> mesh;
     if (py::isinstance<Volume>(data))
@@ -77,7 +78,7 @@ void bind_session(py::module_& module) {
     bind_drawn(module);
     py::class_<SharedSession>(module, "Session")
         .def(py::init(&opened), py::arg("scene"), py::arg("data"), py::arg("context"),
-             py::arg("threads"), py::arg("many_frames"))
+             py::arg("threads"), py::arg("many_frames"), py::arg("only_below"))
         .def("draw", &draw_with<&SharedSession::draw>, py::arg("progress"))
         .def("trace", &draw_with<&SharedSession::trace>, py::arg("progress"))
         .def("set_camera", &changed<camera>, py::arg("to"))

@@ -90,8 +90,12 @@ void bind_volume(py::module_& module) {
                     py::arg("centers"))
         .def_static(
             "load",
-            [](const std::string& scene) { return load_volume(parse_scene(scene, "lamina.read")); },
-            py::arg("scene"), py::call_guard<py::gil_scoped_release>())
+            [](const std::string& scene, const std::string& only_below) {
+                const Scene read =
+                    parse_scene(scene, "lamina.read", std::filesystem::path(only_below));
+                return load_volume(read, only_below);
+            },
+            py::arg("scene"), py::arg("only_below") = "", py::call_guard<py::gil_scoped_release>())
         .def(
             "save",
             [](const Volume& volume, const std::filesystem::path& file) {

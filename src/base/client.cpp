@@ -21,4 +21,11 @@ const Client& ClientScope::current() {
     return client_of_thread;
 }
 
+OnlyBelowScope::OnlyBelowScope(const std::filesystem::path& folder)
+    : scope_([&] {
+          Client client = client_of_thread;
+          if (!folder.empty()) client.only_below = &folder;
+          return client;
+      }()) {}
+
 }  // namespace lamina

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <stop_token>
 #include <string>
@@ -25,6 +26,8 @@ struct Client {
     std::stop_token stop;
     const WarningTaker* warnings = nullptr;
     ProgressListener* progress = nullptr;
+    // The folder that data must be in (base/file_bytes.h): anywhere if null or empty.
+    const std::filesystem::path* only_below = nullptr;
 };
 
 // While it is there, its thread, and the tasks of base/parallel.h that it starts, work for
@@ -41,6 +44,16 @@ class ClientScope {
 
   private:
     Client before_;
+};
+
+// While it is there, its thread has data below `folder` only, if that is not empty. The folder's
+// name must live as long.
+class OnlyBelowScope {
+  public:
+    explicit OnlyBelowScope(const std::filesystem::path& folder);
+
+  private:
+    ClientScope scope_;
 };
 
 }  // namespace lamina

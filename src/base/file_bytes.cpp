@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_bytes.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/random_access_file.h"
 
 namespace lamina {
 
+bool is_restricted() {
+    const std::filesystem::path* const folder = ClientScope::current().only_below;
+    return folder != nullptr && !folder->empty();
+}
+
+void expect_allowed(const std::filesystem::path& path) {
+    if (!is_restricted()) return;
+    const std::filesystem::path* const folder = ClientScope::current().only_below;
+    std::error_code unreadable, no_folder;
+    const auto real = std::filesystem::weakly_canonical(path, unreadable);
+    const auto root = std::filesystem::canonical(*folder, no_folder);
+    if (no_folder) fail("{}: cannot read: {}", folder->string(), no_folder.message());
+    const auto parts = std::ranges::mismatch(root, real);
+    if (unreadable || parts.in1 != root.end())
+        fail("{}: not opened: it is not below {}", path.string(), folder->string());
+}
+
 void expect_regular_file(const std::filesystem::path& path) {
+    expect_allowed(path);
     std::error_code ignored;
     const auto status = std::filesystem::status(path, ignored);
     if (!std::filesystem::exists(status)) fail("{}: cannot read: no such file", path.string());
@@ -26,7 +47,13 @@ ByteBuffer read_large_file(const std::filesystem::path& path) {
 }
 
 std::string read_file_bytes(const std::filesystem::path& path) {
-    return std::string(read_large_file(path).text());
+    constexpr std::uint64_t most = std::uint64_t{1} << 30;  // bytes, far above journals and pages
+    const RandomAccessFile file(path);
+    if (file.size() > most)
+        fail("{}: found {} bytes, expected at most {}", path.string(), file.size(), most);
+    std::string bytes(file.size(), '\0');
+    bytes.resize(file.read_some(0, bytes.data(), bytes.size()));
+    return bytes;
 }
 
 std::string file_beginning(const std::filesystem::path& path, std::size_t most) {

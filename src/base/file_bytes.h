@@ -9,7 +9,14 @@
 
 namespace lamina {
 
-// Throws Error unless `path` is a regular file, because opening a pipe may never end.
+// Throws Error if this thread's client allows files below a folder only (base/client.h), and
+// `path`, with all links followed, is neither that folder nor below it.
+void expect_allowed(const std::filesystem::path& path);
+
+// Whether that is so for some files.
+bool is_restricted();
+
+// Throws Error unless `path` is a regular file, because opening a pipe may never end, and allowed.
 void expect_regular_file(const std::filesystem::path& path);
 
 // Reads all bytes of a regular file. Throws Error where it is not one or cannot be read.

@@ -2,6 +2,7 @@
 #include "lamina/data_files.h"
 
 #include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/error.h"
 #include "mesh_files/mesh_file.h"
 #include "volume/nrrd_writer.h"
@@ -19,11 +20,15 @@ void expect_suffix(const std::filesystem::path& file, const char* suffix) {
 
 }  // namespace
 
-Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request) {
+Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request,
+                   const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     return read_volume(file, request);
 }
 
-MeshData load_mesh_data(const std::filesystem::path& file) {
+MeshData load_mesh_data(const std::filesystem::path& file,
+                        const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     return read_mesh(file);
 }
 

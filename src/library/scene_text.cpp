@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "mesh/scalar_range.h"
@@ -24,17 +25,22 @@ nlohmann::json parsed(const std::string& json, const std::filesystem::path& name
 
 }  // namespace
 
-Scene parse_scene(const std::string& json, const std::filesystem::path& name) {
+Scene parse_scene(const std::string& json, const std::filesystem::path& name,
+                  const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     return read_scene(parsed(json, name), name);
 }
 
-Scene parse_scene(const std::string& json, const std::filesystem::path& name, const Volume& data) {
+Scene parse_scene(const std::string& json, const std::filesystem::path& name, const Volume& data,
+                  const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     const GivenData given{GivenData::Kind::volume, [&] { return measure_bricks(data).whole; }};
     return read_scene(parsed(json, name), name, nullptr, &given);
 }
 
-Scene parse_scene(const std::string& json, const std::filesystem::path& name,
-                  const MeshData& data) {
+Scene parse_scene(const std::string& json, const std::filesystem::path& name, const MeshData& data,
+                  const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     const nlohmann::json document = parsed(json, name);
     // Only the scalar that the scene names counts.
     const GivenData given{GivenData::Kind::mesh, [&] {

@@ -37,6 +37,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
     : asked(std::move(first)),
       scene(asked),
       choice(options.context),
+      only_below(options.only_below),
       threads(arena_threads(options.threads)),
       many_frames(options.many_frames),
       warnings(scene.warnings) {

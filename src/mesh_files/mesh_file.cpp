@@ -102,6 +102,7 @@ bool is_mesh_file(const Path& path) {
 }
 
 MeshData read_mesh(const Path& path, std::int64_t time) {
+    expect_allowed(path);
     const MeshFormat& format = format_of(path);
     if (is_pvd_file(path)) return read_pvd(path, time);
     if (time != 0)

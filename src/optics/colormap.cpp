@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
 #include "lamina/color.h"
@@ -26,6 +27,7 @@ constexpr double color_tolerance = 2.5e-4;  // a sixteenth of 1/255
 constexpr int most_halvings = 7;
 
 nlohmann::json load(const std::filesystem::path& file) {
+    expect_allowed(file);
     nlohmann::json root = load_json(file);
     if (root.is_array() && !root.empty()) root = nlohmann::json(root.front());
     if (!root.is_object()) {

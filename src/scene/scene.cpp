@@ -136,7 +136,8 @@ const char* name_of(OverRounding rounding) {
     return nullptr;
 }
 
-Volume load_volume(const Scene& scene) {
+Volume load_volume(const Scene& scene, const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     if (scene.volume_request) return generate(*scene.volume_request);
     return read_volume(scene.volume_file, scene.volume_selection);
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "base/json_text.h"
@@ -13,7 +14,9 @@
 
 namespace lamina {
 
-FileKind kind_of_file(const std::filesystem::path& file) {
+FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
+    expect_allowed(file);
     if (is_volume_file(file)) return FileKind::volume;
     if (is_mesh_file(file)) return FileKind::mesh;
     const std::string beginning = file_beginning(file, 64);
@@ -29,6 +32,7 @@ FileKind kind_of_file(const std::filesystem::path& file) {
 }
 
 nlohmann::json scene_document(const std::filesystem::path& file, const VolumeRequest& request) {
+    expect_allowed(file);
     const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
     if (kind == FileKind::scene) return load_json(file);
     const std::string path = std::filesystem::absolute(file).string();

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/json_text.h"
 #include "lamina/scene.h"
 #include "scene_files/scene_document.h"
@@ -10,7 +11,8 @@
 
 namespace lamina {
 
-Scene load_scene(const std::filesystem::path& file) {
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& only_below) {
+    const OnlyBelowScope scope(only_below);
     return read_scene(scene_document(file), file);
 }
 

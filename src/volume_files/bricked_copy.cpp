@@ -9,6 +9,7 @@
 #include "base/byte_buffer.h"
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/interrupt.h"
 #include "base/json_text.h"
 #include "base/memory_limit.h"
@@ -166,6 +167,7 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
     const Path folder = bricked_copy_of(file);
     std::error_code absent;
     if (!std::filesystem::exists(folder, absent)) return {};
+    expect_allowed(folder / ".zattrs");
     const auto is_not_used = [&](const char* why) {
         warn(
             fmt::format("{}: the bricks are {}, and are not used: lamina index --bricks makes "

@@ -8,12 +8,14 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/random_access_file.h"
 #include "volume_files/some_bytes.h"
 
 namespace lamina {
 
 FileState FileState::of(const std::filesystem::path& path) {
+    expect_allowed(path);
     struct stat found {};
     if (stat(path.c_str(), &found) != 0)
         fail("{}: cannot read: {}", path.string(), std::strerror(errno));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 
 namespace lamina {
 namespace {
@@ -79,6 +80,23 @@ bool has_numbers(hid_t type) {
     return kind == H5T_INTEGER || kind == H5T_FLOAT;
 }
 
+// HDF5 calls it for a link into another file, and does not follow the link.
+herr_t refuse_file(const char* /*file*/, const char* /*group*/, const char* /*to*/,
+                   const char* /*object*/, unsigned* /*flags*/, hid_t /*access*/,
+                   void* is_refused) {
+    *static_cast<bool*>(is_refused) = true;
+    return -1;
+}
+
+hid_t opened_set(hid_t file, const std::string& path, const std::string& name) {
+    const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    bool is_refused = false;
+    if (is_restricted()) H5Pset_elink_cb(access.id(), refuse_file, &is_refused);
+    const hid_t set = H5Dopen2(file, path.c_str(), access.id());
+    if (is_refused) fail("{}: not opened: it is a link into another file", name);
+    return set;
+}
+
 struct ScaleFound {
     std::size_t length;
     std::vector<double> numbers;
@@ -91,6 +109,7 @@ herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
     const Hdf5Handle type(H5Dget_type(scale), H5Tclose);
     if (!space.valid() || !type.valid() || !has_numbers(type.id())) return 0;
     if (H5Dget_storage_size(scale) == 0) return 0;  // a dimension of NetCDF without coordinates
+    if (is_restricted() && stores_elsewhere(scale)) return 0;
     auto numbers = numbers_of(space.id(), found.length, [&](double* to) {
         return H5Dread(scale, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
     });
@@ -101,9 +120,17 @@ herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
 
 }  // namespace
 
+bool stores_elsewhere(hid_t set) {
+    const Hdf5Handle properties(H5Dget_create_plist(set), H5Pclose);
+    return !properties.valid() || H5Pget_layout(properties.id()) == H5D_VIRTUAL ||
+           H5Pget_external_count(properties.id()) > 0;
+}
+
 Hdf5Array::Hdf5Array(hid_t file, const std::string& path, std::string name)
-    : name_(std::move(name)), set_(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose) {
+    : name_(std::move(name)), set_(opened_set(file, path, name_), H5Dclose) {
     if (!set_.valid()) fail("{}: found no data set of this name", name_);
+    if (is_restricted() && stores_elsewhere(set_.id()))
+        fail("{}: not opened: its samples lie in other files", name_);
     const Hdf5Handle space(H5Dget_space(set_.id()), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space.id());
     if (rank < 2 || rank > most_rank)
@@ -181,9 +208,7 @@ bool Hdf5Array::lies_elsewhere(hid_t file) const {
         return H5Fget_name(id, name, sizeof name) > 0 ? std::string(name) : std::string();
     };
     if (name_of_file(set_.id()) != name_of_file(file)) return true;
-    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
-    return !properties.valid() || H5Pget_layout(properties.id()) == H5D_VIRTUAL ||
-           H5Pget_external_count(properties.id()) > 0;
+    return stores_elsewhere(set_.id());
 }
 
 std::optional<Hdf5Array::RawPlace> Hdf5Array::raw_place() const {

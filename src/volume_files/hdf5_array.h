@@ -12,10 +12,15 @@
 
 namespace lamina {
 
+// Whether a data set has its samples in other files: by HDF5's external storage or as a virtual
+// one.
+bool stores_elsewhere(hid_t set);
+
 // A data set of numbers in an open HDF5 file, with what is known of its axes.
 class Hdf5Array {
   public:
-    // `name`: of file and data set, for messages. Throws Error where it cannot be read.
+    // `name`: of file and data set, for messages. Throws Error where it cannot be read, and where
+    // it lies in another file though the client allows some only (base/client.h).
     Hdf5Array(hid_t file, const std::string& path, std::string name);
 
     const std::vector<std::int64_t>& shape() const { return shape_; }  // the last changes fastest

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/shortened.h"
 #include "base/warning.h"
 #include "volume_files/grid_check.h"
@@ -36,7 +37,7 @@ herr_t note_array(hid_t file, const char* name, const H5O_info_t* info, void* da
     if (found.too_deep) return 1;
     if (info->type != H5O_TYPE_DATASET) return 0;
     const Hdf5Handle set(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
-    if (!set.valid()) return 0;
+    if (!set.valid() || (is_restricted() && stores_elsewhere(set.id()))) return 0;
     const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
     const Hdf5Handle type(H5Dget_type(set.id()), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type.id());

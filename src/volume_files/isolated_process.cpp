@@ -148,7 +148,7 @@ void end_with_starter(pid_t starter) {
     dup2(nowhere, STDERR_FILENO);  // what libraries print of their assertions
     const WarningTaker taker = [&](const std::string& text) { line.text(warning, text); };
     try {
-        const ClientScope scope({{}, &taker, nullptr});
+        const ClientScope scope({{}, &taker, nullptr, ClientScope::current().only_below});
         work(line);
     } catch (const std::bad_alloc&) {
         line.text(refusal, too_much);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "volume_files/json_excerpt.h"
 #include "volume_files/stored_axes.h"
 
@@ -128,6 +129,7 @@ class OmeReader {
 Json zarr_attributes(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / ".zattrs";
     if (!std::filesystem::exists(file)) return Json::object();
+    expect_allowed(file);
     Json attributes = load_json(file);
     if (!attributes.is_object())
         fail("{}: found {}, expected an object", file.string(), json_excerpt(attributes));

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "volume_files/stored_reader.h"
 
 namespace lamina {
@@ -42,6 +43,7 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
     check_file_count(data, static_cast<std::int64_t>(names.size()), axes_each, field);
     for (const std::string& file : names) {
         data.files.push_back(data.path.parent_path() / file);
+        expect_allowed(data.files.back());
         if (!std::filesystem::is_regular_file(data.files.back())) {
             const bool there = std::filesystem::exists(data.files.back());
             fail("{}: {} of {}: {}", data.files.back().string(), field, name,

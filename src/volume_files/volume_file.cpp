@@ -70,6 +70,7 @@ Volume read_volume(const Path& path, const VolumeRequest& request) {
 }
 
 Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
+    expect_allowed(path);
     const VolumeFormat& format = request.raw ? raw_format : expected_format(path);
     expect_known_keys(path, format, request);
     if (use.residence == VolumeUse::Residence::as_fits ||

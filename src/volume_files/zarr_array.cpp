@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "volume_files/json_excerpt.h"
 
@@ -95,6 +96,7 @@ std::int64_t ZarrArray::chunk_samples() const {
 ZarrArray read_zarray(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / ".zarray";
     const std::string name = file.string();
+    expect_allowed(file);
     const Json document = load_json(file);
     if (!document.is_object())
         fail("{}: found {}, expected an object", name, json_excerpt(document));

@@ -35,6 +35,12 @@ def case(name, path, values, steps=None, origin=(0, 0, 0), **request):
                   "steps": [[float(v) for v in step] for step in (steps or UNIT)], "request": request})
 
 
+def case_elsewhere(name, path, values):
+    """The samples lie in another file than `path`: --only-below refuses them, even in the same folder."""
+    case(name, path, values)
+    CASES[-1]["elsewhere"] = True
+
+
 def bad(name, path, *words, **request):
     CASES.append({"name": name, "path": path, "error": list(words), "request": request})
 
@@ -192,6 +198,22 @@ def hdf5_cases():
         group.create_dataset("v", data=array)
     bad("h5_deep", "deep.h5", "more than 64 deep", "the name of an array")
     case("h5_deep_named", "deep.h5", array, array=f"{deep}/v")
+    array = samples("<i2")
+    array.tofile(f"{FOLDER}/samples.raw")
+    with h5py.File(f"{FOLDER}/target.h5", "w") as file:
+        file["v"] = array
+    with h5py.File(f"{FOLDER}/linked.h5", "w") as file:
+        file["link"] = h5py.ExternalLink("target.h5", "/v")
+        file["soft"] = h5py.SoftLink("/link")
+    with h5py.File(f"{FOLDER}/outer.h5", "w") as file:
+        file.create_dataset("v", array.shape, array.dtype, external=[(f"{FOLDER}/samples.raw", 0, array.nbytes)])
+    with h5py.File(f"{FOLDER}/virtual.h5", "w") as file:
+        layout = h5py.VirtualLayout(array.shape, array.dtype)
+        layout[...] = h5py.VirtualSource(f"{FOLDER}/target.h5", "v", array.shape, array.dtype)
+        file.create_virtual_dataset("v", layout)
+    for name, path in (("link", "linked.h5:/link"), ("soft", "linked.h5:/soft"), ("outer", "outer.h5:/v"),
+                       ("virtual", "virtual.h5:/v")):
+        case_elsewhere(f"h5_{name}", path, array)
 
 
 def slice_of(array, series, number, position, orientation, spacing, syntax=ExplicitVRLittleEndian, slope=None,

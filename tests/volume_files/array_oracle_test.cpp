@@ -6,6 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/client.h"
 #include "base/json_text.h"
 #include "expect_boxes.h"
 #include "nrrd_files.h"
@@ -93,6 +94,7 @@ TEST(ArrayOracle, ReadsWhatOthersWrite) {
         std::system(("/usr/bin/python3 '" + script + "' '" + folder.path().string() + "'").c_str());
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-zarr, -h5py or -pydicom is missing";
     ASSERT_EQ(status, 0);
+    const std::filesystem::path root = folder.path();
     const nlohmann::json cases = load_json(folder / "cases.json");
     EXPECT_GT(cases.size(), 100u);
     const std::string formats = volume_format_names();
@@ -112,6 +114,12 @@ TEST(ArrayOracle, ReadsWhatOthersWrite) {
             continue;
         }
         EXPECT_TRUE(is_volume_file(path));
+        if (one.contains("elsewhere")) {
+            const OnlyBelowScope below(root);
+            EXPECT_NE(error_of([&] { read_volume(path, request); }).find("not opened"),
+                      std::string::npos);
+        }
+        const OnlyBelowScope below(one.contains("elsewhere") ? std::filesystem::path() : root);
         std::optional<Volume> volume;
         try {
             volume.emplace(read_volume(path, request));

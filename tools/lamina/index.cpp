@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/standard_streams.h"
 #include "memory_option.h"
+#include "only_below_option.h"
 #include "raw_options.h"
 #include "verbs.h"
 #include "volume/index_file.h"
@@ -64,6 +65,7 @@ void add_index(CLI::App& app, int&) {
         ->required();
     add_raw_options(*verb, options->raw);
     add_memory_option(*verb);
+    add_only_below_option(*verb);
     verb->add_flag("--bricks", options->bricks,
                    "Copy the volume in bricks to FILE.lamina-bricks, too: for files of which no "
                    "part can be read alone, because they are compressed as a whole; commands that "

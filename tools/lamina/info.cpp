@@ -14,6 +14,7 @@
 #include "file_report.h"
 #include "memory_option.h"
 #include "mesh_files/mesh_file.h"
+#include "only_below_option.h"
 #include "raw_options.h"
 #include "scene_files.h"
 #include "statistics_report.h"
@@ -78,6 +79,7 @@ void add_info(CLI::App& app, int& exit_code) {
                      "Volume (as for render) or mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele)")
         ->required();
     add_memory_option(*verb);
+    add_only_below_option(*verb);
     add_raw_options(*verb, options->raw);
     verb->add_flag("--json", options->json, "Print JSON instead of a table");
     verb->add_option(

@@ -17,6 +17,7 @@
 #include "lamina/scene.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
+#include "only_below_option.h"
 #include "raw_options.h"
 #include "scene_data.h"
 #include "scene_files.h"
@@ -187,6 +188,7 @@ void add_mesh(CLI::App& app, int& exit_code) {
         ->type_name("N");
     verb->add_flag("--kuhn", options->kuhn,
                    "Every sample and six tets a cell instead; needs no TetGen");
+    add_only_below_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }

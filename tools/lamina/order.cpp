@@ -22,6 +22,7 @@
 #include "lamina/scene.h"
 #include "mesh/mesh_shape.h"
 #include "mesh_files/mesh_file.h"
+#include "only_below_option.h"
 #include "reference/order_pixels.h"
 #include "scene/scene_mesh.h"
 #include "scene_data.h"
@@ -262,6 +263,7 @@ void add_order(CLI::App& app, int& exit_code) {
         ->type_name("WxH")
         ->capture_default_str();
     verb->add_flag("--json", options->json, "Print JSON instead of a table");
+    add_only_below_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No progress");
     verb->callback([options] { run(*options); });
 }

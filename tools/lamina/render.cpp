@@ -16,6 +16,7 @@
 #include "base/stopwatch.h"
 #include "data_series.h"
 #include "memory_option.h"
+#include "only_below_option.h"
 #include "named_output.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
@@ -191,6 +192,7 @@ CLI::App& add_render_with(CLI::App& app, const RenderJobMaker& make_job) {
             "takes as many threads as it may run on processors: taskset -c 0-3 lamina ...)")
         ->option_text("auto|osmesa|egl|cpu");
     add_memory_option(*verb);
+    add_only_below_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options, make_job] {
         if (options->output.output.empty() && !options->explain) {

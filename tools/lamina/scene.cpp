@@ -11,6 +11,7 @@
 #include "base/standard_streams.h"
 #include "different_files.h"
 #include "named_output.h"
+#include "only_below_option.h"
 #include "scene_data.h"
 #include "scene_files.h"
 #include "scene_options.h"
@@ -97,6 +98,7 @@ void add_scene(CLI::App& app, int&) {
         ->allow_extra_args(false);
     add_raw_options(*verb, options->scene.raw);
     add_view_options(*verb, options->view);
+    add_only_below_option(*verb);
     verb->add_flag("--quiet", options->quiet, "No messages and no progress on stderr");
     verb->callback([options] {
         Progress::set_quiet(options->quiet);
