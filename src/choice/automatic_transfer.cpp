@@ -210,7 +210,7 @@ std::string padding_text(const Padding& padding) {
     for (const double value : padding.values)
         text += fmt::format("{}{:.9g}", text.empty() ? "" : " and ", value);
     if (text.empty()) return text;
-    return fmt::format("{}, {:.3g} % of the field, {} padding and transparent; ", text,
+    return fmt::format("{}, {:.3g} % of the field, {} padding and transparent", text,
                        100 * padding.share, padding.values.size() > 1 ? "are" : "is");
 }
 
@@ -234,18 +234,18 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
                                            double least_padding_share) {
     const Padding padding = find_padding(values, whole_numbers, least_padding_share);
     if (wishes.range) {
-        auto [function, reason] = within(values, *wishes.range);
+        auto [function, reason, unused] = within(values, *wishes.range);
         function = in_colors_of(function, wishes.colormap);
         // Below the range nothing shows. Padding inside it was asked for.
-        if (!padding.above || *padding.above <= wishes.range->hi) return {function, reason};
+        if (!padding.above || *padding.above <= wishes.range->hi) return {function, reason, {}};
         const double edge = std::max(padding.edge_above(), wishes.range->hi);
-        return {shown_below(function, edge), padding_text(padding) + reason};
+        return {shown_below(function, edge), reason, padding_text(padding)};
     }
-    const auto [function, reason] = in_own_colors(padding, whole_numbers);
+    const auto [function, reason, unused] = in_own_colors(padding, whole_numbers);
     TransferFunction colored = in_colors_of(function, wishes.colormap);
     if (padding.below) colored = shown_above(colored, padding.edge_below());
     if (padding.above) colored = shown_below(colored, padding.edge_above());
-    return {colored, padding_text(padding) + reason};
+    return {colored, reason, padding_text(padding)};
 }
 
 }  // namespace lamina

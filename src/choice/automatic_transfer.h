@@ -22,7 +22,8 @@ struct AutomaticTransfer {
     // Its extinctions are relative, the largest 1: how dense the data are to be depends on the
     // view.
     TransferFunction transfer_function;
-    std::string reason;  // for people: what shows, and what not
+    std::string reason;     // for people: what shows, and what not
+    std::string padding{};  // for people: which values are padding; empty if none are
 };
 
 // Chooses a transfer function by the values of a field (docs/first-picture.md): common values are

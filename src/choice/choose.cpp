@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "base/warning.h"
 #include "choice/changed_transfer.h"
 #include "choice/padding.h"
 #include "image/srgb.h"
@@ -144,6 +145,8 @@ Scene choose(Scene scene, const Field& field, const Wishes& wishes) {
         if (scene.color_space == ImageColorSpace::display && !wishes.transfer.colormap)
             scene.transfer_function = displayed(scene.transfer_function);
         reason = std::move(chosen.reason);
+        if (!chosen.padding.empty())
+            warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     } else {
         change_transfer_function(scene, wishes);
     }

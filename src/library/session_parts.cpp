@@ -13,6 +13,7 @@
 #include "reference/scene_tracer.h"
 #include "render/context_choice.h"
 #include "render/picture_warnings.h"
+#include "render/warnings.h"
 #include "scene/camera.h"
 #include "scene/lighting_check.h"
 #include "scene/scene_volume.h"
@@ -147,6 +148,7 @@ void Session::Parts::draw(Image& into) {
     for (const auto& [stage, ms] : frames.renderer().stages_ms()) statistics.stages_ms[stage] = ms;
     statistics.fragments = frames.renderer().fragments();
     statistics.bytes = frames.renderer().byte_count();
+    for (const std::string& warning : frames.warnings()) keep_warning(warning);
     warn_of(into);
 }
 
@@ -157,10 +159,18 @@ void Session::Parts::trace(const TileCallback& tile_done) {
         truth = std::move(traced.image);
         trace_statistics.trace_error = 255 * traced.error_estimate;
     };
-    if (scene.draws_mesh())
-        keep(lamina::trace(scene, mesh_data(), tile_done));
-    else
+    const auto warn_of_all = [&](const Warnings& all) {
+        for (const std::string& warning : all) keep_warning(warning);
+    };
+    if (scene.draws_mesh()) {
+        auto traced = lamina::trace(scene, mesh_data(), tile_done);
+        warn_of_all(data_warnings(scene, mesh_data()));
+        warn_of_all(trace_warnings(traced.overlapping_rays));
+        keep(std::move(traced));
+    } else {
         keep(lamina::trace(scene, volume_data().volume, tile_done));
+        warn_of_all(data_warnings(volume_data()));
+    }
     warn_of(to_float(truth));
 }
 

@@ -7,6 +7,7 @@
 
 #include "plan/frame_renderer.h"
 #include "plan/plan.h"
+#include "render/warnings.h"
 
 namespace lamina {
 
@@ -36,6 +37,11 @@ class Drawing {
     // The scene with every "auto" replaced by what the plan has chosen.
     virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
+
+    // What people should be told of the data, the plan and, once a frame is drawn, of it; the scene
+    // is a resolved one, `renderer` null before there is one.
+    virtual Warnings warnings(const Scene& scene, const Plan& plan,
+                              const FrameRenderer* renderer) const = 0;
 
     // Of renderers that draw one picture together, once a view is measured: the parts of the volume
     // that they draw; and their numbers, nearer ones first.

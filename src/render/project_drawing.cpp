@@ -47,15 +47,7 @@ void ProjectDrawing::measure_data(const Scene& scene) {
 
 void ProjectDrawing::measure_overlap(const Scene& scene) {
     if (!is_right_order(scene.project.order)) return;
-    if (!overlapping_tets_) {
-        overlapping_tets_ = lamina::measure_overlap(*mesh_, facts_.convexity);
-        if (*overlapping_tets_ > 0) {
-            warn(
-                fmt::format("{}: {} tets overlap others: these have no right order, and the error "
-                            "of a picture is unknown where a ray meets them",
-                            name_of_mesh(scene), *overlapping_tets_));
-        }
-    }
+    if (!overlapping_tets_) overlapping_tets_ = lamina::measure_overlap(*mesh_, facts_.convexity);
     facts_.overlapping_tets = *overlapping_tets_;
 }
 
@@ -95,6 +87,18 @@ Scene ProjectDrawing::resolved(Scene scene, const Plan& plan) const {
 
 std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& capabilities) const {
     return explain(plan, facts_, capabilities);
+}
+
+Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/,
+                                  const FrameRenderer* renderer) const {
+    Warnings all = data_warnings(scene, *whole_);
+    const auto add = [&](Warnings more) {
+        for (std::string& warning : more) all.push_back(std::move(warning));
+    };
+    add(plan_warnings(scene, facts_.overlapping_tets));
+    if (const auto* const drawn = dynamic_cast<const ProjectRenderer*>(renderer))
+        add(frame_warnings(drawn->order_report()));
+    return all;
 }
 
 std::unique_ptr<FrameRenderer> ProjectDrawing::make_renderer(const Scene& scene, const Plan& plan,

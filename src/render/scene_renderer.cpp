@@ -129,6 +129,11 @@ std::string SceneRenderer::explanation() {
     return drawing_->explanation(plan(), capabilities_);
 }
 
+Warnings SceneRenderer::warnings() {
+    plan();
+    return drawing_->warnings(*resolved_, *plan_, renderer_.get());
+}
+
 std::vector<IndexBox> SceneRenderer::shares() {
     plan();
     return drawing_->shares();

@@ -70,6 +70,8 @@ class SceneRenderer {
     // Throws Error where the data cannot be drawn as the scene asks, or the context cannot do it.
     const Plan& plan();
     std::string explanation();
+    // Sentences for people about the data, the plan and, once a frame was drawn, about it.
+    Warnings warnings();
     // Of renderers that share a picture: the parts of the volume that they draw, in its index
     // space; and their numbers, nearer ones first.
     std::vector<IndexBox> shares();

@@ -94,6 +94,13 @@ std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capa
     return explain(plan, facts_, capabilities);
 }
 
+Warnings SliceDrawing::warnings(const Scene& scene, const Plan& plan,
+                                const FrameRenderer* /*renderer*/) const {
+    Warnings all = data_warnings(*data_);
+    for (std::string& warning : plan_warnings(scene, plan.slice)) all.push_back(std::move(warning));
+    return all;
+}
+
 std::unique_ptr<FrameRenderer> SliceDrawing::make_renderer(const Scene& scene, const Plan& plan,
                                                            const Capabilities& capabilities,
                                                            FrameRenderer* before) const {

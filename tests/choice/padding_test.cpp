@@ -86,7 +86,7 @@ TEST(Padding, IsTransparent) {
     const TransferFunction& function = chosen.transfer_function;
     EXPECT_TRUE(function.transparent(-3024, -990));  // the air, too
     EXPECT_GT(function.at(40).extinction, 0);
-    EXPECT_EQ(chosen.reason.find("-3024, "), 0u) << chosen.reason;
+    EXPECT_EQ(chosen.padding.find("-3024, "), 0u) << chosen.padding;
     // Fields that go both ways from a common value, with padding on either side.
     std::vector<WeightedValue> flow;
     for (int i = -100; i <= 100; ++i) flow.push_back({1. * i, i == 0 ? 400. : 2.});
@@ -111,7 +111,7 @@ TEST(Padding, IsTransparent) {
     EXPECT_GT(part.transfer_function.at(100).extinction, 0);
     EXPECT_EQ(part.transfer_function.at(9999).extinction, 0);
     EXPECT_EQ(part.transfer_function.at(1000).extinction, 0);
-    EXPECT_EQ(part.reason.find("9999, "), 0u) << part.reason;
+    EXPECT_EQ(part.padding.find("9999, "), 0u) << part.padding;
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST_F(Messages, AnAutomaticTreeIsNoReasonToRefuseFloat32) {
             lamina_run({"render", folder / "scene.json", "-o", folder / "a.exr", "--context", "cpu",
                         "--set", std::string("render.slice.samples=") + samples});
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        EXPECT_NE(result.err.find("lamina: render.max_error: 1e-05 is not kept: "),
+        EXPECT_NE(result.err.find("lamina: warning: render.max_error: 1e-05 is not kept: "),
                   std::string::npos)
             << result.err;
     }

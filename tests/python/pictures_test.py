@@ -135,3 +135,13 @@ def test_the_dictionary_of_its_scene_draws_it_again(picture):
     assert picture.scene["image"]["width"] == 40
     changed = lamina.render(picture.scene, context="cpu", set={"image.width": 20, "image.height": 15})
     assert changed.array.shape == (15, 20, 4)
+
+
+def test_warnings_are_those_of_the_command_line(blob, function):
+    with pytest.warns(lamina.PictureWarning, match="render.max_error: 1e-05 is not kept"):
+        picture = lamina.render(blob, function, size=(24, 18), max_error=1e-5, slice={"tree": "auto"}, context="cpu")
+    assert any("is not kept" in text for text in picture.warnings)
+    hole = blob.array.astype(np.float32)
+    hole[3, 3, 3] = np.nan
+    with pytest.warns(lamina.PictureWarning, match="1 samples are NaN or infinite"):
+        lamina.render(hole, size=(24, 18), nan="transparent", context="cpu")

@@ -7,8 +7,7 @@
 
 #include "base/error.h"
 #include "base/stage.h"
-#include "kept_error.h"
-#include "loaded_volume.h"
+#include "base/warning.h"
 #include "render/context_choice.h"
 #include "render/picture_warnings.h"
 
@@ -71,8 +70,8 @@ class SharedSliceJob : public RenderJob {
                                     count == 1 ? "rank" : "ranks");
         stats.on_tiles = true;
         const Plan plan = own().plan();
-        report_volume(request_, *request_.data.volume, stats);
-        say_what_is_not_kept(request_, plan.slice);
+        stats.counts["non_finite_samples"] = request_.data.volume->bricks.non_finite;
+        for (const std::string& warning : own().warnings()) warn(warning);
         return plan;
     }
     Scene resolved_scene() override { return own().resolved_scene(); }

@@ -4,17 +4,17 @@
 namespace lamina {
 namespace {
 
-std::string line;
+std::string given_line;
 
 }  // namespace
 
 void set_command_line(int argc, char** argv) {
-    line = "lamina";
-    for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+    given_line = "lamina";
+    for (int i = 1; i < argc; ++i) given_line += std::string(" ") + argv[i];
 }
 
 const std::string& command_line() {
-    return line;
+    return given_line;
 }
 
 }  // namespace lamina

@@ -37,6 +37,7 @@ class FrameJob : public RenderJob {
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override;
 
   private:
+    void say_warnings();
     void draw_first(RenderStats& stats);
 
     const RenderRequest request_;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "frame_job.h"
@@ -20,7 +18,7 @@ class ProjectMethod : public FrameMethod {
     }
 
     void report_plan(const Plan& /*plan*/, RenderStats& stats) override {
-        report_mesh(request_, *request_.data.mesh, stats);
+        report_mesh(*request_.data.mesh, stats);
     }
 
     void report_frame(const Plan& /*plan*/, const FrameRenderer& frames,
@@ -31,11 +29,6 @@ class ProjectMethod : public FrameMethod {
         stats.counts["cycles"] = order.cycles;
         stats.counts["cyclic_tets"] = order.cyclic_tets;
         stats.counts["pairs_in_wrong_order"] = order.broken;
-        if (order.broken > 0) {
-            request_.message(fmt::format(
-                "{} tets hide one another in {} rings: {} pairs are drawn in the wrong order",
-                order.cyclic_tets, order.cycles, order.broken));
-        }
     }
 
   private:

@@ -14,10 +14,11 @@
 #include "base/stage.h"
 #include "base/standard_streams.h"
 #include "base/stopwatch.h"
+#include "base/warning.h"
 #include "data_series.h"
 #include "memory_option.h"
-#include "only_below_option.h"
 #include "named_output.h"
+#include "only_below_option.h"
 #include "profile_file.h"
 #include "render/context_choice.h"
 #include "render_job.h"
@@ -104,7 +105,7 @@ void run(const RenderOptions& options, const RenderJobMaker& make_job) {
     Wishes wishes = wishes_of(options.view, scene.color_space);
     wishes.all_around = options.output.views > 1;
     reading.end();
-    for (const std::string& warning : scene.warnings) message(options, warning);
+    for (const std::string& warning : scene.warnings) warn(warning);
     const OmissionSwitch omissions = omission_switch(options);
     const ContextChoice context = context_choice(options.context);
     restrict_instructions_as_asked();
@@ -122,7 +123,7 @@ void run(const RenderOptions& options, const RenderJobMaker& make_job) {
     for (const std::string& chosen : scene.chosen) say(chosen);
     const bool many_frames = options.output.frames > 0 || options.output.views > 0;
     const auto job_of = [&](const Scene& drawn, const SceneData& its) {
-        return make_job({drawn, its, omissions, context, !options.stats.empty(), many_frames, say});
+        return make_job({drawn, its, omissions, context, !options.stats.empty(), many_frames});
     };
     const auto job = job_of(scene, data);
     if (output) output->prepare(job_of, data, say);
@@ -140,8 +141,11 @@ void run(const RenderOptions& options, const RenderJobMaker& make_job) {
         stats_file->commit();
     }
     if (profile) write_profile(*profile, options, stats);
-    const std::string took =
-        stats.frames_ms.empty() ? "" : fmt::format(", {:.4g} ms a frame", stats.frames_ms.back());
+    std::string took;
+    if (!stats.frames_ms.empty()) {
+        const double ms = stats.frames_ms.back();
+        took = fmt::format(", {:.{}f} ms a frame", ms, ms >= 100 ? 0 : ms >= 10 ? 1 : 2);
+    }
     say(fmt::format("wrote {} ({} x {}, {}{})", written, scene.width, scene.height, stats.context,
                     took));
 }

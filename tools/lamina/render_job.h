@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -20,10 +19,9 @@ struct RenderRequest {
     const Scene& scene;
     const SceneData& data;
     const OmissionSwitch& omissions;
-    ContextChoice context;                            // --context
-    bool count_fragments;                             // somebody will read the statistics
-    bool many_frames;                                 // the time of each counts
-    std::function<void(const std::string&)> message;  // to stderr, unless --quiet
+    ContextChoice context;  // --context
+    bool count_fragments;   // somebody will read the statistics
+    bool many_frames;       // the time of each counts
 };
 
 // One method of drawing a scene. Called in this order: plan(), then draw(), draw_frame() any number

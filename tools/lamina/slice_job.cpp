@@ -2,8 +2,6 @@
 #include <memory>
 
 #include "frame_job.h"
-#include "kept_error.h"
-#include "loaded_volume.h"
 
 namespace lamina {
 namespace {
@@ -19,9 +17,8 @@ class SliceMethod : public FrameMethod {
         return renderer;
     }
 
-    void report_plan(const Plan& plan, RenderStats& stats) override {
-        report_volume(request_, *request_.data.volume, stats);
-        say_what_is_not_kept(request_, plan.slice);
+    void report_plan(const Plan& /*plan*/, RenderStats& stats) override {
+        stats.counts["non_finite_samples"] = request_.data.volume->bricks.non_finite;
     }
 
     void report_frame(const Plan& plan, const FrameRenderer& /*renderer*/,

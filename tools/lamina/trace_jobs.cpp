@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "base/stage.h"
+#include "base/warning.h"
 #include "loaded_mesh.h"
-#include "loaded_volume.h"
 #include "reference/scene_tracer.h"
 #include "render/picture_warnings.h"
+#include "render/warnings.h"
 #include "render_job.h"
 
 namespace lamina {
@@ -29,7 +28,8 @@ class VolumeTraceJob : public RenderJob {
         Stage measuring("facts");
         facts_ = measure(request_.scene, data_.volume, data_.bricks);
         stats.stages_ms["measure"] += measuring.end();
-        report_volume(request_, data_, stats);
+        stats.counts["non_finite_samples"] = data_.bricks.non_finite;
+        for (const std::string& warning : data_warnings(data_)) warn(warning);
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
@@ -78,7 +78,8 @@ class MeshTraceJob : public RenderJob {
         Stage measuring("measure");
         facts_ = measure(request_.scene, data_);
         stats.stages_ms["measure"] = measuring.end();
-        report_mesh(request_, data_, stats);
+        report_mesh(data_, stats);
+        for (const std::string& warning : data_warnings(request_.scene, data_)) warn(warning);
         Stage building("boundary_tree");
         tree_.emplace(data_.mesh, data_.mesh.open_faces());
         stats.stages_ms["boundary_tree"] = building.end();
@@ -102,12 +103,7 @@ class MeshTraceJob : public RenderJob {
         keep_largest(
             {{"segments", result_->segments}, {"overlapping_rays", result_->overlapping_rays}},
             stats.counts);
-        if (result_->overlapping_rays > 0) {
-            request_.message(fmt::format(
-                "the mesh overlaps itself on the rays of {} pixels: its tets are composited there "
-                "one after the other, as the ray enters them",
-                result_->overlapping_rays));
-        }
+        for (const std::string& warning : trace_warnings(result_->overlapping_rays)) warn(warning);
     }
 
     void draw_frame(const Camera& camera) override { trace(camera); }
