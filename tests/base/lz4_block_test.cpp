@@ -22,7 +22,9 @@ TEST(Lz4Block, LiteralsMatchesAndLongLengths) {
               "abcabcabcabd");
     // 15 + 255 + 5 literals.
     const std::string many(275, 'x');
-    EXPECT_EQ(decoded(std::string("\xf0\xff\x05") + many, 275), many);
+    std::string literals("\xf0\xff\x05");
+    literals.append(many);
+    EXPECT_EQ(decoded(literals, 275), many);
     // 1 literal, then 4 + 15 + 255 + 0 bytes from 1 back.
     const std::string run("\x1fy\x01\0\xff\0\0", 7);
     EXPECT_EQ(decoded(run, 275), std::string(275, 'y'));
