@@ -14,6 +14,8 @@ constexpr std::size_t most_bytes = 64u << 20;  // that all parts have together
 // Lines that are asked for before they are needed: as many as memory fetches side by side.
 constexpr std::size_t lines_ahead = 16;
 
+static_assert(std::has_single_bit(sample_parts));
+
 using Words = std::array<std::uint64_t, line_bytes / sizeof(std::uint64_t)>;
 
 // FNV-1a over words of 64 bits, eight side by side: a line is at another place only in another
