@@ -41,7 +41,7 @@ class Drawing {
     // What people should be told of the data, the plan and, once a frame is drawn, of it; the scene
     // is a resolved one, `renderer` null before there is one.
     virtual Warnings warnings(const Scene& scene, const Plan& plan,
-                              const FrameRenderer* renderer) const = 0;
+                              const FrameRenderer* renderer) = 0;
 
     // Of renderers that draw one picture together, once a view is measured: the parts of the volume
     // that they draw; and their numbers, nearer ones first.

@@ -90,8 +90,9 @@ std::string ProjectDrawing::explanation(const Plan& plan, const Capabilities& ca
 }
 
 Warnings ProjectDrawing::warnings(const Scene& scene, const Plan& /*plan*/,
-                                  const FrameRenderer* renderer) const {
-    Warnings all = data_warnings(scene, *whole_);
+                                  const FrameRenderer* renderer) {
+    if (!data_warnings_) data_warnings_ = data_warnings(scene, *whole_);
+    Warnings all = *data_warnings_;
     const auto add = [&](Warnings more) {
         for (std::string& warning : more) all.push_back(std::move(warning));
     };

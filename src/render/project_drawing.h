@@ -23,8 +23,7 @@ class ProjectDrawing : public Drawing {
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan,
-                      const FrameRenderer* renderer) const override;
+    Warnings warnings(const Scene& scene, const Plan& plan, const FrameRenderer* renderer) override;
     std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                  const Capabilities& capabilities,
                                                  FrameRenderer* before) const override;
@@ -39,6 +38,7 @@ class ProjectDrawing : public Drawing {
     bool lit_ = false;
     bool clipped_away_ = false;
     std::optional<std::int64_t> overlapping_tets_;  // of mesh_, once they are counted
+    std::optional<Warnings> data_warnings_;         // of whole_, once they are asked for
     MeshFacts facts_;
 };
 

@@ -95,7 +95,7 @@ std::string SliceDrawing::explanation(const Plan& plan, const Capabilities& capa
 }
 
 Warnings SliceDrawing::warnings(const Scene& scene, const Plan& plan,
-                                const FrameRenderer* /*renderer*/) const {
+                                const FrameRenderer* /*renderer*/) {
     Warnings all = data_warnings(*data_);
     for (std::string& warning : plan_warnings(scene, plan.slice)) all.push_back(std::move(warning));
     return all;

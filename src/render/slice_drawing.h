@@ -27,8 +27,7 @@ class SliceDrawing : public Drawing {
               bool for_people) const override;
     Scene resolved(Scene scene, const Plan& plan) const override;
     std::string explanation(const Plan& plan, const Capabilities& capabilities) const override;
-    Warnings warnings(const Scene& scene, const Plan& plan,
-                      const FrameRenderer* renderer) const override;
+    Warnings warnings(const Scene& scene, const Plan& plan, const FrameRenderer* renderer) override;
     std::unique_ptr<FrameRenderer> make_renderer(const Scene& scene, const Plan& plan,
                                                  const Capabilities& capabilities,
                                                  FrameRenderer* before) const override;

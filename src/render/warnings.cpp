@@ -25,12 +25,13 @@ void add_cells(const CellCounts& cells, Warnings& to) {
 }
 
 void add_made(const Scene& scene, const MeshReport& report, Warnings& to) {
-    if (report.within_tolerance || scene.mesh_request->kuhn) return;
+    const MeshSettings wanted = scene.mesh_request.value_or(MeshSettings{});
+    if (report.within_tolerance || wanted.kuhn) return;
     to.push_back(fmt::format(
         "the mesh stopped {} with {} tets: it differs from the volume by up to {:.3g} of the "
         "range of values, wanted {:.3g}",
         report.stopped_by_max_tets ? "at max_tets" : "where points would lie too close",
-        report.tets, report.relative_error(), scene.mesh_request->tolerance));
+        report.tets, report.relative_error(), wanted.tolerance));
 }
 
 void add_clamped_colors(const Scene& scene, Warnings& to) {

@@ -58,9 +58,10 @@ class SameWarnings : public testing::Test {
         const std::string begin = "lamina: warning: ";
         std::set<std::string> found;
         std::istringstream lines(result.err);
-        for (std::string line; std::getline(lines, line);)
-            if (line.starts_with(begin))
-                EXPECT_TRUE(found.insert(line.substr(begin.size())).second);
+        for (std::string line; std::getline(lines, line);) {
+            if (!line.starts_with(begin)) continue;
+            EXPECT_TRUE(found.insert(line.substr(begin.size())).second) << line;
+        }
         return found;
     }
     std::set<std::string> said_by_library() const {
