@@ -28,4 +28,11 @@ OnlyBelowScope::OnlyBelowScope(const std::filesystem::path& folder)
           return client;
       }()) {}
 
+OwnFilesScope::OwnFilesScope()
+    : scope_([] {
+          Client client = client_of_thread;
+          client.only_below = nullptr;
+          return client;
+      }()) {}
+
 }  // namespace lamina

@@ -46,11 +46,20 @@ class ClientScope {
     Client before_;
 };
 
-// While it is there, its thread has data below `folder` only, if that is not empty. The folder's
-// name must live as long.
+// While it is there, its thread may open data below `folder` only, if that is not empty. The
+// folder's name must live as long.
 class OnlyBelowScope {
   public:
     explicit OnlyBelowScope(const std::filesystem::path& folder);
+
+  private:
+    ClientScope scope_;
+};
+
+// While it is there, its thread may open files anywhere: lamina's own, which no data name.
+class OwnFilesScope {
+  public:
+    OwnFilesScope();
 
   private:
     ClientScope scope_;

@@ -21,7 +21,8 @@ void expect_allowed(const std::filesystem::path& path) {
     if (!is_restricted()) return;
     const std::filesystem::path* const folder = ClientScope::current().only_below;
     std::error_code unreadable, no_folder;
-    const auto real = std::filesystem::weakly_canonical(path, unreadable);
+    const auto real =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path), unreadable);
     const auto root = std::filesystem::canonical(*folder, no_folder);
     if (no_folder) fail("{}: cannot read: {}", folder->string(), no_folder.message());
     const auto parts = std::ranges::mismatch(root, real);
@@ -58,6 +59,7 @@ std::string read_file_bytes(const std::filesystem::path& path) {
 
 std::string file_beginning(const std::filesystem::path& path, std::size_t most) {
     std::error_code ignored;
+    expect_allowed(path);
     if (!std::filesystem::is_regular_file(path, ignored)) return {};
     std::ifstream stream(path, std::ios::binary);
     std::string bytes(most, '\0');

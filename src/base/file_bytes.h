@@ -13,7 +13,7 @@ namespace lamina {
 // `path`, with all links followed, is neither that folder nor below it.
 void expect_allowed(const std::filesystem::path& path);
 
-// Whether that is so for some files.
+// Tells whether this thread's client allows some files only.
 bool is_restricted();
 
 // Throws Error unless `path` is a regular file, because opening a pipe may never end, and allowed.

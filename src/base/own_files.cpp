@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/error.h"
 #include "base/file_bytes.h"
 #include "base/folder.h"
@@ -27,6 +28,7 @@ OwnFiles::OwnFiles(std::filesystem::path folder, std::string verb)
 std::set<std::string> OwnFiles::listed() const {
     const std::filesystem::path list = folder_ / list_name;
     if (!is_there(list)) return {};
+    const OwnFilesScope own;
     std::istringstream lines(read_file_bytes(list));
     std::string line;
     if (!std::getline(lines, line) || line != first_line)

@@ -212,6 +212,7 @@ MeshData read_node_ele(const std::filesystem::path& path) {
         ele.replace_extension(".ele");
     }
     for (const auto& file : {node, ele}) {
+        expect_allowed(file);
         if (std::filesystem::exists(file)) continue;
         fail("{}: no such file{}", file.string(),
              file == path ? "" : fmt::format("; expected beside {}", path.string()));

@@ -11,6 +11,7 @@
 namespace lamina {
 
 VtkIndex::VtkIndex(const std::filesystem::path& path, const char* type) : name_(path.string()) {
+    expect_allowed(path);
     constexpr std::size_t most_bytes = std::size_t{64} << 20, most_marks = 1'000'000;
     const std::uintmax_t size =
         std::filesystem::is_regular_file(path) ? std::filesystem::file_size(path) : 0;

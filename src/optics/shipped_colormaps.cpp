@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/json_text.h"
 #include "base/shortened.h"
 #include "base/suggestion.h"
@@ -46,6 +47,7 @@ Colormap load_colormap(const std::string& name_or_path, ImageColorSpace space) {
         colormap.own_range = preset.contains("Units");
         return colormap;
     }
+    expect_allowed(name_or_path);
     std::error_code unknown;
     if (!std::filesystem::exists(name_or_path, unknown)) {
         const auto names = colormap_names();

@@ -2,12 +2,14 @@
 #include "parallel/followers.h"
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "base/progress.h"
@@ -36,9 +38,8 @@ Command next_command(const Ranks& ranks) {
     }
 }
 
-std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command) {
-    SceneMessage message;
-    message.broadcast(ranks);
+std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command,
+                                     const SceneMessage& message) {
     std::unique_ptr<SharedRenderer> renderer;
     agree(ranks, [&] {
         restrict_instructions_as_asked();
@@ -60,13 +61,20 @@ class Follower {
     // Does one thing. False: that was all.
     bool follow(const Command& command) {
         switch (command.kind) {
-            case Command::Kind::open:
-                renderers_[command.scene] = open(ranks_, command);
+            case Command::Kind::open: {
+                SceneMessage message;
+                message.broadcast(ranks_);
+                only_below_ = message.only_below();
+                const OnlyBelowScope below(only_below_);
+                renderers_[command.scene] = open(ranks_, command, message);
                 return true;
-            case Command::Kind::draw:
+            }
+            case Command::Kind::draw: {
+                const OnlyBelowScope below(only_below_);
                 renderers_.at(command.scene)
                     ->draw(command.turned ? std::optional(command.camera) : std::nullopt);
                 return true;
+            }
             case Command::Kind::close:
                 renderers_.erase(command.scene);
                 return true;
@@ -78,6 +86,7 @@ class Follower {
 
   private:
     const Ranks& ranks_;
+    std::filesystem::path only_below_;  // of all scenes: the program has one command line
     std::map<int, std::unique_ptr<SharedRenderer>> renderers_;
 };
 

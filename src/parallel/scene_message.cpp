@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/client.h"
 #include "base/json_text.h"
 #include "scene_files/scene_json.h"
 #include "scene_files/scene_reader.h"
@@ -18,10 +19,14 @@ SceneMessage::SceneMessage(const Scene& scene, const OmissionSwitch& omissions)
       text_(json_text(scene_json(scene))),
       volume_(scene.volume_file.empty() ? ""
                                         : std::filesystem::absolute(scene.volume_file).string()),
-      kept_(omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "))) {}
+      kept_(omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "))) {
+    if (const std::filesystem::path* const folder = ClientScope::current().only_below)
+        only_below_ = folder->string();
+}
 
 void SceneMessage::broadcast(const Ranks& ranks) {
-    for (std::string* const sent : {&name_, &text_, &volume_, &kept_}) ranks.broadcast(*sent);
+    for (std::string* const sent : {&name_, &text_, &volume_, &kept_, &only_below_})
+        ranks.broadcast(*sent);
 }
 
 Scene SceneMessage::scene() const {

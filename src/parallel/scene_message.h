@@ -19,11 +19,14 @@ class SceneMessage {
 
     Scene scene() const;  // throws Error
     OmissionSwitch omissions() const;
+    // The folder that the data must be in (base/client.h); empty: anywhere.
+    const std::string& only_below() const { return only_below_; }
 
   private:
     std::string name_, text_;
     std::string volume_;  // absolute path; names of files may have bytes that JSON cannot hold
     std::string kept_;
+    std::string only_below_;
 };
 
 }  // namespace lamina

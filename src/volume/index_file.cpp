@@ -11,6 +11,7 @@
 
 #include "base/all_zero.h"
 #include "base/atomic_file.h"
+#include "base/client.h"
 #include "base/content_hash.h"
 #include "base/error.h"
 #include "base/file_bytes.h"
@@ -73,6 +74,7 @@ bool read_ranges(std::ifstream& stream, BrickRanges& ranges, ContentHash& hash) 
 }
 
 bool begins_as_index(const std::filesystem::path& file) {
+    const OwnFilesScope own;
     const std::string first_line = std::string(magic) + "\n";
     return file_beginning(file, first_line.size()) == first_line;
 }

@@ -11,6 +11,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/folder.h"
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -214,6 +215,7 @@ void write_index(const Volume& volume, const VolumeIndex& index,
 VolumeIndex index_of(const Volume& volume) {
     const std::string identity = volume.store().source().identity();
     const std::filesystem::path cached = cached_index(volume);
+    expect_allowed(index_file_of(volume));
     for (const std::filesystem::path& file : {index_file_of(volume), cached}) {
         FoundIndex found = read_index_file(file, identity, volume.grid(), volume.type());
         if (found.index) return std::move(*found.index);

@@ -104,12 +104,12 @@ struct ScaleFound {
 
 // H5DSiterate_scales calls it for each scale of an axis.
 herr_t read_scale(hid_t /*set*/, unsigned /*axis*/, hid_t scale, void* data) {
+    if (is_restricted() && stores_elsewhere(scale)) return 0;
     auto& found = *static_cast<ScaleFound*>(data);
     const Hdf5Handle space(H5Dget_space(scale), H5Sclose);
     const Hdf5Handle type(H5Dget_type(scale), H5Tclose);
     if (!space.valid() || !type.valid() || !has_numbers(type.id())) return 0;
     if (H5Dget_storage_size(scale) == 0) return 0;  // a dimension of NetCDF without coordinates
-    if (is_restricted() && stores_elsewhere(scale)) return 0;
     auto numbers = numbers_of(space.id(), found.length, [&](double* to) {
         return H5Dread(scale, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
     });

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "volume_files/nifti_header.h"
 #include "volume_files/stored_data.h"
 
@@ -101,6 +102,7 @@ Volume open_nifti(const Path& path, const VolumeRequest& request, const VolumeUs
     check_dimensions(header);
     const NiftiType type = type_of(header);
     const Grid grid = nifti_grid(header);
+    expect_allowed(header.data_path);
     if (!std::filesystem::exists(header.data_path)) {
         fail("{}: data file of {}: no such file", header.data_path.string(), header.path.string());
     }

@@ -62,6 +62,7 @@ Volume placed(const Path& path, const Volume& volume, const VolumeRequest& reque
 }  // namespace
 
 bool is_volume_file(const Path& path) {
+    expect_allowed(path);
     return format_of(path) != nullptr;
 }
 
@@ -86,6 +87,7 @@ Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeU
 }
 
 std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request) {
+    expect_allowed(path);
     if (request.raw) return {path};
     try {
         return expected_format(path).files(path);

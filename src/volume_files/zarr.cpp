@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "base/filled_memory.h"
 #include "base/interrupt.h"
 #include "base/parallel.h"
@@ -34,6 +35,7 @@ void find_arrays(const Path& root, const Path& folder, int depth, std::vector<st
     constexpr std::size_t most_entries = 1000;
     check_interrupt();
     if (found.size() >= most_entries || depth > most_depth) return;
+    expect_allowed(folder);
     if (depth > 0 && (has_file(folder, ".zarray") || is_ome_zarr(zarr_attributes(folder)))) {
         found.push_back(folder.lexically_relative(root).string());
         return;

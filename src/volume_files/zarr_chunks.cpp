@@ -87,8 +87,10 @@ void ZarrChunks::expect(std::vector<std::uint64_t> hashes) {
 }
 
 ZarrChunks::FileNow ZarrChunks::file_now(std::int64_t chunk) const {
+    const std::filesystem::path file = file_of(chunk);
+    expect_allowed(file);
     struct stat found {};
-    if (stat(file_of(chunk).c_str(), &found) != 0) return {};
+    if (stat(file.c_str(), &found) != 0) return {};
     ContentHash hash;
     const std::int64_t words[] = {found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
     hash.add(words, sizeof words);

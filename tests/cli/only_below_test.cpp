@@ -3,6 +3,9 @@
 // HDF5 are in tests/volume_files/array_oracle_test.cpp.
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "cli/faults_test_case.h"
@@ -83,6 +86,50 @@ TEST_F(OnlyBelow, FilesThatAreNamedThemselves) {
     for (const fs::path& file : {folder / "uploads2/v.nrrd", up / "linked.nrrd",
                                  up / "inner/v.nrrd", up / "../volume.nrrd"})
         expect_refused(file);
+}
+
+TEST_F(OnlyBelow, HeadersOfPairs) {
+    std::string header(352, '\0');  // of NIfTI-1: sizeof_hdr, dim, datatype, bitpix, pixdim, magic
+    const auto put = [&](std::size_t at, const auto& value) {
+        std::memcpy(&header[at], &value, sizeof value);
+    };
+    put(0, std::int32_t{348});
+    put(40, std::array<std::int16_t, 8>{3, 4, 4, 4, 1, 1, 1, 1});
+    put(70, std::array<std::int16_t, 2>{2, 8});
+    put(76, std::array<float, 8>{1, 1, 1, 1, 1, 1, 1, 1});
+    header.replace(344, 4, std::string("ni1\0", 4));
+    write_bytes_to(folder / "p.hdr", header);
+    fs::copy_file(folder / "secret.raw", folder / "p.img");
+    fs::copy_file(folder / "p.hdr", up / "own.hdr");
+    fs::copy_file(folder / "p.img", up / "own.img");
+    expect_read(up / "own.img");
+    fs::copy_file(folder / "p.img", up / "q.img");
+    fs::create_symlink(folder / "p.hdr", up / "q.hdr");
+    expect_refused(up / "q.img");
+}
+
+// No file of a folder outside is looked at, nor is it said whether there is one.
+TEST_F(OnlyBelow, FoldersAndAbsentFiles) {
+    fs::create_directories(folder / "inner/array");
+    write_bytes_to(folder / "inner/array/.zarray", "{}");
+    fs::create_directory(up / "group.zarr");
+    write_bytes_to(up / "group.zarr/.zgroup", R"({"zarr_format": 2})");
+    fs::create_directory_symlink(folder / "inner", up / "group.zarr/inner");
+    for (const fs::path& file : {up / "group.zarr", folder / "inner", folder / "absent.nrrd"})
+        expect_refused_by({"info", file});
+    const ProgramResult absent = lamina_run(below({"info", up / "absent.nrrd"}));
+    EXPECT_NE(absent.err.find("no such file"), std::string::npos) << absent.err;
+}
+
+// Pictures are lamina's own files, and may lie elsewhere.
+TEST_F(OnlyBelow, SeriesAreWrittenAnywhere) {
+    fs::copy_file(folder / "volume.nrrd", up / "volume.nrrd");
+    fs::copy_file(folder / "scene.json", up / "scene.json");
+    const auto arguments = below({"render", up / "scene.json", "-o", out / "t_%04d.exr",
+                                  "--turntable", "3", "--context", "cpu", "--quiet"});
+    make(arguments);
+    make(arguments);  // it knows the pictures that it wrote
+    EXPECT_TRUE(fs::exists(out / "t_0002.exr"));
 }
 
 TEST_F(OnlyBelow, WhatScenesName) {

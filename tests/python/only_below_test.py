@@ -52,12 +52,12 @@ def test_scenes_cannot_lift_it(uploads):
         lamina.render(uploads / "scene.json", context="cpu", only_below=uploads)
     session = lamina.Session(scene, context="cpu", only_below=uploads)
     before = session.draw().array
-    for volume in (uploads / "bad.nhdr", uploads.parent / "own.nrrd"):
-        with pytest.raises(lamina.Error, match="not opened"):
-            session.set(volume=str(volume))
-            session.draw()
-        session.set(volume=scene["volume"])
-        assert np.array_equal(session.draw().array, before)
+    (uploads.parent / "map.json").write_text(json.dumps([{"ColorSpace": "RGB", "RGBPoints": [0, 0, 0, 0, 9, 1, 1, 1]}]))
+    mapped = {"colormap": str(uploads.parent / "map.json"), "points": [{"value": 0, "extinction": 1}]}
+    with pytest.raises(lamina.Error, match="not opened"):
+        session.set(transfer_function=mapped)
+    assert np.array_equal(session.draw().array, before)
+    lamina.Session(scene, mapped, context="cpu")
 
 
 def test_the_folder_must_be_one(uploads):

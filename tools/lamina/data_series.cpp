@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/file_bytes.h"
 #include "mesh_files/mesh_file.h"
 #include "named_output.h"
 #include "volume_files/volume_file.h"
@@ -94,6 +95,7 @@ void DataSeries::check(const Scene& scene) const {
         const Scene there = at(scene, step);
         for (const auto& [pattern, file] :
              {std::pair{&volume_, &there.volume_file}, std::pair{&mesh_, &there.mesh_file}}) {
+            if (*pattern) expect_allowed(*file);
             if (*pattern && !std::filesystem::exists(*file)) {
                 fail("{}: step {} of --time is not there, expected steps {} to {}", file->string(),
                      step, steps_.front(), steps_.back());

@@ -55,12 +55,14 @@ bool SeriesRecord::has(const std::string& name, const std::string& input) const 
     const auto found = hashes_.find(name);
     if (found == hashes_.end()) return false;
     const std::filesystem::path path = file_.parent_path() / name;
+    const OwnFilesScope own;
     return std::filesystem::is_regular_file(path) &&
            entry(hash_of_file(path), input) == found->second;
 }
 
 void SeriesRecord::add(const std::string& name, const std::string& input) {
     const ClientScope scope(finishing_client());
+    const OwnFilesScope own;
     hashes_[name] = entry(hash_of_file(file_.parent_path() / name), input);
     if (since_written_.seconds() > 1) write();
 }
