@@ -21,8 +21,8 @@ def can_be_written(array: np.ndarray) -> bool:
 
 
 class Watched:
-    """Tells whether an array was changed. Each time it looks at an eighth of the array's lines of 64 bytes, from all over
-    it: a contiguous change of 1 KiB is seen at once, a smaller one within 8 times. Of arrays above 64 MiB it looks at 8 MiB
+    """Tells whether an array was changed. Each time it looks at a 16th of the array's lines of 64 bytes, from all over it:
+    a contiguous change of 2 KiB is seen at once, a smaller one within 16 times. Of arrays above 64 MiB it looks at 4 MiB
     each time, and a small change may not be seen."""
 
     def __init__(self, array: np.ndarray) -> None:

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t line_bytes = 64;         // what memory gives at a time
 constexpr std::size_t most_bytes = 64u << 20;  // that all parts have together
+constexpr std::size_t small_bytes = 1u << 16;  // of which each part has all, in a few microseconds
 // Lines that are asked for before they are needed: as many as memory fetches side by side.
 constexpr std::size_t lines_ahead = 16;
 
@@ -33,7 +34,7 @@ std::uint64_t hash_of_part(const char* samples, std::size_t bytes, std::size_t p
     // A part has one line of each block, at another place in each: rows of samples may be as long
     // as a block, whose lines are a power of two.
     const std::size_t lines_a_part = std::bit_ceil((bytes + most_bytes - 1) / most_bytes);
-    const std::size_t block = sample_parts * lines_a_part;
+    const std::size_t block = bytes <= small_bytes ? 1 : sample_parts * lines_a_part;
     const auto place_in = [&](std::size_t number) {
         const std::uint64_t place = (number + 1) * 0x9e3779b97f4a7c15u >> 32;
         return (number * block + ((part * lines_a_part + place) & (block - 1))) * line_bytes;
