@@ -12,7 +12,6 @@
 #include "choice/volume_field.h"
 #include "reference/scene_tracer.h"
 #include "render/context_choice.h"
-#include "render/picture_warnings.h"
 #include "render/warnings.h"
 #include "scene/camera.h"
 #include "scene/lighting_check.h"
@@ -157,7 +156,7 @@ void Session::Parts::draw(Image& into) {
     for (const auto& [stage, ms] : frames.renderer().stages_ms()) statistics.stages_ms[stage] = ms;
     statistics.fragments = frames.renderer().fragments();
     statistics.bytes = frames.renderer().byte_count();
-    for (const std::string& warning : frames.warnings()) keep_warning(warning);
+    warn_of_all(frames.warnings());
     warn_of(into);
 }
 
@@ -167,9 +166,6 @@ void Session::Parts::trace(const TileCallback& tile_done) {
     const auto keep = [&](auto traced) {
         truth = std::move(traced.image);
         trace_statistics.trace_error = 255 * traced.error_estimate;
-    };
-    const auto warn_of_all = [&](const Warnings& all) {
-        for (const std::string& warning : all) keep_warning(warning);
     };
     if (scene.draws_mesh()) {
         auto traced = lamina::trace(scene, mesh_data(), tile_done);

@@ -38,8 +38,8 @@ class Drawing {
     virtual Scene resolved(Scene scene, const Plan& plan) const = 0;
     virtual std::string explanation(const Plan& plan, const Capabilities& capabilities) const = 0;
 
-    // What people should be told of the data, the plan and, once a frame is drawn, of it; the scene
-    // is a resolved one, `renderer` null before there is one.
+    // Sentences for people about the data, the plan and, once a frame is drawn, about it. The scene
+    // is a resolved one; `renderer` is null before there is one.
     virtual Warnings warnings(const Scene& scene, const Plan& plan,
                               const FrameRenderer* renderer) = 0;
 

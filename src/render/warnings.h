@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "choice/field.h"
+#include "lamina/image.h"
 #include "lamina/scene.h"
 #include "plan/plan.h"
 #include "scene/scene_mesh.h"
@@ -30,6 +32,14 @@ Warnings plan_warnings(const Scene& scene, std::int64_t overlapping_tets);
 Warnings frame_warnings(const OrderReport& order);
 // Pixels whose rays meet tets that overlap.
 Warnings trace_warnings(std::int64_t overlapping_rays);
+
+// Says each (base/warning.h).
+void warn_of_all(const Warnings& all);
+
+// Warns where a picture of the scene shows nothing, and says why; where more than half of it is
+// saturated; and where a colour map's range lies outside that of the data. The scene is one with
+// nothing automatic, the field its data.
+void warn_of_picture(const Scene& scene, const Field& field, const Image& picture);
 
 // The number of points of the transfer function with a component of the colour above 1, which the
 // target clamps.

@@ -2,7 +2,6 @@
 #include "study/study_frames.h"
 
 #include "base/stopwatch.h"
-#include "base/warning.h"
 #include "choice/choose.h"
 #include "choice/mesh_field.h"
 #include "choice/volume_field.h"
@@ -39,8 +38,7 @@ StudyFrames::StudyFrames(const Scene& scene, DataStore& data, const Capabilities
     set_up_ms_ = frames_->stages_ms().at("set_up");
     bytes_gpu_ = gl::bytes_allocated() - before;
     // Errors above max_error are what a study is about; its report has them.
-    if (scene.method == Method::project)
-        for (const std::string& warning : frames_->warnings()) warn(warning);
+    if (scene.method == Method::project) warn_of_all(frames_->warnings());
 }
 
 void StudyFrames::draw() {

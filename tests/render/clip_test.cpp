@@ -4,8 +4,8 @@
 
 #include "base/client.h"
 #include "choice/volume_field.h"
-#include "render/picture_warnings.h"
 #include "render/scene_renderer.h"
+#include "render/warnings.h"
 #include "renderer_scenes.h"
 #include "support/clips.h"
 #include "tiles/tile_capabilities.h"
@@ -74,7 +74,7 @@ TEST(ChangedClip, PicturesOfNothingSayWhy) {
         scene.clip = clip;
         std::string warnings;
         const WarningTaker taker = [&](const std::string& text) { warnings += text; };
-        const ClientScope scope({{}, &taker, nullptr});
+        const ClientScope scope({{}, &taker, nullptr, nullptr});
         warn_of_picture(scene, VolumeField(data->volume, data->bricks),
                         Image(scene.width, scene.height));
         return warnings;

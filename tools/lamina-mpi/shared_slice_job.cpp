@@ -7,9 +7,8 @@
 
 #include "base/error.h"
 #include "base/stage.h"
-#include "base/warning.h"
 #include "render/context_choice.h"
-#include "render/picture_warnings.h"
+#include "render/warnings.h"
 
 namespace lamina {
 namespace {
@@ -71,7 +70,7 @@ class SharedSliceJob : public RenderJob {
         stats.on_tiles = true;
         const Plan plan = own().plan();
         stats.counts["non_finite_samples"] = request_.data.volume->bricks.non_finite;
-        for (const std::string& warning : own().warnings()) warn(warning);
+        warn_of_all(own().warnings());
         return plan;
     }
     Scene resolved_scene() override { return own().resolved_scene(); }

@@ -2,11 +2,9 @@
 #include "frame_job.h"
 
 #include "base/stage.h"
-#include "base/warning.h"
 #include "gl/memory.h"
 #include "gl/query.h"
 #include "render/context_choice.h"
-#include "render/picture_warnings.h"
 #include "render/warnings.h"
 
 namespace lamina {
@@ -29,13 +27,8 @@ Plan FrameJob::plan(RenderStats& stats) {
     stats.stages_ms["measure"] += took.at("facts") + took.at("trials");
     stats.stages_ms["plan"] = took.at("plan");
     method_->report_plan(plan, stats);
-    say_warnings();
+    warn_of_all(frames_->warnings());
     return plan;
-}
-
-// Each is said once, although plan and frames have them again.
-void FrameJob::say_warnings() {
-    for (const std::string& warning : frames_->warnings()) warn(warning);
 }
 
 std::string FrameJob::explanation(const Plan& /*plan*/) const {
@@ -53,7 +46,7 @@ void FrameJob::draw(const Plan& plan, RenderStats& stats) {
     Stage reading("read");
     image_.emplace(frames_->picture());
     stats.stages_ms["read"] = reading.end();
-    say_warnings();
+    warn_of_all(frames_->warnings());
     warn_of_picture(request_.scene, *request_.data.field(), *image_);
     const FrameRenderer& renderer = frames_->renderer();
     stats.bytes_gpu = gl::bytes_allocated();
@@ -89,7 +82,7 @@ void FrameJob::draw_view(const Camera& camera, const Plan& plan, RenderStats& st
     frames_->draw();
     stats.frames_ms.push_back(frame.end());
     frames_->read(*image_);
-    say_warnings();
+    warn_of_all(frames_->warnings());
     RenderStats view;
     method_->report_frame(plan, frames_->renderer(), view);
     keep_largest(view.counts, stats.counts);

@@ -37,7 +37,6 @@ class FrameJob : public RenderJob {
     std::size_t write(PictureFile& picture, const PictureAttributes& attributes) override;
 
   private:
-    void say_warnings();
     void draw_first(RenderStats& stats);
 
     const RenderRequest request_;

@@ -3,10 +3,8 @@
 #include <optional>
 
 #include "base/stage.h"
-#include "base/warning.h"
 #include "loaded_mesh.h"
 #include "reference/scene_tracer.h"
-#include "render/picture_warnings.h"
 #include "render/warnings.h"
 #include "render_job.h"
 
@@ -29,7 +27,7 @@ class VolumeTraceJob : public RenderJob {
         facts_ = measure(request_.scene, data_.volume, data_.bricks);
         stats.stages_ms["measure"] += measuring.end();
         stats.counts["non_finite_samples"] = data_.bricks.non_finite;
-        for (const std::string& warning : data_warnings(data_)) warn(warning);
+        warn_of_all(data_warnings(data_));
         return make_plan(request_.scene, facts_, {}, request_.omissions);
     }
 
@@ -79,7 +77,7 @@ class MeshTraceJob : public RenderJob {
         facts_ = measure(request_.scene, data_);
         stats.stages_ms["measure"] = measuring.end();
         report_mesh(data_, stats);
-        for (const std::string& warning : data_warnings(request_.scene, data_)) warn(warning);
+        warn_of_all(data_warnings(request_.scene, data_));
         Stage building("boundary_tree");
         tree_.emplace(data_.mesh, data_.mesh.open_faces());
         stats.stages_ms["boundary_tree"] = building.end();
@@ -103,7 +101,7 @@ class MeshTraceJob : public RenderJob {
         keep_largest(
             {{"segments", result_->segments}, {"overlapping_rays", result_->overlapping_rays}},
             stats.counts);
-        for (const std::string& warning : trace_warnings(result_->overlapping_rays)) warn(warning);
+        warn_of_all(trace_warnings(result_->overlapping_rays));
     }
 
     void draw_frame(const Camera& camera) override { trace(camera); }
