@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/client.h"
 
+#include <system_error>
 #include <utility>
+
+#include "base/error.h"
+#include "base/shortened.h"
 
 namespace lamina {
 namespace {
@@ -21,10 +25,20 @@ const Client& ClientScope::current() {
     return client_of_thread;
 }
 
+std::shared_ptr<const std::filesystem::path> allowed_folder(const std::filesystem::path& folder,
+                                                            const std::string& key) {
+    if (folder.empty()) return nullptr;
+    std::error_code unreadable;
+    auto name = std::filesystem::canonical(folder, unreadable);
+    if (unreadable || !std::filesystem::is_directory(name, unreadable))
+        fail("{}: found {}, expected a folder", key, shortened(folder.string()));
+    return std::make_shared<const std::filesystem::path>(std::move(name));
+}
+
 OnlyBelowScope::OnlyBelowScope(const std::filesystem::path& folder)
     : scope_([&] {
           Client client = client_of_thread;
-          if (!folder.empty()) client.only_below = &folder;
+          if (!folder.empty()) client.only_below = allowed_folder(folder);
           return client;
       }()) {}
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <stop_token>
 #include <string>
 
@@ -26,8 +27,8 @@ struct Client {
     std::stop_token stop;
     const WarningTaker* warnings = nullptr;
     ProgressListener* progress = nullptr;
-    // The folder that data must be in (base/file_bytes.h): anywhere if null or empty.
-    const std::filesystem::path* only_below = nullptr;
+    // The folder that data must be in, by its canonical name (base/file_bytes.h): anywhere if null.
+    std::shared_ptr<const std::filesystem::path> only_below;
 };
 
 // While it is there, its thread, and the tasks of base/parallel.h that it starts, work for
@@ -46,8 +47,12 @@ class ClientScope {
     Client before_;
 };
 
-// While it is there, its thread may open data below `folder` only, if that is not empty. The
-// folder's name must live as long.
+// Gives `folder` as Client::only_below has it: by its canonical name, so that it stays the same one
+// wherever the program works; null if the name is empty. Fails with `key` if it is no folder.
+std::shared_ptr<const std::filesystem::path> allowed_folder(const std::filesystem::path& folder,
+                                                            const std::string& key = "only_below");
+
+// While it is there, its thread may open data below `folder` only, if that is not empty.
 class OnlyBelowScope {
   public:
     explicit OnlyBelowScope(const std::filesystem::path& folder);

@@ -25,15 +25,6 @@ int arena_threads(int threads) {
     return threads == 0 ? tbb::task_arena::automatic : threads;
 }
 
-// Of a folder that data must be in: it stays that one if the program changes its working folder.
-std::filesystem::path full_name(const std::filesystem::path& folder) {
-    if (folder.empty()) return folder;
-    std::error_code unreadable;
-    if (!std::filesystem::is_directory(folder, unreadable))
-        fail("only_below: found {}, expected a folder", folder.string());
-    return std::filesystem::canonical(folder);
-}
-
 }  // namespace
 
 void check_view(const Camera& camera, int width, int height) {
@@ -46,7 +37,7 @@ Session::Parts::Parts(Scene first, const SessionOptions& options)
     : asked(std::move(first)),
       scene(asked),
       choice(options.context),
-      only_below(full_name(options.only_below)),
+      only_below(allowed_folder(options.only_below)),
       threads(arena_threads(options.threads)),
       many_frames(options.many_frames),
       warnings(scene.warnings) {

@@ -35,7 +35,7 @@ struct Session::Parts {
         const WarningTaker taker = [this](const std::string& text) { keep_warning(text); };
         ProgressListener listener{progress};
         threads.execute([&] {
-            const ClientScope scope({std::move(stop), &taker, &listener, &only_below});
+            const ClientScope scope({std::move(stop), &taker, &listener, only_below});
             const auto current = context ? context->make_current() : nullptr;
             work();
         });
@@ -74,7 +74,7 @@ struct Session::Parts {
     Scene asked;  // as the user has it
     Scene scene;  // with nothing automatic in transfer function and camera
     ContextChoice choice;
-    std::filesystem::path only_below;
+    std::shared_ptr<const std::filesystem::path> only_below;
     tbb::task_arena threads;
     bool many_frames;
     std::unique_ptr<DrawContext> context;

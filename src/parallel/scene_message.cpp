@@ -20,8 +20,7 @@ SceneMessage::SceneMessage(const Scene& scene, const OmissionSwitch& omissions)
       volume_(scene.volume_file.empty() ? ""
                                         : std::filesystem::absolute(scene.volume_file).string()),
       kept_(omissions.none ? "all" : fmt::format("{}", fmt::join(omissions.kept, " "))) {
-    if (const std::filesystem::path* const folder = ClientScope::current().only_below)
-        only_below_ = folder->string();
+    if (const auto folder = ClientScope::current().only_below) only_below_ = folder->string();
 }
 
 void SceneMessage::broadcast(const Ranks& ranks) {

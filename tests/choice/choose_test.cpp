@@ -158,7 +158,7 @@ TEST(Choose, ASingleVertexFarFromAllOthersIsPadding) {
     const SceneMesh marked = scene_mesh(Scene(), std::move(data));
     std::string said;
     const WarningTaker hear = [&](const std::string& warning) { said += warning; };
-    const ClientScope scope({{}, &hear, nullptr});
+    const ClientScope scope({{}, &hear, nullptr, nullptr});
     const Scene chosen = choose(open_scene(), MeshField(marked));
     EXPECT_NE(said.find("-9999, "), std::string::npos) << said;
     EXPECT_TRUE(chosen.transfer_function.transparent(-9999, -1));

@@ -21,7 +21,6 @@
 #include "base/standard_streams.h"
 #include "base/warning.h"
 #include "command_line.h"
-#include "only_below_option.h"
 #include "version_text.h"
 
 namespace lamina {
@@ -89,7 +88,7 @@ int run(const Program& program, int argc, char** argv) {
 
 // Does not throw.
 int run_and_report(const Program& program, int argc, char** argv, const SignalStop& signals) {
-    const ClientScope scope({.stop = signals.token(), .only_below = &only_below_folder()});
+    const ClientScope scope({.stop = signals.token()});
     try {
         return run(program, argc, argv);
     } catch (const UsageError& error) {
