@@ -63,7 +63,7 @@ function(lamina_test name)
     target_link_libraries(test_${name} PRIVATE ${TEST_LINK} GTest::gtest_main)
     target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_compile_definitions(test_${name} PRIVATE LAMINA_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    # Tests spend their time in the library; with -O1 they are compiled in two thirds of the time. GCC 12 then warns of
+    # Tests run in the library; with -O1 they are compiled in three quarters of the time. GCC 12 then warns of
     # bounds of strings that it has itself inlined.
     target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>
         $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)

@@ -17,8 +17,8 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
     ``data``: a ``Volume``, a ``Mesh``, an array, a scene (``Scene``, dictionary or file) or a data file. What is not said
     is chosen from the data. ``transfer_function``: a ``TransferFunction``, or what scene files have. Other keywords have
     the names of scene files (``Scene``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
-    ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the same data.
-    ``progress(activity, share)``: hears how far it is.
+    ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the
+    same data. ``progress(activity, share)``: hears how far it is.
 
     Raises ``lamina.Error`` for bad data and scenes, ``TypeError`` and ``ValueError`` for arguments of the wrong form,
     ``KeyboardInterrupt`` after Ctrl-C.

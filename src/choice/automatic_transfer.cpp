@@ -233,19 +233,20 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
                                            const TransferWishes& wishes,
                                            double least_padding_share) {
     const Padding padding = find_padding(values, whole_numbers, least_padding_share);
+    AutomaticTransfer chosen =
+        wishes.range ? within(values, *wishes.range) : in_own_colors(padding, whole_numbers);
+    TransferFunction& function = chosen.transfer_function;
+    function = in_colors_of(function, wishes.colormap);
     if (wishes.range) {
-        auto [function, reason, unused] = within(values, *wishes.range);
-        function = in_colors_of(function, wishes.colormap);
         // Below the range nothing shows. Padding inside it was asked for.
-        if (!padding.above || *padding.above <= wishes.range->hi) return {function, reason, {}};
-        const double edge = std::max(padding.edge_above(), wishes.range->hi);
-        return {shown_below(function, edge), reason, padding_text(padding)};
+        if (!padding.above || *padding.above <= wishes.range->hi) return chosen;
+        function = shown_below(function, std::max(padding.edge_above(), wishes.range->hi));
+    } else {
+        if (padding.below) function = shown_above(function, padding.edge_below());
+        if (padding.above) function = shown_below(function, padding.edge_above());
     }
-    const auto [function, reason, unused] = in_own_colors(padding, whole_numbers);
-    TransferFunction colored = in_colors_of(function, wishes.colormap);
-    if (padding.below) colored = shown_above(colored, padding.edge_below());
-    if (padding.above) colored = shown_below(colored, padding.edge_above());
-    return {colored, reason, padding_text(padding)};
+    chosen.padding = padding_text(padding);
+    return chosen;
 }
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamina/scene.h"
 
+#include "base/client.h"
 #include "scene/scene_volume.h"
 #include "volume/generate.h"
 #include "volume_files/volume_file.h"

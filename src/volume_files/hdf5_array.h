@@ -12,8 +12,8 @@
 
 namespace lamina {
 
-// Whether a data set has its samples in other files: by HDF5's external storage or as a virtual
-// one.
+// Tells whether a data set has its samples in other files, by HDF5's external storage or as a
+// virtual data set.
 bool stores_elsewhere(hid_t set);
 
 // A data set of numbers in an open HDF5 file, with what is known of its axes.

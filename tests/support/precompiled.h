@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Headers that most tests include, compiled once for each program of tests: they are half of what
-// the compiler reads of a test.
+// Headers that most tests include, compiled once for each program of tests. They cost each of them
+// a fifth to a third of its time.
 #pragma once
 
 #include <fmt/format.h>
